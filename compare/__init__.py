@@ -1,0 +1,1 @@
+"""Where expansions and numbers meet: studies, comparisons along a decay, error budgets."""

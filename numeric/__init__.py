@@ -1,0 +1,1 @@
+"""Trajectories, the pendulum model of Galleani and Cohen, distributions and frequency tracks."""

@@ -1,0 +1,1 @@
+"""Figures, formulas and the one HTML page."""

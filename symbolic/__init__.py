@@ -1,0 +1,1 @@
+"""Exact expansions of oscillators: equations in, frequencies as rational series out."""

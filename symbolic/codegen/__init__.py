@@ -1,0 +1,1 @@
+"""Generated numeric code: one coefficient form, one file per target language."""
