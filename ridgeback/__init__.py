@@ -1,1 +1,83 @@
-"""Ridgeback: the ridge of a time-frequency distribution against the backbone of perturbation theory."""
+"""Ridgeback: the ridge of a time-frequency distribution against the backbone of perturbation theory.
+
+The public names, each imported from its room when it is first used, so that ``import ridgeback`` costs nothing:
+
+>>> import ridgeback
+>>> ridgeback.lindstedt(ridgeback.find("pendulum"), 4).frequency
+(1, 0, -1/16, 0, 1/3072)
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from compare.bind import bind as bind
+    from compare.study import study as study
+    from numeric.backbone import backbone as backbone
+    from numeric.dynamics import Dynamics as Dynamics
+    from numeric.estimate import estimate as estimate
+    from numeric.recording import read_recording as read_recording
+    from numeric.track import Track as Track
+    from numeric.trajectory import Trajectory as Trajectory
+    from numeric.trajectory import integrate as integrate
+    from reports.page import render as render
+    from symbolic.codegen import generate as generate
+    from symbolic.energy_integral import energy_integral as energy_integral
+    from symbolic.expansion import Expansion as Expansion
+    from symbolic.expansion import SlowFlow as SlowFlow
+    from symbolic.lindstedt import lindstedt as lindstedt
+    from symbolic.multiple_scales import multiple_scales as multiple_scales
+    from symbolic.oscillator import Oscillator as Oscillator
+    from symbolic.systems import catalogue as catalogue
+    from symbolic.systems import find as find
+
+    __version__: str
+
+HOMES = {
+    "Dynamics": "numeric.dynamics",
+    "Expansion": "symbolic.expansion",
+    "Oscillator": "symbolic.oscillator",
+    "SlowFlow": "symbolic.expansion",
+    "Track": "numeric.track",
+    "Trajectory": "numeric.trajectory",
+    "backbone": "numeric.backbone",
+    "bind": "compare.bind",
+    "catalogue": "symbolic.systems",
+    "energy_integral": "symbolic.energy_integral",
+    "estimate": "numeric.estimate",
+    "find": "symbolic.systems",
+    "generate": "symbolic.codegen",
+    "integrate": "numeric.trajectory",
+    "lindstedt": "symbolic.lindstedt",
+    "multiple_scales": "symbolic.multiple_scales",
+    "read_recording": "numeric.recording",
+    "render": "reports.page",
+    "study": "compare.study",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name from its room on first use.
+
+    >>> import ridgeback
+    >>> ridgeback.no_such_name
+    Traceback (most recent call last):
+        ...
+    AttributeError: module 'ridgeback' has no attribute 'no_such_name'
+    """
+    if name == "__version__":
+        from importlib.metadata import version
+
+        value: Any = version("ridgeback")
+    elif name in HOMES:
+        value = getattr(import_module(HOMES[name]), name)
+    else:
+        raise AttributeError(f"module 'ridgeback' has no attribute {name!r}")
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *HOMES, "__version__"})

@@ -1,0 +1,115 @@
+"""The command line: parse, call, exit code.  No mathematics, and nothing heavy imported before a verb runs."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from importlib import import_module
+from typing import Any
+
+import click
+
+from ridgeback.failure import Exit, say, verdict
+
+VERBS = ("systems", "derive", "generate", "simulate", "estimate", "study", "report")
+
+EPILOG = """\b
+Exit codes: 0 done; 2 bad input; 3 finished, but partial or not certified;
+4 the environment (files, disk, memory); 70 a fault of ridgeback; 130 interrupted.
+RIDGEBACK_DEBUG=1 shows the traceback of any failure."""
+
+
+class LazyGroup(click.Group):
+    """A group that imports a verb's file only when the verb, or the list of verbs, is asked for."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """The verbs, in the order in which a study uses them."""
+        return list(VERBS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The verb of this name, or None."""
+        if cmd_name not in VERBS:
+            return None
+        command: click.Command = import_module(f"ridgeback.verbs.{cmd_name}").command
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Refuse an unknown verb by naming those there are."""
+        if args and args[0] not in VERBS and not args[0].startswith("-"):
+            raise click.UsageError(f"no verb '{args[0]}'; there are {', '.join(VERBS)}", ctx)
+        return super().resolve_command(ctx, args)
+
+
+def print_version(ctx: click.Context, _parameter: click.Parameter, value: bool) -> None:
+    """Print the version and stop."""
+    if value and not ctx.resilient_parsing:
+        import ridgeback
+
+        click.echo(f"ridgeback {ridgeback.__version__}")
+        ctx.exit()
+
+
+@click.group(
+    cls=LazyGroup,
+    epilog=EPILOG,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
+@click.option(
+    "--version", is_flag=True, is_eager=True, expose_value=False, callback=print_version, help="Print the version."
+)
+def cli() -> None:
+    """Amplitude-dependent frequency of nonlinear oscillators.
+
+    Exact perturbation expansions (the backbone) held against frequencies estimated from signals (the ridge).
+
+    \b
+    ridgeback report                                the paper's damped pendulum, as one HTML page
+    ridgeback derive pendulum --order 8             an exact expansion
+    ridgeback estimate run.csv --column u           the frequency of a recording over time
+    """
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line and return its exit code; every failure is one line on standard error.
+
+    >>> main(["derive", "no-such-system"])
+    2
+    """
+    try:
+        result: Any = cli.main(
+            args=None if arguments is None else list(arguments), prog_name="ridgeback", standalone_mode=False
+        )
+        sys.stdout.flush()
+    except BrokenPipeError:
+        abandon_stdout()
+        return int(Exit.BROKEN_PIPE)
+    except BaseException as error:
+        return int(fail(error))
+    return result if isinstance(result, int) else int(Exit.OK)
+
+
+def fail(error: BaseException) -> Exit:
+    """Say what went wrong; the traceback only when ``RIDGEBACK_DEBUG`` asks for it."""
+    code, message = verdict(error)
+    if isinstance(error, OSError):
+        abandon_stdout()
+    if os.environ.get("RIDGEBACK_DEBUG"):
+        import traceback
+
+        traceback.print_exception(error)
+    say(message)
+    return code
+
+
+def abandon_stdout() -> None:
+    """Send what is still buffered nowhere, so that the interpreter's exit does not complain a second time."""
+    with suppress(OSError, ValueError, AttributeError):
+        sys.stdout.flush()
+        return
+    with suppress(OSError, ValueError, AttributeError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
