@@ -1,8 +1,8 @@
 """Taylor coefficients of the solution of ``u'' + f(u, u') = 0``, by recurrences on truncated power series.
 
 Automatic differentiation in Taylor arithmetic: every operation has a recurrence that gives its coefficient
-``n`` from the coefficients ``0..n`` of its arguments (Moore 1966; Griewank and Walther 2008, chapter 13), so that
-the differential equation is solved coefficient by coefficient, exactly up to rounding at mpmath's precision.
+``n`` from the coefficients ``0..n`` of its arguments (Moore 1966; Griewank and Walther 2008, chapter 13), so
+that the equation is solved coefficient by coefficient, exactly up to rounding at mpmath's precision.
 """
 
 from __future__ import annotations

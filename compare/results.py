@@ -21,7 +21,7 @@ Kind = Literal["reference", "model", "expansion", "estimate"]
 
 @dataclass(frozen=True)
 class Formula:
-    """One printed relation: ``left = sum of terms``, each term its own LaTeX so that a long series can wrap."""
+    """One printed relation: ``left = sum of terms``, each term its own LaTeX so that it can wrap."""
 
     title: str
     left: str
@@ -85,7 +85,7 @@ class Range:
 
 @dataclass(frozen=True)
 class Curve:
-    """One omega0(t): a reference, a model, an expansion bound to an amplitude, or an estimate from the signal."""
+    """One omega0(t): a reference, a model, an expansion bound to an amplitude, or an estimate."""
 
     name: str
     label: str
@@ -101,7 +101,7 @@ class Curve:
 
 @dataclass(frozen=True)
 class Score:
-    """Relative error of one curve against the cycle frequency, by zone.  None where the curve has no valid sample."""
+    """Relative error of one curve against the cycle frequency, by zone.  None where nothing is valid."""
 
     method: str
     label: str
@@ -135,7 +135,7 @@ class BudgetRow:
 
 @dataclass(frozen=True)
 class Timing:
-    """Median time of one evaluation over an array, in nanoseconds per value, with the spread of the repeats."""
+    """Median time of one evaluation over an array, in nanoseconds per value, with its spread."""
 
     name: str
     nanoseconds: float
@@ -193,7 +193,7 @@ class Image:
 
 @dataclass(frozen=True)
 class Amplitudes:
-    """Amplitude along the decay, definition ``peak``: by energy (21), by averaged action, at the turning points."""
+    """Amplitude along the decay, definition ``peak``: by energy (21), averaged action, turning points."""
 
     time: Array
     energy: Array
