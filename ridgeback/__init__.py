@@ -1,6 +1,6 @@
 """Ridgeback: the ridge of a time-frequency distribution against the backbone of perturbation theory.
 
-The public names, each imported from its room when it is first used, so that ``import ridgeback`` costs nothing:
+The public names, each imported from its room on first use, so that ``import ridgeback`` costs nothing:
 
 >>> import ridgeback
 >>> ridgeback.lindstedt(ridgeback.find("pendulum"), 4).frequency
@@ -13,17 +13,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from compare.bind import bind as bind
     from compare.study import study as study
     from numeric.backbone import backbone as backbone
-    from numeric.dynamics import Dynamics as Dynamics
     from numeric.estimate import estimate as estimate
     from numeric.recording import read_recording as read_recording
-    from numeric.track import Track as Track
-    from numeric.trajectory import Trajectory as Trajectory
-    from numeric.trajectory import integrate as integrate
     from reports.page import render as render
-    from symbolic.codegen import generate as generate
     from symbolic.energy_integral import energy_integral as energy_integral
     from symbolic.expansion import Expansion as Expansion
     from symbolic.expansion import SlowFlow as SlowFlow
@@ -32,6 +26,13 @@ if TYPE_CHECKING:
     from symbolic.oscillator import Oscillator as Oscillator
     from symbolic.systems import catalogue as catalogue
     from symbolic.systems import find as find
+
+    from compare.bind import bind as bind
+    from numeric.dynamics import Dynamics as Dynamics
+    from numeric.track import Track as Track
+    from numeric.trajectory import Trajectory as Trajectory
+    from numeric.trajectory import integrate as integrate
+    from symbolic.codegen import generate as generate
 
     __version__: str
 

@@ -1,4 +1,4 @@
-"""The command line: parse, call, exit code.  No mathematics, and nothing heavy imported before a verb runs."""
+"""The command line: parse, call, exit code.  No mathematics; nothing heavy is imported before a verb runs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from importlib import import_module
-from typing import Any
 
 import click
 
@@ -24,11 +23,11 @@ RIDGEBACK_DEBUG=1 shows the traceback of any failure."""
 class LazyGroup(click.Group):
     """A group that imports a verb's file only when the verb, or the list of verbs, is asked for."""
 
-    def list_commands(self, ctx: click.Context) -> list[str]:
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
         """The verbs, in the order in which a study uses them."""
         return list(VERBS)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
         """The verb of this name, or None."""
         if cmd_name not in VERBS:
             return None
@@ -56,13 +55,20 @@ def print_version(ctx: click.Context, _parameter: click.Parameter, value: bool) 
 @click.group(
     cls=LazyGroup,
     epilog=EPILOG,
+    invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
 @click.option(
-    "--version", is_flag=True, is_eager=True, expose_value=False, callback=print_version, help="Print the version."
+    "--version",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=print_version,
+    help="Print the version.",
 )
-def cli() -> None:
-    """Amplitude-dependent frequency of nonlinear oscillators.
+@click.pass_context
+def cli(context: click.Context) -> None:
+    r"""Amplitude-dependent frequency of nonlinear oscillators.
 
     Exact perturbation expansions (the backbone) held against frequencies estimated from signals (the ridge).
 
@@ -71,6 +77,8 @@ def cli() -> None:
     ridgeback derive pendulum --order 8             an exact expansion
     ridgeback estimate run.csv --column u           the frequency of a recording over time
     """
+    if context.invoked_subcommand is None:
+        click.echo(context.get_help())
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -79,17 +87,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     >>> main(["derive", "no-such-system"])
     2
     """
+    given = sys.argv[1:] if arguments is None else list(arguments)
     try:
-        result: Any = cli.main(
-            args=None if arguments is None else list(arguments), prog_name="ridgeback", standalone_mode=False
-        )
+        # Not `cli.main`, which turns a broken pipe into exit code 1 before anybody can see it.
+        with cli.make_context("ridgeback", given) as context:
+            cli.invoke(context)
         sys.stdout.flush()
+    except click.exceptions.Exit as stop:
+        return stop.exit_code
     except BrokenPipeError:
         abandon_stdout()
         return int(Exit.BROKEN_PIPE)
     except BaseException as error:
         return int(fail(error))
-    return result if isinstance(result, int) else int(Exit.OK)
+    return int(Exit.OK)
 
 
 def fail(error: BaseException) -> Exit:
@@ -107,9 +118,8 @@ def fail(error: BaseException) -> Exit:
 
 def abandon_stdout() -> None:
     """Send what is still buffered nowhere, so that the interpreter's exit does not complain a second time."""
-    with suppress(OSError, ValueError, AttributeError):
+    try:
         sys.stdout.flush()
-        return
-    with suppress(OSError, ValueError, AttributeError):
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, sys.stdout.fileno())
+    except (OSError, ValueError, AttributeError):
+        with suppress(OSError, ValueError, AttributeError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -9,7 +9,7 @@ import click
 
 
 class Exit(IntEnum):
-    """What the command's exit code means; 70 is the ``EX_SOFTWARE`` of sysexits.h, 130 and 141 are 128 + signal."""
+    """What the exit code means; 70 is ``EX_SOFTWARE`` of sysexits.h, 130 and 141 are 128 + the signal."""
 
     OK = 0
     BAD_INPUT = 2
@@ -21,7 +21,7 @@ class Exit(IntEnum):
 
 
 class PartialError(Exception):
-    """The command finished and its output is written, but part of what was asked for is missing or not certified."""
+    """The output is written, but part of what was asked for is missing or not certified."""
 
 
 def one_line(text: str) -> str:
@@ -73,7 +73,10 @@ def verdict(error: BaseException) -> tuple[Exit, str]:
         case OSError():
             return Exit.ENVIRONMENT, describe_system_error(error)
         case MemoryError():
-            return Exit.ENVIRONMENT, "out of memory; ask for a lower order, a shorter duration or a lower rate"
+            return (
+                Exit.ENVIRONMENT,
+                "out of memory; ask for a lower order, a shorter duration or a lower rate",
+            )
     if is_input_error(error):
         return Exit.BAD_INPUT, str(error)
     return Exit.BUG, (

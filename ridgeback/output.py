@@ -1,0 +1,128 @@
+"""Output whole or not at all: a file appears when its text is complete, or stays as it was."""
+
+from __future__ import annotations
+
+import errno
+import json
+import math
+import os
+import sys
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+STDOUT = "-"
+
+
+def output_path(text: str) -> str:
+    """A place to write to, refused before the work starts as the operating system would at its end.
+
+    >>> output_path("-")
+    '-'
+    """
+    if "\0" in text or not text:
+        raise click.BadParameter(
+            "a file name cannot be empty or contain a null character; use - for the screen"
+        )
+    check_writable(text)
+    return text
+
+
+def check_writable(path: str) -> None:
+    """Raise the OSError that writing ``path`` would end in: a missing folder, a directory, no permission.
+
+    >>> check_writable("no/such/folder/out.csv")
+    Traceback (most recent call last):
+        ...
+    FileNotFoundError: [Errno 2] No such folder: 'no/such/folder'
+    """
+    if path == STDOUT:
+        return
+    target = Path(path).resolve()
+    if target.is_dir():
+        raise IsADirectoryError(errno.EISDIR, "It is a folder, not a file", path)
+    folder = target.parent
+    if not folder.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "No such folder", str(Path(path).parent))
+    refused = target if target.exists() and not target.is_file() else folder
+    if not os.access(refused, os.W_OK):
+        raise PermissionError(errno.EACCES, "No permission to write", path)
+
+
+def write_text(path: str, text: str) -> None:
+    """Write the whole text, or leave what was there; ``-`` prints it, devices and pipes are written directly."""
+    if path == STDOUT:
+        sys.stdout.write(text)
+        return
+    check_writable(path)
+    target = Path(path).resolve()
+    if target.exists() and not target.is_file():
+        target.write_text(text, encoding="utf-8")
+        return
+    replace_file(target, text)
+
+
+def replace_file(target: Path, text: str) -> None:
+    """Write beside the target, then put the finished file in its place in one step."""
+    mode = target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~current_umask()
+    descriptor, temporary = tempfile.mkstemp(
+        dir=target.parent, prefix=f".{target.name[:40]}.", suffix=".part"
+    )
+    try:
+        with os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        Path(temporary).chmod(mode)
+        Path(temporary).replace(target)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def current_umask() -> int:
+    """The process's umask, which can only be read by setting it."""
+    mask = os.umask(0o077)
+    os.umask(mask)
+    return mask
+
+
+def plain(value: Any) -> Any:
+    """The value as JSON knows it: arrays and tuples to lists, non-finite numbers to null, exact ones to text.
+
+    >>> plain({"omega": (1.5, float("nan")), "order": 3})
+    {'omega': [1.5, None], 'order': 3}
+    """
+    match value:
+        case None | bool() | str():
+            return value
+        case Mapping():
+            return {str(key): plain(item) for key, item in value.items()}
+    if hasattr(value, "tolist"):
+        return plain(value.tolist())
+    match value:
+        case int():
+            return int(value)
+        case float():
+            return float(value) if math.isfinite(value) else None
+        case Sequence() | set() | frozenset():
+            return [plain(item) for item in value]
+    return str(value)
+
+
+def json_text(value: Any) -> str:
+    """JSON with a line end; what is not a finite number is null, never NaN.
+
+    >>> print(json_text({"rows": [{"omega": float("inf")}]}), end="")
+    {
+      "rows": [
+        {
+          "omega": null
+        }
+      ]
+    }
+    """
+    return json.dumps(plain(value), indent=2, ensure_ascii=False, allow_nan=False) + "\n"

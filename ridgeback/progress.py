@@ -1,0 +1,51 @@
+"""What is being done, on standard error, and only when somebody is looking at it."""
+
+from __future__ import annotations
+
+import sys
+import time
+from contextlib import suppress
+from types import TracebackType
+from typing import TextIO
+
+
+class Progress:
+    """One line on a terminal that says which step runs; silent when standard error is a file or a pipe.
+
+    Calling it with the name of a step is all that a caller does; a fraction between 0 and 1 may follow.
+
+    >>> with Progress(stream=None) as progress:
+    ...     progress("Wigner distribution", 0.5)
+    """
+
+    def __init__(self, stream: TextIO | None = sys.stderr) -> None:
+        self.stream = stream if stream is not None and is_terminal(stream) else None
+        self.started = time.monotonic()
+
+    def __call__(self, step: str, fraction: float | None = None) -> None:
+        """Show the step, and how far it is."""
+        share = "" if fraction is None else f"{min(max(fraction, 0.0), 1.0):4.0%} "
+        self.show(f"{time.monotonic() - self.started:5.1f} s  {share}{step}")
+
+    def show(self, text: str) -> None:
+        """Put the text in the place of the line before."""
+        if self.stream is not None:
+            with suppress(OSError, ValueError):
+                self.stream.write(f"\r\x1b[2K{text}")
+                self.stream.flush()
+
+    def __enter__(self) -> Progress:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, where: TracebackType | None
+    ) -> None:
+        self.show("")
+
+
+def is_terminal(stream: TextIO) -> bool:
+    """Whether somebody is looking; a closed stream has no viewer."""
+    try:
+        return stream.isatty()
+    except (OSError, ValueError, AttributeError):
+        return False
