@@ -154,13 +154,10 @@ def check_request(
         if not (math.isfinite(value) and value > 0):
             raise InputError(f"{label} = {value} must be finite and positive")
     _check_budget(dynamics, duration, rate)
-    left, right = well(dynamics)
-    if v == 0 and (u in (0.0, left, right) or dynamics.force(u, 0.0) == 0):
-        raise InputError(
-            f"{dynamics.name}: (u, u') = ({u:g}, 0) is an equilibrium and stays there; start elsewhere"
-        )
-    if not left < u < right:
-        raise InputError(_outside(dynamics, f"initial u = {u:.6g}", left, right))
+    limits = well(dynamics)
+    if v == 0 and (u in (0.0, *limits) or dynamics.force(u, 0.0) == 0):
+        raise InputError(f"{dynamics.name}: (u, u') = ({u:g}, 0) is an equilibrium and stays there; start elsewhere")
+    check_inside(dynamics, u, 0.0, limits)
     return u, v
 
 
@@ -179,12 +176,21 @@ def _check_budget(dynamics: Dynamics, duration: float, rate: float) -> None:
         )
 
 
-def _outside(dynamics: Dynamics, what: str, left: float, right: float) -> str:
-    rotation = " (rotation)" if dynamics.name == "pendulum" else " (escape)"
-    return (
-        f"{dynamics.name}: {what} is outside the potential well {left:.6g} < u < {right:.6g}{rotation}; "
-        "start with less energy"
-    )
+def check_inside(dynamics: Dynamics, u: float, time: float, limits: tuple[float, float]) -> None:
+    """Raise InputError once u has left the potential well ``limits = well(dynamics)``.
+
+    >>> from numeric.dynamics import pendulum
+    >>> check_inside(pendulum(), 3.2, 0.5, well(pendulum()))
+    Traceback (most recent call last):
+        ...
+    numeric.errors.InputError: pendulum: u = 3.2 at t = 0.5 is outside the potential well ...
+    """
+    left, right = limits
+    if not left < u < right:
+        raise InputError(
+            f"{dynamics.name}: u = {u:.6g} at t = {time:.6g} is outside the potential well "
+            f"{left:.6g} < u < {right:.6g} (rotation or escape); start with less energy"
+        )
 
 
 class _Integration:
@@ -192,7 +198,7 @@ class _Integration:
 
     def __init__(self, dynamics: Dynamics, method: str, rtol: float, atol: Array) -> None:
         self.dynamics, self.method, self.rtol, self.atol = dynamics, method, rtol, atol
-        self.left, self.right = well(dynamics)
+        self.limits = well(dynamics)
         self.evaluations = 0
 
     def slope(self, _: float, y: Array) -> Any:
@@ -257,12 +263,9 @@ class _Integration:
                 f"{name}: {self.method} stops at t = {t:.6g}, u = {u:.6g} ({message}): the solution probably "
                 "grows without bound; start with less energy, or use method Radau if the equation is stiff"
             )
-        if not self.left < u < self.right:
-            raise InputError(_outside(self.dynamics, f"u = {u:.6g} at t = {t:.6g}", self.left, self.right))
+        check_inside(self.dynamics, u, t, self.limits)
         if not abs(u) < bound:
-            raise InputError(
-                f"{name}: u = {u:.3g} at t = {t:.6g} grows beyond {bound:.3g}; start with less energy"
-            )
+            raise InputError(f"{name}: u = {u:.3g} at t = {t:.6g} grows beyond {bound:.3g}; start with less energy")
 
     def events(self, steps: Array, states: Array, dense: Interpolant) -> tuple[CrossingEvents, TurningEvents]:
         times, points = self.locate(0, steps, states, dense)
