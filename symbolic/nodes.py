@@ -1,0 +1,292 @@
+"""The expression tree: frozen nodes, their text, and a prediction of how large they become in a computer algebra."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import comb
+from typing import Final, Literal, TypeAlias
+
+from symbolic.errors import InputError
+
+MAX_EXPONENT: Final = 1000
+MAX_TERMS: Final = 10_000
+MAX_DEGREE: Final = 2000
+MAX_BITS: Final = 20_000
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A non-negative decimal literal, exact."""
+
+    value: Fraction
+    column: int = field(default=0, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """A parameter, or the constant ``pi``."""
+
+    name: str
+    column: int = field(default=0, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    """The unknown function of time (0), its first (1) or its second derivative (2)."""
+
+    derivative: Literal[0, 1, 2]
+    column: int = field(default=0, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Negate:
+    """Minus the operand."""
+
+    operand: Node
+    column: int = field(default=0, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Sum:
+    """Two or more terms; a subtraction is a negated term."""
+
+    terms: tuple[Node, ...]
+    column: int = field(default=0, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Product:
+    """Two or more factors."""
+
+    factors: tuple[Node, ...]
+    column: int = field(default=0, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Quotient:
+    """One division; ``a/b/c`` is ``a`` over the product of ``b`` and ``c``."""
+
+    numerator: Node
+    denominator: Node
+    column: int = field(default=0, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Power:
+    """A base to a constant rational exponent."""
+
+    base: Node
+    exponent: Node
+    column: int = field(default=0, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """One of the known functions of one argument."""
+
+    function: str
+    argument: Node
+    column: int = field(default=0, compare=False, repr=False)
+
+
+Node: TypeAlias = Number | Name | Unknown | Negate | Sum | Product | Quotient | Power | Call
+
+
+def children(node: Node) -> tuple[Node, ...]:
+    """The nodes directly below, in the order in which they are written.
+
+    >>> children(Negate(Name("k")))
+    (Name(name='k'),)
+    """
+    match node:
+        case Negate(operand=below) | Call(argument=below):
+            return (below,)
+        case Sum(terms=below) | Product(factors=below):
+            return below
+        case Quotient(numerator=first, denominator=second) | Power(base=first, exponent=second):
+            return (first, second)
+        case _:
+            return ()
+
+
+def names(node: Node) -> tuple[str, ...]:
+    """The parameter names in a tree, in order of first appearance; ``pi`` is not one.
+
+    >>> names(Product((Name("k"), Name("pi"), Negate(Name("k")))))
+    ('k',)
+    """
+    if isinstance(node, Name):
+        return () if node.name == "pi" else (node.name,)
+    return tuple(dict.fromkeys(name for below in children(node) for name in names(below)))
+
+
+def to_text(node: Node, *, unknown: str = "u") -> str:
+    """The text that parses back to the same tree.
+
+    >>> to_text(Sum((Unknown(2), Negate(Power(Unknown(0), Number(Fraction(3)))))))
+    "u'' - u**3"
+    """
+
+    def write(below: Node) -> str:
+        return to_text(below, unknown=unknown)
+
+    def inside(below: Node, *loose: type) -> str:
+        return f"({write(below)})" if isinstance(below, loose) else write(below)
+
+    match node:
+        case Number(value=value):
+            return _decimal(value)
+        case Name(name=name):
+            return name
+        case Unknown(derivative=derivative):
+            return unknown + "'" * derivative
+        case Negate(operand=operand):
+            return "-" + inside(operand, Sum, Negate)
+        case Sum(terms=terms):
+            signed = [inside(term, Sum) for term in terms]
+            return signed[0] + "".join(f" - {t[1:]}" if t[0] == "-" else f" + {t}" for t in signed[1:])
+        case Product(factors=factors):
+            return "*".join(inside(factor, Sum, Negate, Product, Quotient) for factor in factors)
+        case Quotient(numerator=above, denominator=below):
+            return inside(above, Sum, Negate, Quotient) + "/" + inside(below, Sum, Negate, Product, Quotient)
+        case Power(base=base, exponent=exponent):
+            compound = (Sum, Negate, Product, Quotient, Power)
+            return inside(base, *compound) + "**" + inside(exponent, *compound)
+        case Call(function=function, argument=argument):
+            return f"{function}({write(argument)})"
+
+
+def _decimal(value: Fraction) -> str:
+    """A literal of exactly this value: an integer, or digits with a decimal exponent."""
+    places = 0
+    while (value * 10**places).denominator != 1:
+        places += 1
+    digits = int(value * 10**places)
+    return f"{digits}e-{places}" if places else str(digits)
+
+
+def constant(node: Node) -> Fraction | None:
+    """The rational value of a tree of numbers alone, None when a name, the unknown or a function occurs.
+
+    Call it on trees that ``measure`` has accepted; a division by zero gives None as well.
+
+    >>> constant(Quotient(Number(Fraction(1)), Number(Fraction(3))))
+    Fraction(1, 3)
+    """
+    if isinstance(node, Number):
+        return node.value
+    values = [constant(below) for below in children(node)]
+    known = [value for value in values if value is not None]
+    if len(known) < len(values):
+        return None
+    match node:
+        case Negate():
+            return -known[0]
+        case Sum():
+            return sum(known, Fraction(0))
+        case Product():
+            return _product(known)
+        case Quotient():
+            return known[0] / known[1] if known[1] else None
+        case Power():
+            whole = known[1].denominator == 1 and (known[0] != 0 or known[1] >= 0)
+            return known[0] ** int(known[1]) if whole else None
+        case _:
+            return None
+
+
+def _product(values: list[Fraction]) -> Fraction:
+    result = Fraction(1)
+    for value in values:
+        result *= value
+    return result
+
+
+@dataclass(frozen=True, slots=True)
+class Size:
+    """An upper bound on what an expression becomes: terms once expanded, degree, bits of its numbers."""
+
+    terms: int
+    degree: int
+    bits: int
+
+
+def measure(node: Node) -> Size:
+    """Predict the size of the expanded expression without building it.
+
+    Raises InputError, with the column, where an exponent is not a rational constant or is too large, where
+    something is divided by zero, and where a bound on terms, degree or digits is passed.
+
+    >>> measure(Power(Sum((Number(Fraction(1)), Unknown(0))), Number(Fraction(10)))).terms
+    11
+    """
+    size = _power_size(node) if isinstance(node, Power) else _size(node, [measure(n) for n in children(node)])
+    if isinstance(node, Quotient) and constant(node.denominator) == 0:
+        raise InputError(f"division by zero at column {node.column}; the denominator is identically 0")
+    for what, value, most in (
+        ("terms", size.terms, MAX_TERMS),
+        ("degree", size.degree, MAX_DEGREE),
+        ("bits", size.bits, MAX_BITS),
+    ):
+        if value > most:
+            raise InputError(
+                f"the expression at column {node.column} would grow to {what} {_rounded(value)}, at most {most} "
+                "are allowed; use smaller exponents or fewer factors"
+            )
+    return size
+
+
+def _rounded(value: int) -> str:
+    return str(value) if value < 10**9 else f"about 2**{value.bit_length()}"
+
+
+def _size(node: Node, below: list[Size]) -> Size:
+    match node:
+        case Number(value=value):
+            return Size(1, 0, value.numerator.bit_length() + value.denominator.bit_length())
+        case Name() | Unknown():
+            return Size(1, 1, 0)
+        case Sum():
+            return Size(sum(s.terms for s in below), max(s.degree for s in below), sum(s.bits for s in below))
+        case Product() | Quotient():
+            terms = 1
+            for size in below:
+                terms *= size.terms
+            return Size(terms, sum(s.degree for s in below), sum(s.bits for s in below))
+        case Call():
+            return Size(1, below[0].degree, below[0].bits)
+        case _:
+            return below[0]
+
+
+def _power_size(node: Power) -> Size:
+    base, exponent = measure(node.base), _exponent(node)
+    n = abs(exponent.numerator)
+    whole = exponent.denominator == 1
+    terms = comb(n + base.terms - 1, base.terms - 1) if whole else base.terms
+    return Size(terms, max(n * base.degree, base.degree), max(n * base.bits, base.bits))
+
+
+def _exponent(node: Power) -> Fraction:
+    measure(node.exponent)
+    exponent = constant(node.exponent)
+    if exponent is None:
+        raise InputError(
+            f"the exponent at column {node.exponent.column or node.column} is not a rational number; "
+            "write other powers with exp and log, as in exp(p*log(1 + u))"
+        )
+    if max(abs(exponent.numerator), exponent.denominator) > MAX_EXPONENT:
+        raise InputError(
+            f"the exponent {_shown(exponent)} at column {node.exponent.column or node.column} is too large; "
+            f"numerator and denominator may be at most {MAX_EXPONENT}"
+        )
+    value = constant(node.base)
+    if value is not None and ((value == 0 and exponent < 0) or (value < 0 and exponent.denominator != 1)):
+        raise InputError(f"the power at column {node.column} of the number {_shown(value)} is not a real number")
+    return exponent
+
+
+def _shown(value: Fraction) -> str:
+    text = str(value) if value.numerator.bit_length() + value.denominator.bit_length() < 200 else ""
+    return text if text and len(text) <= 40 else f"with {value.numerator.bit_length()} bits"

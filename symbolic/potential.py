@@ -1,0 +1,98 @@
+"""Potentials by a small table of rules, each exact: never a general integrator."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+import sympy
+
+from symbolic.errors import InputError
+from symbolic.origin import brief
+from symbolic.parse import U
+
+# Integral of g(x) dx for x = a*u + b; division by a is done by the caller.
+_ELEMENTARY: Final[dict[type, Callable[[sympy.Expr], sympy.Expr]]] = {
+    sympy.sin: lambda x: -sympy.cos(x),
+    sympy.cos: sympy.sin,
+    sympy.tan: lambda x: -sympy.log(sympy.cos(x)),
+    sympy.sinh: sympy.cosh,
+    sympy.cosh: sympy.sinh,
+    sympy.tanh: lambda x: sympy.log(sympy.cosh(x)),
+    sympy.exp: sympy.exp,
+}
+
+
+def potential_of(restoring: sympy.Expr) -> sympy.Expr | None:
+    """The potential P(u) with P' = restoring and P(0) = 0, or None when a term is in no rule.
+
+    The rules: powers of u; sin, cos, tan, sinh, cosh, tanh, exp of a*u + b; and c * g'(u) * g(u)**r.
+
+    >>> potential_of(U + sympy.sin(2 * U))
+    u**2/2 - cos(2*u)/2 + 1/2
+    """
+    total = sympy.S.Zero
+    for term in sympy.Add.make_args(_expanded(restoring)):
+        integral = _term(term)
+        if integral is None:
+            return None
+        total += integral
+    return _from_zero(total)
+
+
+def checked_potential(potential: sympy.Expr, restoring: sympy.Expr) -> sympy.Expr:
+    """The given potential, shifted so that it is zero at u = 0, once its derivative is seen to be the force.
+
+    Raises InputError when it is not (or not recognisably) the integral of the restoring force.
+
+    >>> checked_potential(sympy.cosh(U), sympy.sinh(U))
+    cosh(u) - 1
+    """
+    difference = potential.diff(U) - restoring
+    if sympy.expand(difference) != 0 and sympy.cancel(sympy.together(difference)) != 0:
+        raise InputError(
+            f"the potential {brief(potential)} does not differentiate to the restoring force {brief(restoring)}; "
+            "leave it out or correct it"
+        )
+    return _from_zero(potential)
+
+
+def _from_zero(potential: sympy.Expr) -> sympy.Expr:
+    return potential - potential.subs(U, 0)
+
+
+def _expanded(restoring: sympy.Expr) -> sympy.Expr:
+    """Multiply out polynomials fully, anything else only one level, so that each rule sees single terms."""
+    return sympy.expand(restoring) if restoring.is_polynomial(U) else sympy.expand_mul(restoring)
+
+
+def _term(term: sympy.Expr) -> sympy.Expr | None:
+    coefficient, rest = term.as_independent(U, as_Add=False)
+    if rest == 1:
+        return coefficient * U
+    base, exponent = rest.as_base_exp() if not isinstance(rest, sympy.exp) else (rest, sympy.S.One)
+    if base == U and exponent.is_Rational:
+        return _power(coefficient, U, exponent)
+    rule = _ELEMENTARY.get(rest.func)
+    if rule is not None and not (slope := rest.args[0].diff(U)).has(U):
+        return coefficient * rule(rest.args[0]) / slope
+    return _chain(coefficient, rest)
+
+
+def _power(coefficient: sympy.Expr, base: sympy.Expr, exponent: sympy.Rational) -> sympy.Expr:
+    if exponent == -1:
+        return coefficient * sympy.log(base)
+    return coefficient * base ** (exponent + 1) / (exponent + 1)
+
+
+def _chain(coefficient: sympy.Expr, rest: sympy.Expr) -> sympy.Expr | None:
+    """c * g'(u) * g(u)**r for one of the powers that occur, such as u/(1 + u**2) or sin(u)*cos(u)**2."""
+    for factor in sympy.Mul.make_args(rest):
+        base, exponent = factor.as_base_exp()
+        slope = base.diff(U)
+        if isinstance(factor, sympy.exp) or not exponent.is_Rational or slope == 0:
+            continue
+        ratio = sympy.cancel(rest / (factor * slope))
+        if not ratio.has(U):
+            return _power(coefficient * ratio, base, exponent)
+    return None

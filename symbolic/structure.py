@@ -1,0 +1,79 @@
+"""The structure of a force: what multiplies u'', which parameter damps it, which one excites it."""
+
+from __future__ import annotations
+
+import sympy
+
+from symbolic.errors import InputError
+from symbolic.origin import brief
+from symbolic.parse import U, V, W
+
+
+def positive_root(square: sympy.Expr) -> sympy.Expr:
+    """The square root, with symbolic parameters taken as positive: sqrt(k**2) is k.
+
+    >>> positive_root(sympy.Symbol("k", real=True) ** 2)
+    k
+    """
+    return sympy.sqrt(square).replace(sympy.Abs, lambda inner: inner)
+
+
+def solved_for_acceleration(left: sympy.Expr) -> sympy.Expr:
+    """f of u'' + f = 0 from left = 0, dividing by the factor of u'' exactly.
+
+    Raises InputError when u'' cancels or does not enter linearly.
+
+    >>> solved_for_acceleration(2 * W + 4 * U)
+    2*u
+    """
+    factor = left.diff(W)
+    if factor.has(W):
+        left = sympy.expand(left)
+        factor = left.diff(W)
+    if factor == 0:
+        raise InputError("the second derivative cancels out of the equation; an oscillator needs it")
+    if factor.has(W):
+        raise InputError(f"u'' enters through {brief(left)}; it must enter linearly, as in (1 + u**2)*u'' + u = 0")
+    rest = left.subs(W, 0)
+    return rest if factor == 1 else divided(rest, factor)
+
+
+def divided(expression: sympy.Expr, divisor: sympy.Expr) -> sympy.Expr:
+    """Divide term by term, so that common factors cancel without a simplifier.
+
+    >>> divided(2 * U + 4 * V, sympy.Integer(2))
+    u + 2*u'
+    """
+    if divisor == 1:
+        return expression
+    return sympy.Add(*(term / divisor for term in sympy.Add.make_args(sympy.expand_mul(expression))))
+
+
+def damping_name(force: sympy.Expr) -> str | None:
+    """The parameter p when the force is 2*p*u' plus terms without p, else None.
+
+    >>> damping_name(2 * sympy.Symbol("c", real=True) * V + U)
+    'c'
+    """
+    slope = sympy.expand(force.diff(V).subs({U: 0, V: 0}))
+    symbol = slope / 2
+    if not isinstance(symbol, sympy.Symbol) or sympy.expand(force - slope * V).has(symbol):
+        return None
+    return str(symbol.name)
+
+
+def small_name(force: sympy.Expr) -> str | None:
+    """The parameter p when the force is g(u) + p*h(u, u') with h_u(0, 0) = 0 and h_u'(0, 0) < 0, else None.
+
+    Such a p > 0 feeds energy in near rest, as the eps of van der Pol's and Rayleigh's equations does.
+
+    >>> small_name(U - sympy.Symbol("eps", real=True) * (1 - U**2) * V)
+    'eps'
+    """
+    slope, stiffness = (sympy.expand(force.diff(s).subs({U: 0, V: 0})) for s in (V, U))
+    for symbol in sorted(slope.free_symbols, key=lambda s: str(s.name)):
+        rate = sympy.expand(slope / symbol)
+        linear = not force.diff(symbol).has(symbol) and not stiffness.has(symbol)
+        if linear and rate.is_negative and not force.subs(symbol, 0).has(V):
+            return str(symbol.name)
+    return None
