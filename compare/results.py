@@ -55,6 +55,8 @@ class Study:
     convergence_radius: float | None
     scale: float
     """The natural frequency k that omega is printed with."""
+    convergence_uncertainty: float | None = None
+    """Uncertainty of ``convergence_radius``, in the same variable."""
 
     def rows(self) -> list[dict[str, float | int | str]]:
         """One row per cell: order, amplitude (or eps), method, omega, omega_reference, relative_error."""
@@ -155,6 +157,8 @@ class Statement:
     """Paraphrase of the paper's own words."""
     measured: str
     """Our finding, with numbers."""
+    curves: tuple[str, ...] = ()
+    """Names of the curves that this figure draws beside the reference (of ``curves`` and ``harmonics``)."""
 
 
 @dataclass(frozen=True)

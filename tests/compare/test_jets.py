@@ -46,9 +46,7 @@ def test_every_recurrence_agrees_with_derivatives_taken_numerically(expression):
         function = evaluator(expression, (U,), PRECISE)
         expected = mpmath.taylor(lambda x: function((x,)), mpmath.mpf("0.3"), 8)
         found = compose_jet(expression, U, [mpmath.mpf("0.3"), 1] + [0] * 7)
-    assert all(
-        abs(a - b) < mpmath.mpf(10) ** -15 * (1 + abs(a)) for a, b in zip(expected, found, strict=True)
-    )
+    assert all(abs(a - b) < mpmath.mpf(10) ** -15 * (1 + abs(a)) for a, b in zip(expected, found, strict=True))
 
 
 @pytest.mark.parametrize("expression", FUNCTIONS, ids=str)
