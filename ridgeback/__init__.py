@@ -13,11 +13,17 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from compare.bind import bind as bind
     from compare.study import study as study
     from numeric.backbone import backbone as backbone
+    from numeric.dynamics import Dynamics as Dynamics
     from numeric.estimate import estimate as estimate
     from numeric.recording import read_recording as read_recording
+    from numeric.track import Track as Track
+    from numeric.trajectory import Trajectory as Trajectory
+    from numeric.trajectory import integrate as integrate
     from reports.page import render as render
+    from symbolic.codegen import generate as generate
     from symbolic.energy_integral import energy_integral as energy_integral
     from symbolic.expansion import Expansion as Expansion
     from symbolic.expansion import SlowFlow as SlowFlow
@@ -26,13 +32,6 @@ if TYPE_CHECKING:
     from symbolic.oscillator import Oscillator as Oscillator
     from symbolic.systems import catalogue as catalogue
     from symbolic.systems import find as find
-
-    from compare.bind import bind as bind
-    from numeric.dynamics import Dynamics as Dynamics
-    from numeric.track import Track as Track
-    from numeric.trajectory import Trajectory as Trajectory
-    from numeric.trajectory import integrate as integrate
-    from symbolic.codegen import generate as generate
 
     __version__: str
 

@@ -25,7 +25,7 @@ def output_path(text: str) -> str:
     """
     if "\0" in text or not text:
         raise click.BadParameter(
-            "a file name cannot be empty or contain a null character; use - for the screen"
+            "a file name cannot be empty or hold a null character; use - for the screen"
         )
     check_writable(text)
     return text
@@ -53,7 +53,7 @@ def check_writable(path: str) -> None:
 
 
 def write_text(path: str, text: str) -> None:
-    """Write the whole text, or leave what was there; ``-`` prints it, devices and pipes are written directly."""
+    """Write the whole text, or leave what was there; ``-`` prints it, devices and pipes are written to."""
     if path == STDOUT:
         sys.stdout.write(text)
         return

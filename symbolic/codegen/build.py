@@ -1,0 +1,128 @@
+"""From an expansion or a slow flow to the coefficient form: which functions there are, and what must be said."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
+
+from sympy import Expr, Rational, Symbol
+
+from symbolic.codegen.form import Argument, Form, Function, Powers, derivative, function, nearest_double
+from symbolic.errors import InputError
+from symbolic.typeset import to_sympy
+
+if TYPE_CHECKING:
+    from symbolic.expansion import Expansion, SlowFlow
+
+K = Symbol("k")
+
+DEFINITIONS = {
+    "peak": "the positive turning point of u (rad for an angle), where u' = 0",
+    "fundamental": "the magnitude of the first harmonic of u",
+}
+
+SCALING = "The coefficients hold in units where k = 1: another k rescales time, and all parameters with it."
+
+OMEGA0 = "Fundamental angular frequency, in radians per unit of time."
+
+# Enough digits that rounding an irrational natural frequency to a double is decided.
+DIGITS = 40
+
+
+def expansion_form(expansion: Expansion, *, equation: str = "", limit: float | None = None) -> Form:
+    """Build the functions omega0, omega0_slope and, for a limit cycle, amplitude."""
+    variable, per = expansion.variable, scaling(expansion)
+    terms = rational_terms(expansion, expansion.coefficients)
+    arguments = (Argument(variable, variable_meaning(expansion)), frequency_argument(expansion.scale))
+    summary = f"Derivative of omega0 by {variable}."
+    # d(k sum c_n (eps/k)^n) / d eps has lost the factor k.
+    slope_factor = None if per else K
+    functions = [
+        function("omega0", OMEGA0, "C", arguments, terms, factor=K, per=per),
+        function("omega0_slope", summary, "S", arguments, derivative(terms), factor=slope_factor, per=per),
+    ]
+    if expansion.amplitude_coefficients is not None:
+        series = rational_terms(expansion, expansion.amplitude_coefficients)
+        functions.append(function("amplitude", f"Amplitude ({expansion.amplitude}).", "P", arguments, series, per=per))
+    facts = (
+        *common_facts(expansion.method, equation),
+        f"Variable {variable}: {variable_meaning(expansion)}.",
+        f"Order: powers of {variable} up to {expansion.order}.",
+        SCALING,
+        *limit_fact(variable, limit),
+    )
+    return Form(expansion.system, f"Fundamental frequency of '{expansion.system}'", facts, tuple(functions))
+
+
+def scaling(expansion: Expansion) -> dict[str, Symbol]:
+    """The variables that enter divided by the natural frequency."""
+    return {expansion.variable: K} if expansion.scaled_variable else {}
+
+
+def rational_terms(expansion: Expansion, values: Sequence[object]) -> dict[Powers, Rational]:
+    """Coefficients by power, in units where k = 1.
+
+    Raises InputError while a parameter is still symbolic.
+    """
+    exact = [to_sympy(value, expansion.names) for value in values]
+    if any(not c.is_Rational for c in exact):
+        raise InputError(
+            f"'{expansion.system}' has the parameters {', '.join(expansion.names)} without a number; set each of them"
+        )
+    return {(power,): c for power, c in enumerate(exact)}
+
+
+def slow_flow_form(flow: SlowFlow, *, equation: str = "", limit: float | None = None) -> Form:
+    """Build the functions omega0 and damping of a multiple-scales slow flow."""
+    arguments = (
+        Argument("a", DEFINITIONS["fundamental"]),
+        Argument("mu", "damping coefficient of 2*mu*u'"),
+    )
+    functions = (
+        slow_function("omega0", OMEGA0, "W", arguments, flow.frequency),
+        slow_function(
+            "damping", "Relative rate of change of the amplitude, a'/a, per unit of time.", "D", arguments, flow.damping
+        ),
+    )
+    facts = (
+        *common_facts("multiple-scales", equation),
+        f"Amplitude a: {DEFINITIONS['fundamental']}.",
+        f"Order: terms a^p mu^q with p + {flow.weight} q up to {flow.order}.",
+        *limit_fact("a", limit),
+    )
+    return Form(flow.system, f"Slow flow of '{flow.system}'", facts, functions)
+
+
+def slow_function(
+    name: str, summary: str, prefix: str, arguments: tuple[Argument, ...], terms: Iterable[object]
+) -> Function:
+    """One side of the slow flow as a polynomial in a and mu."""
+    polynomial = {tuple(term.powers): Rational(term.coefficient) for term in terms}  # type: ignore[attr-defined]
+    return function(name, summary, prefix, arguments, polynomial)
+
+
+def frequency_argument(scale: Expr) -> Argument:
+    """The natural frequency, by default the one that the expansion was derived with."""
+    if not scale.is_number:
+        raise InputError(f"the natural frequency {scale} is no number; set its parameters")
+    exact = scale if scale.is_Rational else Rational(str(scale.evalf(DIGITS)))
+    return Argument("k", "natural (small-amplitude) angular frequency", nearest_double(exact))
+
+
+def variable_meaning(expansion: Expansion) -> str:
+    """What the variable of an expansion stands for."""
+    if expansion.variable == "eps":
+        return "the small parameter of the equation"
+    return f"{expansion.amplitude} amplitude, " + DEFINITIONS.get(expansion.amplitude, expansion.amplitude)
+
+
+def common_facts(method: str, equation: str) -> tuple[str, ...]:
+    """Equation and method, in a line each."""
+    return (*((f"Equation: {equation}.",) if equation else ()), f"Method: {method}, exact rational coefficients.")
+
+
+def limit_fact(variable: str, limit: float | None) -> tuple[str, ...]:
+    """Where the oscillation itself ends; the truncation error is the reader's to look up."""
+    if limit is None:
+        return ()
+    return (f"Meaningful only for |{variable}| below {limit:.6g}, where the oscillation itself ends.",)
