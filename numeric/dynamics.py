@@ -13,12 +13,12 @@ from typing import Any
 
 import mpmath as mp
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from numeric.arrays import Array
 from numeric.errors import InputError
 from numeric.roots import bracketed_newton
 
-Array = NDArray[np.float64]
 Precise = Any  # an mpmath.mpf: mpmath ships no types
 Jet = Callable[[Precise, Precise, int], list[Precise]]
 Coefficient = Callable[[Sequence[Precise], Sequence[Precise], int], Precise]
@@ -187,9 +187,7 @@ def polynomial(
         force=force,
         natural_frequency=k,
         damping=float(mu),
-        potential=lambda u: np.asarray(
-            np.polynomial.polynomial.polyval(np.asarray(u, dtype=float), integral)
-        ),
+        potential=lambda u: np.asarray(np.polynomial.polynomial.polyval(np.asarray(u, dtype=float), integral)),
         restoring=lambda u: np.asarray(np.polynomial.polynomial.polyval(np.asarray(u, dtype=float), rising)),
         closed_form=closed_form,
         precise_force=precise_force,
@@ -279,7 +277,7 @@ def _check(*, k: float, **others: float) -> None:
 
 # The scan for equilibria: 1e-6 to 1e6 in steps of 1 %.  Two further equilibria closer together than 1 % of
 # their distance from the origin would be missed; nothing shorter than a proof could promise more.
-_SCAN = 1e-6 * 1.01 ** np.arange(2778)
+SCAN = 1e-6 * 1.01 ** np.arange(2778)
 
 
 def well(dynamics: Dynamics) -> tuple[float, float]:
@@ -301,18 +299,16 @@ def _well_end(dynamics: Dynamics, side: float) -> float:
     if restoring is None:
         return math.inf
     with np.errstate(all="ignore"):
-        pull = side * np.asarray(restoring(side * _SCAN), dtype=float)
+        pull = side * np.asarray(restoring(side * SCAN), dtype=float)
         failing = np.flatnonzero(~(pull > 0))
         if failing.size == 0:
             return math.inf
         first = int(failing[0])
         if first == 0:
-            raise InputError(
-                f"{dynamics.name}: u = 0 is not a stable equilibrium: V' does not restore near it"
-            )
+            raise InputError(f"{dynamics.name}: u = 0 is not a stable equilibrium: V' does not restore near it")
         if np.isnan(pull[first]):
-            return float(_SCAN[first - 1])
-        return _equilibrium(lambda u: side * restoring(side * u), _SCAN[first - 1], _SCAN[first])
+            return float(SCAN[first - 1])
+        return _equilibrium(lambda u: side * restoring(side * u), SCAN[first - 1], SCAN[first])
 
 
 def _equilibrium(pull: Callable[[Array], Array], inside: float, outside: float) -> float:

@@ -5,16 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from numeric.arrays import Array, Flags
+
 ValueAndSlope = Callable[[Array], tuple[Array, Array]]
 
 
-def bracketed_newton(function: ValueAndSlope, low: Array, high: Array, guess: Array | None = None) -> Array:
-    """Root of an increasing or decreasing function in each bracket ``[low, high]`` (all 1-D, one shape).
+def bracketed_newton(
+    function: ValueAndSlope,
+    low: Array,
+    high: Array,
+    *,
+    guess: Array | None = None,
+    rising: Flags | bool | None = None,
+) -> Array:
+    """Return the root of a function in each bracket ``[low, high]`` with a sign change (all 1-D, one shape).
 
-    ``function(x)`` gives value and slope.  A Newton step that leaves its bracket is replaced by bisection
+    ``function(x)`` gives value and slope; ``rising`` says whether it goes from negative to positive, and is found
+    from the values at both ends when not given.  A Newton step that leaves its bracket is replaced by bisection
     (Press et al., Numerical Recipes, section 9.4, ``rtsafe``), so that every bracket converges.
 
     >>> import numpy as np
@@ -25,7 +33,9 @@ def bracketed_newton(function: ValueAndSlope, low: Array, high: Array, guess: Ar
     low, high = np.array(low, dtype=float), np.array(high, dtype=float)
     if low.size == 0:
         return low
-    sign = np.where(function(high)[0] >= function(low)[0], 1.0, -1.0)
+    if rising is None:
+        rising = function(high)[0] >= function(low)[0]
+    sign = np.where(rising, 1.0, -1.0)
     x = 0.5 * (low + high) if guess is None else np.clip(guess, low, high)
     for _ in range(120):
         value, slope = function(x)
@@ -37,6 +47,6 @@ def bracketed_newton(function: ValueAndSlope, low: Array, high: Array, guess: Ar
         step = np.where(value == 0, x, step)
         moved = np.abs(step - x)
         x = step
-        if np.all(moved <= 2e-16 * np.maximum(np.abs(x), 1e-300)):
+        if np.all(moved <= 4e-15 * np.abs(x)):  # quadratic: the step just made leaves rounding only
             break
     return x

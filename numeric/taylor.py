@@ -15,18 +15,16 @@ from dataclasses import dataclass
 import mpmath as mp
 import numpy as np
 
+from numeric.arrays import Array, frozen, frozen_flags
 from numeric.dynamics import Dynamics, Precise, well
 from numeric.errors import InputError
 from numeric.trajectory import (
-    Array,
     CrossingEvents,
     Interpolant,
     Trajectory,
     TurningEvents,
     check_inside,
     check_request,
-    frozen,
-    frozen_flags,
     sample_times,
 )
 

@@ -8,15 +8,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolution, Radau
 
+from numeric.arrays import Array, Flags, frozen, frozen_flags
 from numeric.dynamics import Dynamics, well
 from numeric.errors import InputError
 from numeric.roots import bracketed_newton
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
 Interpolant = Callable[[Array], tuple[Array, Array]]
 
 _SOLVERS: dict[str, Any] = {"DOP853": DOP853, "RK45": RK45, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
@@ -77,28 +76,6 @@ class Trajectory:
         if not np.all((t >= 0) & (t <= self.duration)):
             raise InputError(f"times must lie within 0 and {self.duration:g}, the span of the trajectory")
         return self.interpolant(t)
-
-
-def frozen(values: ArrayLike) -> Array:
-    """Return a read-only float64 copy.
-
-    >>> frozen([1, 2]).flags.writeable
-    False
-    """
-    copy = np.array(values, dtype=float)
-    copy.flags.writeable = False
-    return copy
-
-
-def frozen_flags(values: ArrayLike) -> Flags:
-    """Return a read-only boolean copy.
-
-    >>> frozen_flags([True]).flags.writeable
-    False
-    """
-    copy = np.array(values, dtype=bool)
-    copy.flags.writeable = False
-    return copy
 
 
 def integrate(
