@@ -7,9 +7,19 @@ from flint import fmpq
 
 from symbolic.errors import InputError
 from symbolic.fourier import Space, Trig, constant
+from symbolic.parse import U, V
 
 # Values at the only arguments where an elementary function of a rational is rational.
 _AT_ZERO = {"sin": 0, "cos": 1, "sinh": 0, "cosh": 1, "exp": 1}
+
+
+def free_names(force: sympy.Expr) -> tuple[str, ...]:
+    """Return the names of the parameters in a force, sorted; u and u' are not among them.
+
+    >>> free_names(U + sympy.Symbol("alpha3", real=True) * U**3)
+    ('alpha3',)
+    """
+    return tuple(sorted(symbol.name for symbol in force.free_symbols - {U, V}))
 
 
 class TrigRing:

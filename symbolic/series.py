@@ -298,9 +298,15 @@ class Program:
 
     def correct(self, n: int, change_u: Element, change_v: Element) -> None:
         """Mend coefficient n everywhere after u_n and v_n changed by the given amounts."""
-        for node in [*self.nodes.values(), *self.inputs.values()]:
+        for node in {*self.nodes.values(), *self.inputs.values()}:  # a node may stand under two names
             if len(node.known) > n and (node.slope_u or node.slope_v):
                 node.known[n] = node.known[n] + node.slope_u * change_u + node.slope_v * change_v
+
+    def forget(self, n: int) -> None:
+        """Drop what has been computed from order n on; it is computed again when asked for."""
+        for node in set(self.nodes.values()):
+            if not isinstance(node, Fixed):
+                del node.known[n:]
 
     def _compile(self, e: sympy.Expr) -> Node:
         if e in self.inputs:

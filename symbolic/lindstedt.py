@@ -1,0 +1,96 @@
+r"""Lindstedt-Poincaré expansions of periodic orbits, to any order.
+
+Nayfeh and Mook, Nonlinear Oscillations (1979), 2.3.  Strained time ``tau = omega t``, ' = d/dtau, units with k = 1:
+
+    omega^2 u'' + f(u, omega u') = 0,      u = sum X^n u_n(tau),      omega^2 = sum X^n w_n
+
+At order n:  u_n'' + u_n = -[rest]_n - sum_(0<j<n) w_j u''_(n-j), and the right-hand side may hold no multiple of
+cos tau or sin tau (solvability).
+
+* Conservative: X = A, u_0 = 0, u_1 = cos tau.  cos: w_(n-1) follows.  sin: must vanish by itself, or there is damping.
+* Limit cycle: X = eps, u_0 = a_0 cos tau.  cos: w_n follows.  sin: a_0 follows at order 1 from a polynomial
+  equation, then a_(n-1) from a linear one.
+
+The homogeneous part of u_n is fixed by the amplitude definition: ``peak`` (u'(0) = 0, and u(0) = A) or
+``fundamental`` (first harmonic A cos tau).
+"""
+
+from __future__ import annotations
+
+from flint import fmpq
+
+from symbolic.errors import InputError
+from symbolic.expansion import Expansion, check_definition, check_order
+from symbolic.fourier import constant, cosine, solve_oscillator, space_for
+from symbolic.limit_cycle import limit_cycle
+from symbolic.oscillator import Oscillator, U, V
+from symbolic.rings import free_names
+from symbolic.strained import March, compiled, normalise, residual
+
+ALLOWED = ("peak", "fundamental")
+
+
+def lindstedt(oscillator: Oscillator, order: int, *, amplitude: str = "peak") -> Expansion:
+    """Expand omega0 in the amplitude (conservative) or in eps (limit cycle), through the power ``order``.
+
+    Raises InputError for a bad order or definition, and for an oscillator without a family of periodic orbits.
+
+    >>> from symbolic.systems import find
+    >>> lindstedt(find("van-der-pol"), 4).frequency
+    (1, 0, -1/16, 0, 17/3072)
+    """
+    order = check_order(order)
+    check_definition(amplitude, ALLOWED)
+    if oscillator.kind == "limit-cycle":
+        return limit_cycle(oscillator, order, amplitude)
+    return _conservative(oscillator, order, amplitude)
+
+
+def _conservative(oscillator: Oscillator, order: int, amplitude: str) -> Expansion:
+    natural = oscillator.normalised()
+    force, names = natural.bound, free_names(natural.bound)
+    space = space_for(names)
+    program = compiled(force, names, constant(space, fmpq(0)))
+    if program.root.slope_v:
+        raise InputError(_no_family(oscillator))
+    march = March(program, [constant(space, fmpq(0)), cosine(space)], space)
+    program.supply(U, march.u[1])
+    program.supply(V, march.slope[1])
+    for n in range(2, order + 2):
+        _conservative_step(march, n, amplitude, oscillator)
+    return Expansion(
+        system=oscillator.name,
+        method="lindstedt",
+        variable="A",
+        amplitude=amplitude,
+        order=order,
+        scale=natural.scale,
+        scaled_variable=False,
+        coefficients=tuple(march.omega),
+        waveform=tuple(march.u),
+        amplitude_coefficients=None,
+        residual_of=lambda e: residual(e, force, {}),
+        names=names,
+    )
+
+
+def _conservative_step(march: March, n: int, amplitude: str, oscillator: Oscillator) -> None:
+    """Find u_n and omega_(n-1)."""
+    program, space = march.program, march.space
+    zero = constant(space, fmpq(0))
+    program.supply(U, zero)
+    program.supply(V, march.velocity(n, n - 2))
+    right = -program.root.get(n) - march.inertia(n, 1, n - 2)
+    particular, p, q = solve_oscillator(right)
+    if q != 0:
+        raise InputError(_no_family(oscillator))
+    march.extend_omega(-p)  # right + w_(n-1) cos tau must hold no cos tau
+    march.append(normalise(particular, amplitude, size=True))
+    program.correct(n, march.u[n], march.slope[n] + march.slope[1].scale(march.omega[n - 1]))
+
+
+def _no_family(oscillator: Oscillator) -> str:
+    return (
+        f"{oscillator.name} loses or gains energy (a secular sin tau survives), so it has no family of periodic "
+        "orbits; use --method multiple-scales, or set its damping to 0"
+    )
