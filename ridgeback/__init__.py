@@ -26,10 +26,10 @@ if TYPE_CHECKING:
     from symbolic.codegen import generate as generate
     from symbolic.energy_integral import energy_integral as energy_integral
     from symbolic.expansion import Expansion as Expansion
-    from symbolic.expansion import SlowFlow as SlowFlow
     from symbolic.lindstedt import lindstedt as lindstedt
     from symbolic.multiple_scales import multiple_scales as multiple_scales
     from symbolic.oscillator import Oscillator as Oscillator
+    from symbolic.slow_flow import SlowFlow as SlowFlow
     from symbolic.systems import catalogue as catalogue
     from symbolic.systems import find as find
 
@@ -39,7 +39,7 @@ HOMES = {
     "Dynamics": "numeric.dynamics",
     "Expansion": "symbolic.expansion",
     "Oscillator": "symbolic.oscillator",
-    "SlowFlow": "symbolic.expansion",
+    "SlowFlow": "symbolic.slow_flow",
     "Track": "numeric.track",
     "Trajectory": "numeric.trajectory",
     "backbone": "numeric.backbone",

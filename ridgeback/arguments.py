@@ -51,9 +51,7 @@ def rational(text: str) -> Fraction:
     """
     word = text.strip()
     if not (DECIMAL.fullmatch(word) or RATIO.fullmatch(word)):
-        raise ValueError(
-            f"{shown(text)} is not a finite number; write a decimal such as 0.01 or a ratio such as 3/8"
-        )
+        raise ValueError(f"{shown(text)} is not a finite number; write a decimal such as 0.01 or a ratio such as 3/8")
     try:
         return Fraction(word)
     except ZeroDivisionError:
@@ -118,9 +116,7 @@ def orders(text: str) -> tuple[int, ...]:
     words = [word.strip() for word in text.split(",")]
     wrong = [word for word in words if not re.fullmatch(r"\d{1,5}", word, re.ASCII)]
     if wrong:
-        raise ValueError(
-            f"{shown(wrong[0])} is not an order; give integers of 0 or more, for example 2,4,8,16"
-        )
+        raise ValueError(f"{shown(wrong[0])} is not an order; give integers of 0 or more, for example 2,4,8,16")
     if len(words) > MAX_ORDERS:
         raise ValueError(f"{len(words)} orders are more than {MAX_ORDERS}; give fewer")
     return tuple(sorted({int(word) for word in words}))

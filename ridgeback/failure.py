@@ -31,9 +31,7 @@ def one_line(text: str) -> str:
     'bad value \\x1b[31m'
     """
     joined = " ".join(text.split())
-    return "".join(
-        c if c.isprintable() else c.encode("unicode_escape", "backslashreplace").decode() for c in joined
-    )
+    return "".join(c if c.isprintable() else c.encode("unicode_escape", "backslashreplace").decode() for c in joined)
 
 
 def is_input_error(error: BaseException) -> bool:

@@ -24,9 +24,7 @@ def output_path(text: str) -> str:
     '-'
     """
     if "\0" in text or not text:
-        raise click.BadParameter(
-            "a file name cannot be empty or hold a null character; use - for the screen"
-        )
+        raise click.BadParameter("a file name cannot be empty or hold a null character; use - for the screen")
     check_writable(text)
     return text
 
@@ -68,9 +66,7 @@ def write_text(path: str, text: str) -> None:
 def replace_file(target: Path, text: str) -> None:
     """Write beside the target, then put the finished file in its place in one step."""
     mode = target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~current_umask()
-    descriptor, temporary = tempfile.mkstemp(
-        dir=target.parent, prefix=f".{target.name[:40]}.", suffix=".part"
-    )
+    descriptor, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:40]}.", suffix=".part")
     try:
         with os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as file:
             file.write(text)

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from symbolic.codegen import c99, python
 from symbolic.codegen.build import expansion_form, slow_flow_form
 from symbolic.codegen.form import Form
 from symbolic.errors import InputError
-
-if TYPE_CHECKING:
-    from symbolic.expansion import Expansion, SlowFlow
+from symbolic.expansion import Expansion
+from symbolic.slow_flow import SlowFlow
 
 # A further language is a function from the form to its text, and a line here.
 WRITERS: dict[str, Callable[[Form], str]] = {
@@ -45,5 +43,11 @@ def generate(
     """
     if language not in WRITERS:
         raise InputError(f"no code is generated for '{language}'; the languages are {', '.join(WRITERS)}")
-    build = slow_flow_form if hasattr(result, "damping") else expansion_form
-    return WRITERS[language](build(result, equation=equation, limit=limit))  # type: ignore[operator]
+    return WRITERS[language](form_of(result, equation=equation, limit=limit))
+
+
+def form_of(result: Expansion | SlowFlow, *, equation: str = "", limit: float | None = None) -> Form:
+    """The coefficient form of either result."""
+    if isinstance(result, SlowFlow):
+        return slow_flow_form(result, equation=equation, limit=limit)
+    return expansion_form(result, equation=equation, limit=limit)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from sympy import Expr, Rational, Symbol
 
 from symbolic.codegen.form import Argument, Form, Function, Powers, derivative, function, nearest_double
 from symbolic.errors import InputError
-from symbolic.typeset import to_sympy
+from symbolic.rendering import as_sympy
 
 if TYPE_CHECKING:
-    from symbolic.expansion import Expansion, SlowFlow
+    from symbolic.expansion import Expansion
+    from symbolic.slow_flow import SlowFlow, Term
 
 K = Symbol("k")
 
@@ -23,6 +24,8 @@ DEFINITIONS = {
 
 SCALING = "The coefficients hold in units where k = 1: another k rescales time, and all parameters with it."
 
+SMALL = "the small parameter of the equation"
+NO_NUMBER = "'{system}' has parameters without a number ({names}); set each of them"
 OMEGA0 = "Fundamental angular frequency, in radians per unit of time."
 
 # Enough digits that rounding an irrational natural frequency to a double is decided.
@@ -64,11 +67,9 @@ def rational_terms(expansion: Expansion, values: Sequence[object]) -> dict[Power
 
     Raises InputError while a parameter is still symbolic.
     """
-    exact = [to_sympy(value, expansion.names) for value in values]
+    exact = [as_sympy(value, expansion.names) for value in values]
     if any(not c.is_Rational for c in exact):
-        raise InputError(
-            f"'{expansion.system}' has the parameters {', '.join(expansion.names)} without a number; set each of them"
-        )
+        raise InputError(NO_NUMBER.format(system=expansion.system, names=", ".join(expansion.names)))
     return {(power,): c for power, c in enumerate(exact)}
 
 
@@ -76,29 +77,34 @@ def slow_flow_form(flow: SlowFlow, *, equation: str = "", limit: float | None = 
     """Build the functions omega0 and damping of a multiple-scales slow flow."""
     arguments = (
         Argument("a", DEFINITIONS["fundamental"]),
-        Argument("mu", "damping coefficient of 2*mu*u'"),
+        Argument(flow.small, "coefficient of the damping 2*mu*u'" if flow.small == "mu" else SMALL),
+        frequency_argument(flow.scale),
     )
+    rate = "Relative rate of change of the amplitude, a'/a, per unit of time."
     functions = (
-        slow_function("omega0", OMEGA0, "W", arguments, flow.frequency),
-        slow_function(
-            "damping", "Relative rate of change of the amplitude, a'/a, per unit of time.", "D", arguments, flow.damping
-        ),
+        slow_function("omega0", OMEGA0, "W", arguments, flow, flow.frequency),
+        slow_function("damping", rate, "D", arguments, flow, flow.damping),
     )
     facts = (
-        *common_facts("multiple-scales", equation),
+        *common_facts(flow.method, equation),
         f"Amplitude a: {DEFINITIONS['fundamental']}.",
-        f"Order: terms a^p mu^q with p + {flow.weight} q up to {flow.order}.",
+        f"Order: terms a^p {flow.small}^q with p + {flow.weight} q up to {flow.order}.",
+        SCALING,
         *limit_fact("a", limit),
     )
     return Form(flow.system, f"Slow flow of '{flow.system}'", facts, functions)
 
 
 def slow_function(
-    name: str, summary: str, prefix: str, arguments: tuple[Argument, ...], terms: Iterable[object]
+    name: str, summary: str, prefix: str, arguments: tuple[Argument, ...], flow: SlowFlow, terms: Sequence[Term]
 ) -> Function:
-    """One side of the slow flow as a polynomial in a and mu."""
-    polynomial = {tuple(term.powers): Rational(term.coefficient) for term in terms}  # type: ignore[attr-defined]
-    return function(name, summary, prefix, arguments, polynomial)
+    """One side of the slow flow; a term a^p m^q carries k^(1 - q), which is taken out of it here."""
+    units: dict[Powers, Rational] = {
+        term.powers: term.coefficient * flow.scale ** (term.powers[1] - 1) for term in terms
+    }
+    if any(not c.is_Rational for c in units.values()):
+        raise InputError(NO_NUMBER.format(system=flow.system, names=", ".join(flow.names)))
+    return function(name, summary, prefix, arguments, units, factor=K, per={flow.small: K})
 
 
 def frequency_argument(scale: Expr) -> Argument:
@@ -112,7 +118,7 @@ def frequency_argument(scale: Expr) -> Argument:
 def variable_meaning(expansion: Expansion) -> str:
     """What the variable of an expansion stands for."""
     if expansion.variable == "eps":
-        return "the small parameter of the equation"
+        return SMALL
     return f"{expansion.amplitude} amplitude, " + DEFINITIONS.get(expansion.amplitude, expansion.amplitude)
 
 

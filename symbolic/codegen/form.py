@@ -83,7 +83,7 @@ def nearest_double(exact: Rational) -> float:
 def decimal_exponent(exact: Rational) -> int:
     """Decimal exponent of a rational too large or too small to be a float, to within one.
 
-    >>> decimal_exponent(Rational(10**400, 3))
+    >>> decimal_exponent(Rational(10**400))
     400
     """
     bits = abs(int(exact.p)).bit_length() - int(exact.q).bit_length()
@@ -144,7 +144,7 @@ class Steps:
         """Evaluate sum_p coefficients[p] * variable^p by Horner's rule, in variable^2 where that is possible."""
         low, high = min(coefficients), max(coefficients)
         even = all((power - low) % 2 == 0 for power in coefficients)
-        stride, step = (2, self.square(variable)) if even and high > 0 else (1, variable)
+        stride, step = (2, self.square(variable)) if even and high > 1 else (1, variable)
         value = self.assign(name, coefficients[high])
         for power in range(high - stride, low - 1, -stride):
             value = self.assign(name, add(product(step, value), coefficients.get(power)))
@@ -216,12 +216,11 @@ def function(
     count = len(next(iter(terms), (0,)))
     kept = {powers: coefficient for powers, coefficient in terms.items() if coefficient != 0}
     steps = Steps()
-    names = tuple(
-        steps.assign(f"{a.name}_by_{per[a.name]}", Symbol(a.name) / per[a.name]).name
-        if per and a.name in per
-        else a.name
-        for a in arguments[:count]
-    )
+    names = tuple(a.name for a in arguments[:count])
+    for index, own in enumerate(names):
+        if per and own in per and any(powers[index] for powers in kept):
+            scaled = steps.assign(f"{own}_by_{per[own]}", Symbol(own) / per[own])
+            names = (*names[:index], scaled.name, *names[index + 1 :])
     value = polynomial(prefix, names, kept, steps)
     result = value if factor is None else product(factor, value)
     return Function(name, summary, arguments, constants_of(prefix, kept), tuple(steps.taken), result)

@@ -1,0 +1,103 @@
+"""Options that several verbs share, so that each reads and says the same everywhere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from ridgeback.arguments import ASSIGNMENT
+from ridgeback.output import STDOUT, output_path
+
+if TYPE_CHECKING:
+    from symbolic.oscillator import Oscillator
+
+Decorated = TypeVar("Decorated", bound=Callable[..., Any])
+
+METHODS = ("lindstedt", "multiple-scales", "energy-integral")
+AMPLITUDES = ("peak", "fundamental")
+
+
+def set_option(command: Decorated) -> Decorated:
+    """``--set NAME=VALUE``, repeatable."""
+    return click.option(
+        "--set",
+        "assignments",
+        type=ASSIGNMENT,
+        multiple=True,
+        metavar="NAME=VALUE",
+        help="Give a parameter a value, exactly as written (0.01 is 1/100).  Repeatable.",
+    )(command)
+
+
+def output_option(command: Decorated) -> Decorated:
+    """``-o FILE``, by default standard output."""
+    return click.option(
+        "-o",
+        "--output",
+        "output",
+        type=output_path,
+        default=STDOUT,
+        metavar="FILE",
+        help="Where to write; the file appears whole or not at all.  Default: standard output.",
+    )(command)
+
+
+def format_option(*formats: str, default: str) -> Callable[[Decorated], Decorated]:
+    """``--format``, one of those that the verb has."""
+
+    def decorate(command: Decorated) -> Decorated:
+        """Add the option."""
+        return click.option(
+            "--format",
+            "style",
+            type=click.Choice(formats),
+            default=default,
+            show_default=True,
+            help="Form of the output.",
+        )(command)
+
+    return decorate
+
+
+def expansion_options(command: Decorated) -> Decorated:
+    """``--method``, ``--amplitude``, ``--weight``: which derivation, in which variables."""
+    for option in (
+        click.option(
+            "--weight",
+            type=click.IntRange(1, 1000),
+            default=None,
+            help="Weight of mu in the order of multiple scales: mu counts like a^WEIGHT.  Default: 2.",
+        ),
+        click.option(
+            "--amplitude",
+            type=click.Choice(AMPLITUDES),
+            default=None,
+            help="What the amplitude is: the turning point (peak) or the first harmonic (fundamental).",
+        ),
+        click.option(
+            "--method",
+            type=click.Choice(METHODS),
+            default=None,
+            help="Derivation.  Default: multiple-scales for a damped system, else lindstedt.",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def chosen(system: str, assignments: tuple[tuple[str, Fraction], ...]) -> Oscillator:
+    """The catalogue's oscillator with the parameters that were set.
+
+    Raises click.UsageError when a parameter is set twice, InputError for an unknown system or parameter.
+    """
+    from symbolic.systems import find
+
+    names = [name for name, _ in assignments]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise click.UsageError(f"--set gives {twice[0]} twice; keep one of the values")
+    oscillator = find(system)
+    return oscillator.with_parameters(dict(assignments)) if assignments else oscillator

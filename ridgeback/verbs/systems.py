@@ -1,0 +1,64 @@
+"""``ridgeback systems``: the catalogue, or one oscillator of it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ridgeback.options import format_option, output_option
+from ridgeback.output import json_text, write_text
+from ridgeback.tables import aligned, csv_text
+
+if TYPE_CHECKING:
+    from symbolic.oscillator import Oscillator
+
+COLUMNS = ("name", "kind", "equation", "parameters")
+
+
+@click.command("systems", short_help="List the oscillators, or describe one.")
+@click.argument("system", required=False)
+@format_option("text", "json", "csv", default="text")
+@output_option
+def command(system: str | None, style: str, output: str) -> None:
+    r"""List the oscillators of the catalogue, or describe the one named SYSTEM.
+
+    \b
+    ridgeback systems
+    ridgeback systems pendulum --format json
+    """
+    from symbolic.systems import catalogue, find
+
+    chosen = catalogue() if system is None else (find(system),)
+    records = [record(oscillator) for oscillator in chosen]
+    write_text(output, printed(records, style, detailed=system is not None))
+
+
+def record(oscillator: Oscillator) -> dict[str, Any]:
+    """Everything the catalogue says of an oscillator, exact values as text."""
+    return {
+        "name": oscillator.name,
+        "title": oscillator.title,
+        "kind": oscillator.kind,
+        "equation": oscillator.equation,
+        "parameters": {name: str(value) for name, value in oscillator.parameters.items()},
+        "natural_frequency": str(oscillator.natural_frequency),
+        "potential": None if oscillator.potential is None else str(oscillator.potential),
+        "aliases": list(oscillator.aliases),
+        "reference": oscillator.reference,
+        "description": oscillator.description,
+    }
+
+
+def printed(records: list[dict[str, Any]], style: str, *, detailed: bool) -> str:
+    """The records in the form asked for."""
+    if style == "json":
+        return json_text(records[0] if detailed else records)
+    rows = [{**r, "parameters": " ".join(f"{n}={v}" for n, v in r["parameters"].items())} for r in records]
+    if style == "csv":
+        return csv_text([*COLUMNS, "potential", "reference"], rows)
+    if not detailed:
+        return aligned(COLUMNS, rows) + "\n"
+    row = {**rows[0], "aliases": ", ".join(rows[0]["aliases"])}
+    width = max(map(len, row))
+    return "".join(f"{key.ljust(width)}  {value}\n" for key, value in row.items() if value)
