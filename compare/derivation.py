@@ -1,0 +1,236 @@
+"""The exact side of a report: formulas term by term, the certificate, the generated code.
+
+Formulas are printed in units where the natural frequency is 1 (``omega_0 / k``), so that their coefficients stay the
+exact rationals they are, whatever decimal k was given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import sympy
+
+from compare.results import Derivation, Formula
+from symbolic.codegen import generate
+from symbolic.energy_integral import energy_integral
+from symbolic.errors import InputError
+from symbolic.expansion import Expansion
+from symbolic.lindstedt import lindstedt
+from symbolic.multiple_scales import multiple_scales
+from symbolic.oscillator import Oscillator
+from symbolic.rendering import as_sympy
+from symbolic.slow_flow import SlowFlow, Term
+
+MAX_HARMONICS = 3
+"""Harmonics of u that are printed; all of them are in the expansion itself."""
+_LATEX = {sympy.Symbol("eps", real=True): r"\varepsilon", sympy.Symbol("mu", real=True): r"\mu"}
+
+
+@dataclass(frozen=True)
+class Exact:
+    """The derived series of one oscillator: the periodic family, and the slow flow where there is one."""
+
+    oscillator: Oscillator
+    expansion: Expansion
+    flow: SlowFlow | None
+
+
+def undamped(oscillator: Oscillator) -> Oscillator:
+    """Return the oscillator with its linear damping set to zero: the one that has a backbone curve.
+
+    >>> from symbolic.systems import find
+    >>> undamped(find("damped-pendulum")).is_conservative
+    True
+    """
+    return oscillator.with_parameters({oscillator.damping: 0}) if oscillator.damping else oscillator
+
+
+def derive(oscillator: Oscillator, order: int, *, flow_order: int | None = None) -> Exact:
+    """Derive the expansion of the undamped oscillator (or limit cycle), and the slow flow of the damped one.
+
+    Raises InputError for an order below 0 and for an oscillator without a family of periodic orbits.
+    """
+    expansion = lindstedt(undamped(oscillator), order)
+    flow = None
+    if oscillator.damping is not None or oscillator.kind != "damped":
+        flow = multiple_scales(oscillator, min(order, 8) if flow_order is None else flow_order)
+    return Exact(oscillator, expansion, flow)
+
+
+def derivation(exact: Exact) -> Derivation:
+    """Formulas, certificate and code of what was derived."""
+    return Derivation(
+        system=exact.oscillator.name,
+        formulas=tuple(_formulas(exact)),
+        certificate=certificate(exact),
+        code=_code(exact),
+    )
+
+
+def _formulas(exact: Exact) -> Iterator[Formula]:
+    expansion = exact.expansion
+    yield frequency_formula(expansion)
+    if expansion.variable == "A" and expansion.amplitude == "peak":
+        yield frequency_formula(expansion.convert("fundamental"))
+    if expansion.amplitude_coefficients is not None:
+        yield _amplitude_formula(expansion)
+    yield from _harmonic_formulas(expansion)
+    if exact.flow is not None:
+        yield from _flow_formulas(exact.flow)
+
+
+def frequency_formula(expansion: Expansion) -> Formula:
+    r"""Return omega_0 / k as a sum of exact terms.
+
+    >>> from symbolic.systems import find
+    >>> frequency_formula(lindstedt(find("pendulum"), 2)).terms
+    ('1', '- \\frac{A^{2}}{16}')
+    """
+    name = _variable_latex(expansion)
+    return Formula(
+        title=f"Fundamental frequency, {_meaning(expansion)}",
+        left=rf"\frac{{\omega_0({name})}}{{k}}" if expansion.scale != 1 else rf"\omega_0({name})",
+        terms=power_series(expansion, expansion.coefficients),
+        note=f"Order {expansion.order}: powers of the variable kept.",
+        python=f"omega0 = {float(expansion.scale)!r} * ({sympy.Add(*_powers(expansion, expansion.coefficients))})",
+    )
+
+
+def _meaning(expansion: Expansion) -> str:
+    return "limit cycle in eps" if expansion.variable == "eps" else f"{expansion.amplitude} amplitude"
+
+
+def _variable_latex(expansion: Expansion) -> str:
+    if expansion.variable == "eps":
+        return r"\varepsilon"
+    return "a" if expansion.amplitude == "fundamental" else expansion.variable
+
+
+def _powers(expansion: Expansion, coefficients: Iterable[object]) -> list[sympy.Expr]:
+    name = "a" if expansion.amplitude == "fundamental" and expansion.variable == "A" else expansion.variable
+    x = sympy.Symbol(name, real=True)
+    step = 1 / expansion.scale if expansion.scaled_variable else sympy.S.One
+    exact = (as_sympy(c, expansion.names) for c in coefficients)
+    return [c * (step * x) ** n for n, c in enumerate(exact) if c != 0]
+
+
+def power_series(expansion: Expansion, coefficients: Iterable[object]) -> tuple[str, ...]:
+    """LaTeX of each nonzero term of a power series in the variable of ``expansion``, with its sign."""
+    return latex_terms(_powers(expansion, coefficients))
+
+
+def latex_terms(terms: Iterable[sympy.Expr]) -> tuple[str, ...]:
+    """Return LaTeX of each term; ``0`` when there is none."""
+    return tuple(sympy.latex(term, symbol_names=_LATEX) for term in terms) or ("0",)
+
+
+def _amplitude_formula(expansion: Expansion) -> Formula:
+    coefficients = expansion.amplitude_coefficients or ()
+    return Formula(
+        title=f"Amplitude of the limit cycle ({expansion.amplitude})",
+        left=r"A(\varepsilon)",
+        terms=power_series(expansion, coefficients),
+    )
+
+
+def _harmonic_formulas(expansion: Expansion) -> Iterator[Formula]:
+    """Yield the leading harmonics of u, cosine and sine parts apart."""
+    x = sympy.Symbol(expansion.variable, real=True)
+    for harmonic in expansion.harmonics[:MAX_HARMONICS]:
+        for part, values in (("cos", harmonic.cosine), ("sin", harmonic.sine)):
+            terms = [c * x**n for n, c in enumerate(values) if c != 0]
+            if terms:
+                yield Formula(
+                    title=_harmonic_title(harmonic.multiple),
+                    left=rf"[\{part} {_multiple(harmonic.multiple)}\omega_0 t]\; u"
+                    if harmonic.multiple
+                    else r"\bar{u}",
+                    terms=latex_terms(terms),
+                )
+
+
+def _harmonic_title(multiple: int) -> str:
+    return f"Harmonic {multiple} of the motion" if multiple else "Mean offset of the motion"
+
+
+def _harmonic_name(multiple: int, part: str) -> str:
+    """Return the coefficient of cos or sin of the multiple of omega_0 t in u; the mean of u for multiple 0."""
+    number = "" if multiple == 1 else str(multiple)
+    return rf"[\{part} {number}\omega_0 t]\; u" if multiple else r"\bar{u}"
+
+
+def _flow_formulas(flow: SlowFlow) -> Iterator[Formula]:
+    note = f"Terms a^p {flow.small}^q with p + {flow.weight} q up to {flow.order}; a is the fundamental amplitude."
+    k = "" if flow.scale == 1 else r"/k"
+    for title, left, terms in (
+        ("Slow flow: phase", rf"\dot{{\varphi}}{k}", flow.frequency),
+        ("Slow flow: amplitude", rf"\frac{{\dot{{a}}}}{{a}}{k}", flow.damping),
+    ):
+        yield Formula(title, left, latex_terms(_in_natural_units(flow, terms)), note)
+
+
+def _in_natural_units(flow: SlowFlow, terms: Iterable[Term]) -> list[sympy.Expr]:
+    """Terms of phi'/k and a'/(a k), with the small parameter over k."""
+    a = sympy.Symbol("a", real=True)
+    small = sympy.Symbol(flow.small, real=True)
+    if flow.scale != 1:
+        small = small / sympy.Symbol("k", real=True)
+    return [
+        term.coefficient * flow.scale ** (term.powers[1] - 1) * a ** term.powers[0] * small ** term.powers[1]
+        for term in terms
+    ]
+
+
+def certificate(exact: Exact) -> tuple[str, ...]:
+    """Independent checks, each done now and in exact arithmetic; a failed one says so."""
+    lines = [_residual_line(exact.expansion)]
+    if exact.expansion.variable == "A":
+        lines.append(_energy_line(exact))
+    if exact.flow is not None:
+        lines.append(_flow_residual_line(exact.flow))
+        if exact.expansion.variable == "A":
+            lines.append(_agreement_line(exact.expansion, exact.flow))
+    return tuple(lines)
+
+
+def _residual_line(expansion: Expansion) -> str:
+    left = expansion.residual()
+    if left:
+        return f"FAILED: substituted into the equation, orders {left} do not cancel."
+    return f"Residual: u and omega_0 substituted back into the equation cancel identically through order {expansion.order}."
+
+
+def _energy_line(exact: Exact) -> str:
+    expansion = exact.expansion
+    try:
+        other = energy_integral(undamped(exact.oscillator), expansion.order, amplitude=expansion.amplitude)
+    except InputError as error:
+        return f"Energy integral: not available ({error})."
+    if tuple(other.frequency) != tuple(expansion.frequency):
+        return "FAILED: the energy integral gives other coefficients than the Lindstedt-Poincaré expansion."
+    return (
+        f"Energy integral: the same {expansion.order + 1} coefficients by series reversion, without oscillator theory."
+    )
+
+
+def _flow_residual_line(flow: SlowFlow) -> str:
+    left = flow.residual()
+    if left:
+        return f"FAILED: the slow flow substituted into the equation leaves grades {left}."
+    return f"Multiple scales: the slow flow and its harmonics cancel identically through weighted degree {flow.order}."
+
+
+def _agreement_line(expansion: Expansion, flow: SlowFlow) -> str:
+    order = min(expansion.order, flow.order)
+    converted = expansion.truncated(order).convert("fundamental").frequency
+    by_power = {term.powers[0]: term.coefficient for term in flow.frequency if term.powers[1] == 0}
+    if any(by_power.get(n, 0) != c for n, c in enumerate(converted)):
+        return "FAILED: multiple scales without damping differs from the Lindstedt-Poincaré expansion."
+    return f"Agreement: converted to the fundamental amplitude, Lindstedt-Poincaré equals multiple scales through order {order}."
+
+
+def _code(exact: Exact) -> dict[str, str]:
+    equation = exact.oscillator.equation
+    names = {"Python": "python", "C": "c"}
+    return {title: generate(exact.expansion, language, equation=equation) for title, language in names.items()}

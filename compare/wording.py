@@ -1,0 +1,67 @@
+"""Numbers as a reader meets them: relative errors in per cent or as a power of ten, amplitudes in units of pi."""
+
+from __future__ import annotations
+
+import math
+
+
+def relative(value: float | None, *, signed: bool = False) -> str:
+    """Relative error: per cent down to 0.01 %, below that in powers of ten; never an SI prefix.
+
+    >>> relative(0.0019), relative(-0.0102, signed=True), relative(1.7e-5), relative(None)
+    ('0.19 %', '-1.0 %', '1.7e-05', 'no value')
+    """
+    if value is None or not math.isfinite(value):
+        return "no value"
+    size = abs(value)
+    sign = ("-" if value < 0 else "+") if signed else ("-" if value < 0 else "")
+    if size >= 1e-4:
+        return f"{sign}{_two_digits(100 * size)} %"
+    return f"{sign}{size:.1e}" if size else "0"
+
+
+def _two_digits(value: float) -> str:
+    """Return two significant digits without an exponent.
+
+    >>> _two_digits(0.1934), _two_digits(12.3), _two_digits(1.04)
+    ('0.19', '12', '1.0')
+    """
+    places = max(0, 1 - math.floor(math.log10(value) + 1e-12))
+    return f"{value:.{places}f}"
+
+
+def in_pi(value: float, *, digits: int = 3) -> str:
+    """Angle in units of pi.
+
+    >>> in_pi(0.6589 * math.pi)
+    '0.659 pi'
+    """
+    return f"{value / math.pi:.{digits}f} pi"
+
+
+def amplitude(value: float, unit: str) -> str:
+    """Amplitude with its unit, angles also in units of pi.
+
+    >>> amplitude(2.1, "rad"), amplitude(2.1, "")
+    ('2.1 rad (0.668 pi)', '2.1')
+    """
+    text = f"{value:.4g}"
+    return f"{text} rad ({in_pi(value)})" if unit == "rad" else f"{text} {unit}".strip()
+
+
+def hertz(omega: float) -> str:
+    """Frequency in hertz from rad per second.
+
+    >>> hertz(2 * math.pi)
+    '1.000 Hz'
+    """
+    return f"{omega / (2 * math.pi):.3f} Hz"
+
+
+def nanoseconds(value: float) -> str:
+    """Time per value, three digits.
+
+    >>> nanoseconds(6.234), nanoseconds(1234.0)
+    ('6.23 ns', '1230 ns')
+    """
+    return f"{float(f'{value:.3g}'):g} ns"
