@@ -56,9 +56,7 @@ ARRAY = Library("numpy", {name: getattr(np, name) for name in _NAMES}, _float_co
 PRECISE = Library("mpmath", {name: getattr(mpmath, name) for name in _NAMES}, mp_constant, True)
 
 
-def evaluator(
-    expression: sympy.Expr, symbols: Sequence[sympy.Symbol], library: Library = SCALAR
-) -> Evaluator:
+def evaluator(expression: sympy.Expr, symbols: Sequence[sympy.Symbol], library: Library = SCALAR) -> Evaluator:
     """Closure over ``expression`` whose argument is the sequence of values of ``symbols``.
 
     Raises InputError for a symbol that is not listed and for a function that the library lacks.
@@ -76,11 +74,7 @@ def evaluator(
     parts = [evaluator(argument, symbols, library) for argument in expression.args]
     if isinstance(expression, sympy.Add):
         return reduce(_sum, parts)
-    return (
-        reduce(_product, parts)
-        if isinstance(expression, sympy.Mul)
-        else _function(expression, parts, library)
-    )
+    return reduce(_product, parts) if isinstance(expression, sympy.Mul) else _function(expression, parts, library)
 
 
 def _sum(left: Evaluator, right: Evaluator) -> Evaluator:
@@ -130,8 +124,6 @@ def _function(expression: sympy.Expr, parts: Sequence[Evaluator], library: Libra
     name = type(expression).__name__
     if name not in library.functions or len(parts) != 1:
         known = ", ".join(sorted(library.functions))
-        raise InputError(
-            f"{name} in {expression} cannot be evaluated with {library.name}; known functions: {known}"
-        )
+        raise InputError(f"{name} in {expression} cannot be evaluated with {library.name}; known functions: {known}")
     function, inner = library.functions[name], parts[0]
     return lambda x: function(inner(x))

@@ -30,9 +30,7 @@ def solution_jet(force: sympy.Expr, u: sympy.Symbol, v: sympy.Symbol) -> Jet:
     >>> [int(6 * c) for c in solution_jet(u, u, v)(1, 0, 3)]      # cos t
     [6, 0, -3, 0]
     """
-    Program({u: [], v: []}).node(
-        force
-    )  # an unusable force is refused here, not in the middle of an integration
+    Program({u: [], v: []}).node(force)  # an unusable force is refused here, not in the middle of an integration
 
     def jet(u0: Any, v0: Any, degree: int) -> list[Any]:
         position, velocity = [mpmath.mpf(u0)], [mpmath.mpf(v0)]
@@ -175,9 +173,7 @@ class Program:
         out: Series = []
 
         def step(n: int) -> None:
-            out.append(
-                mpmath.exp(inner[0]) if n == 0 else mpmath.fdot(slope[1 : n + 1], out[n - 1 :: -1]) / n
-            )
+            out.append(mpmath.exp(inner[0]) if n == 0 else mpmath.fdot(slope[1 : n + 1], out[n - 1 :: -1]) / n)
 
         self._steps.append(step)
         return out

@@ -326,3 +326,5 @@ class Report:
     provenance: Provenance
     csv: Mapping[str, str] = field(default_factory=dict)
     """File name to CSV text, for the download links."""
+    finding: Range | None = None
+    """The range of use that the title states and the figures mark; None: the first of ``ranges``."""
