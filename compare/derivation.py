@@ -143,9 +143,7 @@ def _harmonic_formulas(expansion: Expansion) -> Iterator[Formula]:
             if terms:
                 yield Formula(
                     title=_harmonic_title(harmonic.multiple),
-                    left=rf"[\{part} {_multiple(harmonic.multiple)}\omega_0 t]\; u"
-                    if harmonic.multiple
-                    else r"\bar{u}",
+                    left=_harmonic_name(harmonic.multiple, part),
                     terms=latex_terms(terms),
                 )
 
@@ -198,7 +196,7 @@ def _residual_line(expansion: Expansion) -> str:
     left = expansion.residual()
     if left:
         return f"FAILED: substituted into the equation, orders {left} do not cancel."
-    return f"Residual: u and omega_0 substituted back into the equation cancel identically through order {expansion.order}."
+    return f"Residual: u and omega_0 put back into the equation cancel identically through order {expansion.order}."
 
 
 def _energy_line(exact: Exact) -> str:
@@ -227,7 +225,10 @@ def _agreement_line(expansion: Expansion, flow: SlowFlow) -> str:
     by_power = {term.powers[0]: term.coefficient for term in flow.frequency if term.powers[1] == 0}
     if any(by_power.get(n, 0) != c for n, c in enumerate(converted)):
         return "FAILED: multiple scales without damping differs from the Lindstedt-Poincaré expansion."
-    return f"Agreement: converted to the fundamental amplitude, Lindstedt-Poincaré equals multiple scales through order {order}."
+    return (
+        "Agreement: converted to the fundamental amplitude, Lindstedt-Poincaré equals multiple scales "
+        f"through order {order}."
+    )
 
 
 def _code(exact: Exact) -> dict[str, str]:
