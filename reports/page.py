@@ -1,0 +1,80 @@
+"""The one HTML page: everything inside, nothing fetched, safe whatever the names in a report are."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from importlib import resources
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from compare.results import Report
+from reports.formulas import FormulaError, mathml
+from reports.sections import sections
+from reports.theme import variables_css
+
+WARN_BYTES = 2_000_000
+
+
+def render(report: Report) -> str:
+    """Return the whole page of a report as HTML; the same report gives the same bytes.
+
+    The page's only script is admitted by its hash, so that markup smuggled in through a name could not run
+    even if it were not escaped (it is).
+    """
+    environment = _environment()
+    script, style = _source("script.js"), _source("style.css")
+    return environment.get_template("page.html").render(
+        report=report,
+        equation=_equation(report),
+        sections=sections(report),
+        style=variables_css() + style,
+        script=script,
+        script_hash=_hash(script),
+    )
+
+
+def size_warning(page: str) -> str | None:
+    """Return a warning when a page is heavier than a browser and a mail server like, else None.
+
+    >>> size_warning("x" * 10) is None
+    True
+    """
+    size = len(page.encode())
+    if size <= WARN_BYTES:
+        return None
+    return (
+        f"the page has {size / 1e6:.1f} MB, more than {WARN_BYTES / 1e6:.0f} MB; "
+        "fewer amplitudes, orders or samples make it smaller"
+    )
+
+
+def _environment() -> Environment:
+    environment = Environment(
+        loader=PackageLoader("reports"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.policies["json.dumps_kwargs"] = {"separators": (",", ":"), "allow_nan": False}
+    return environment
+
+
+def _source(name: str) -> str:
+    return (resources.files("reports") / "templates" / name).read_text(encoding="utf-8")
+
+
+def _hash(script: str) -> str:
+    return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode("ascii")
+
+
+def _equation(report: Report) -> str:
+    """Return the equation of a decay as MathML, empty when there is none or when it cannot be set."""
+    if report.decay is None:
+        return ""
+    try:
+        return mathml(report.decay.case.equation_latex)
+    except FormulaError:
+        return ""

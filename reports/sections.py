@@ -1,0 +1,183 @@
+"""A report as a list of sections: what stands where on the page.  A section exists only if the report has it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+from urllib.parse import quote
+
+from compare.results import Derivation, Formula, Provenance, Range, RecordingComparison, Report
+from reports.decay_figures import budget_figure, residuals_figure, tracks_figure
+from reports.formulas import FormulaError, formula_latex, formula_mathml
+from reports.paper_figures import paper_figures
+from reports.recording_figures import recording_blocks
+from reports.study_figures import backbone_block, error_block, map_block, order_needed
+from reports.tables import budget_table, range_table, score_table, timing_table
+from reports.wording import number
+
+PartKind = Literal["figure", "table", "formula", "text", "lines", "statement", "code", "downloads", "provenance"]
+
+
+@dataclass(frozen=True)
+class Part:
+    """One piece of a section; the template knows how each kind is set."""
+
+    kind: PartKind
+    value: object
+
+
+@dataclass(frozen=True)
+class Section:
+    """One titled section of the page."""
+
+    key: str
+    title: str
+    parts: tuple[Part, ...]
+
+
+@dataclass(frozen=True)
+class SetFormula:
+    """A formula with its MathML; without it (LaTeX that cannot be set) the page shows the LaTeX itself."""
+
+    title: str
+    markup: str
+    latex: str
+    python: str
+    note: str
+
+
+def sections(report: Report) -> tuple[Section, ...]:
+    """Return the sections of a page in reading order, empty ones left out."""
+    found = (
+        Section("section-backbone", "Frequency against amplitude", tuple(_backbone(report))),
+        Section("section-recording", "The recording", tuple(_recording(report.recording))),
+        Section("section-formula", "The expansion", tuple(_derivation(report.derivation))),
+        Section("section-error", "Error against amplitude", tuple(_study_errors(report))),
+        Section("section-map", "Which order is needed", tuple(_orders(report))),
+        Section("section-tracks", "Frequency against time", tuple(_tracks(report))),
+        Section("section-paper", "The paper's figures, measured", tuple(_paper(report))),
+        Section("section-budget", "Where the errors come from", tuple(_errors(report))),
+        Section("section-timing", "What an evaluation costs", tuple(_timings(report))),
+        Section("section-code", "Generated code", tuple(_code(report.derivation))),
+        Section("section-data", "Data", tuple(_downloads(report.csv))),
+        Section("section-provenance", "Provenance", (Part("provenance", _provenance(report.provenance)),)),
+    )
+    return tuple(section for section in found if section.parts)
+
+
+def _finding(report: Report) -> Range | None:
+    return report.finding or (report.ranges[0] if report.ranges else None)
+
+
+def _backbone(report: Report) -> Iterator[Part]:
+    if report.study:
+        yield Part("figure", backbone_block(report.study, _finding(report)))
+
+
+def _recording(recording: RecordingComparison | None) -> Iterator[Part]:
+    if recording is None:
+        return
+    yield Part("text", f"{recording.source}, column {recording.column}, at {number(recording.rate)} Hz.")
+    yield from (Part("figure", drawn) for drawn in recording_blocks(recording))
+    if recording.fit:
+        yield Part("formula", set_formula(recording.fit))
+    if recording.notes:
+        yield Part("lines", recording.notes)
+
+
+def _derivation(derivation: Derivation | None) -> Iterator[Part]:
+    if derivation is None:
+        return
+    yield from (Part("formula", set_formula(formula)) for formula in derivation.formulas)
+    if derivation.certificate:
+        yield Part("text", "Checked exactly:")
+        yield Part("lines", derivation.certificate)
+
+
+def set_formula(formula: Formula) -> SetFormula:
+    r"""Set a formula; LaTeX that cannot be set is kept as text, never dropped.
+
+    >>> set_formula(Formula(title="", left="u", terms=(r"\nonsense",))).markup
+    ''
+    """
+    try:
+        markup = "".join(formula_mathml(formula))
+    except FormulaError:
+        markup = ""
+    return SetFormula(formula.title, markup, formula_latex(formula), formula.python, formula.note)
+
+
+def _study_errors(report: Report) -> Iterator[Part]:
+    if report.study:
+        yield Part("figure", error_block(report.study, _finding(report)))
+
+
+def _orders(report: Report) -> Iterator[Part]:
+    study = report.study
+    if study is None:
+        return
+    yield Part("figure", map_block(study))
+    needed = order_needed(study, report.ranges)
+    if needed:
+        yield Part("figure", needed)
+    if report.ranges:
+        letter = "A" if study.variable == "A" else "ε"
+        yield Part("table", range_table(report.ranges, letter, study.amplitude_unit))
+
+
+def _tracks(report: Report) -> Iterator[Part]:
+    if report.decay:
+        yield Part("figure", tracks_figure(report.decay))
+        if report.decay.curves:
+            yield Part("figure", residuals_figure(report.decay))
+
+
+def _paper(report: Report) -> Iterator[Part]:
+    if report.decay:
+        for item in paper_figures(report.decay):
+            yield Part("statement", item.statement)
+            yield from (Part("figure", drawn) for drawn in item.blocks)
+
+
+def _errors(report: Report) -> Iterator[Part]:
+    if report.decay is None:
+        return
+    drawn = budget_figure(report.decay)
+    if drawn:
+        yield Part("figure", drawn)
+    if report.decay.budget:
+        yield Part("table", budget_table(report.decay.budget))
+    if report.decay.scores:
+        yield Part("table", score_table(report.decay.scores, report.decay.reference.label))
+
+
+def _timings(report: Report) -> Iterator[Part]:
+    if report.timings:
+        yield Part("table", timing_table(report.timings))
+
+
+def _code(derivation: Derivation | None) -> Iterator[Part]:
+    for name, text in (derivation.code if derivation else {}).items():
+        yield Part("code", {"name": name, "text": text, "lines": text.count("\n") + (not text.endswith("\n"))})
+
+
+def _downloads(csv: Mapping[str, str]) -> Iterator[Part]:
+    if csv:
+        yield Part("downloads", [_download(name, text) for name, text in csv.items()])
+
+
+def _download(name: str, text: str) -> dict[str, str]:
+    uri = "data:text/csv;charset=utf-8," + quote(text, safe=" ,.:;=+-_()/*")
+    return {"name": name, "uri": uri.replace(" ", "%20"), "size": f"{len(text.encode()) / 1000:.0f} kB"}
+
+
+def _provenance(provenance: Provenance) -> dict[str, object]:
+    facts = [
+        *((name, value) for name, value in provenance.parameters.items()),
+        *((f"{name} version", value) for name, value in provenance.versions.items()),
+        ("settings hash", provenance.settings_hash),
+        ("input hash", provenance.input_hash),
+        *((f"time, {name}", f"{number(seconds, 2)} s") for name, seconds in provenance.seconds.items()),
+    ]
+    return {"command": provenance.command, "facts": [(name, value) for name, value in facts if value]}
