@@ -1,0 +1,103 @@
+"""Samples of a signal, checked once at the door.
+
+A signal is one-dimensional: float64 when real, complex128 when complex, sampled at a constant rate (samples per
+time unit).  Everything behind this door may rely on it.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from numeric.errors import InputError
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+Mask = NDArray[np.bool_]
+
+TWO_PI = 2.0 * math.pi
+
+
+def read_only(values: ArrayLike, dtype: type = np.float64) -> NDArray[Any]:
+    """Return a read-only copy of ``values``.
+
+    >>> read_only([1, 2]).flags.writeable
+    False
+    """
+    copy: NDArray[Any] = np.array(values, dtype=dtype)
+    copy.flags.writeable = False
+    return copy
+
+
+def checked_samples(x: ArrayLike, *, name: str = "signal", at_least: int = 1) -> Array | ComplexArray:
+    """Return ``x`` as a one-dimensional float64 or complex128 array of finite values.
+
+    Raises InputError naming the first offending index when a value is not finite, when the shape is not
+    one-dimensional, or when there are fewer than ``at_least`` samples.
+
+    >>> checked_samples([0, 1, 2])
+    array([0., 1., 2.])
+    >>> checked_samples([0.0, float("nan")])
+    Traceback (most recent call last):
+        ...
+    numeric.errors.InputError: signal[1] is nan; every sample must be finite (cut or fill the gap first)
+    """
+    array = np.asarray(x)
+    if array.dtype.kind not in "biufc":
+        raise InputError(f"{name} has dtype {array.dtype}; use real or complex numbers")
+    if array.ndim != 1:
+        raise InputError(f"{name} has shape {array.shape}; use a one-dimensional array")
+    if array.size < at_least:
+        raise InputError(f"{name} has {array.size} samples; at least {at_least} are needed")
+    samples: Array | ComplexArray
+    samples = array.astype(np.complex128) if array.dtype.kind == "c" else array.astype(np.float64)
+    wrong = np.flatnonzero(~np.isfinite(samples))
+    if wrong.size:
+        index = int(wrong[0])
+        raise InputError(
+            f"{name}[{index}] is {samples[index]}; every sample must be finite (cut or fill the gap first)"
+        )
+    return samples
+
+
+def checked_real_samples(x: ArrayLike, *, what: str, at_least: int = 1) -> Array:
+    """Return real samples as float64; ``what`` names the work that cannot take complex ones.
+
+    >>> checked_real_samples([1j], what="the spectrogram")
+    Traceback (most recent call last):
+        ...
+    numeric.errors.InputError: signal is complex; the spectrogram takes real samples (pass one part of it)
+    """
+    samples = checked_samples(x, at_least=at_least)
+    if np.iscomplexobj(samples):
+        raise InputError(f"signal is complex; {what} takes real samples (pass one part of it)")
+    return np.asarray(samples, dtype=np.float64)
+
+
+def checked_rate(rate: float) -> float:
+    """Return the sampling rate as a positive finite float.
+
+    >>> checked_rate(0)
+    Traceback (most recent call last):
+        ...
+    numeric.errors.InputError: sampling rate 0 is not positive; give samples per time unit, such as 32.0
+    """
+    value = float(rate)
+    if not (math.isfinite(value) and value > 0.0):
+        raise InputError(f"sampling rate {rate} is not positive; give samples per time unit, such as 32.0")
+    return value
+
+
+def checked_budget(needed: int, budget: int, what: str, remedy: str) -> None:
+    """Refuse, before the work, what would need more than ``budget`` bytes.
+
+    >>> checked_budget(3_000_000, 1_000_000, "wigner of 600 samples", "pass step=2")
+    Traceback (most recent call last):
+        ...
+    numeric.errors.InputError: wigner of 600 samples needs 3 MB, over the budget of 1 MB; pass step=2
+    """
+    if needed > budget:
+        raise InputError(f"{what} needs {needed / 1e6:.3g} MB, over the budget of {budget / 1e6:.3g} MB; {remedy}")
