@@ -27,7 +27,6 @@ from numeric.arrays import Array, frozen
 from numeric.dynamics import Dynamics, well
 from numeric.errors import InputError
 from numeric.potential import (
-    Array,
     Restoring,
     check_peaks,
     mean_restoring,
