@@ -16,6 +16,7 @@ import sympy
 from flint import fmpq
 
 from symbolic import truncated
+from symbolic.cost import Budget, check
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion, check_definition, check_order
 from symbolic.fourier import Scalar, constant, space_for
@@ -26,11 +27,14 @@ from symbolic.series import Program
 ALLOWED = ("peak", "trough", "action")
 
 
-def energy_integral(oscillator: Oscillator, order: int, *, amplitude: str = "peak") -> Expansion:
+def energy_integral(
+    oscillator: Oscillator, order: int, *, amplitude: str = "peak", budget: Budget | None = None
+) -> Expansion:
     """Expand omega0 in the amplitude through the power ``order``.
 
     ``trough`` counts the size of the negative turning point as positive; ``action`` is sqrt(2 J), J the loop integral
-    of u' du over 2 pi.  Raises InputError for a bad order or definition, and for forces that depend on u'.
+    of u' du over 2 pi.  Raises InputError for a bad order or definition, for forces that depend on u', and when
+    the predicted cost exceeds the budget.
 
     >>> from symbolic.systems import find
     >>> energy_integral(find("pendulum"), 4).frequency
@@ -45,6 +49,7 @@ def energy_integral(oscillator: Oscillator, order: int, *, amplitude: str = "pea
             f"{oscillator.name} has terms in u', so its energy is not conserved in this form; "
             "use --method multiple-scales or lindstedt, or set its damping to 0"
         )
+    check("energy-integral", order, budget or Budget(), parameters=len(names))
     length = order + 1
     twice_potential = _twice_potential(force, names, length)
     root = truncated.square_root(twice_potential)  # s(u) / u

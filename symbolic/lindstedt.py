@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from flint import fmpq
 
+from symbolic.cost import Budget, check
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion, check_definition, check_order
 from symbolic.fourier import constant, cosine, solve_oscillator, space_for
@@ -30,10 +31,13 @@ from symbolic.strained import March, compiled, normalise, residual
 ALLOWED = ("peak", "fundamental")
 
 
-def lindstedt(oscillator: Oscillator, order: int, *, amplitude: str = "peak") -> Expansion:
+def lindstedt(
+    oscillator: Oscillator, order: int, *, amplitude: str = "peak", budget: Budget | None = None
+) -> Expansion:
     """Expand omega0 in the amplitude (conservative) or in eps (limit cycle), through the power ``order``.
 
-    Raises InputError for a bad order or definition, and for an oscillator without a family of periodic orbits.
+    Raises InputError for a bad order or definition, for an oscillator without a family of periodic orbits, and, before
+    any work, when the predicted cost exceeds the budget.
 
     >>> from symbolic.systems import find
     >>> lindstedt(find("van-der-pol"), 4).frequency
@@ -41,14 +45,17 @@ def lindstedt(oscillator: Oscillator, order: int, *, amplitude: str = "peak") ->
     """
     order = check_order(order)
     check_definition(amplitude, ALLOWED)
+    budget = budget or Budget()
     if oscillator.kind == "limit-cycle":
+        check("limit-cycle", order, budget)
         return limit_cycle(oscillator, order, amplitude)
-    return _conservative(oscillator, order, amplitude)
+    return _conservative(oscillator, order, amplitude, budget)
 
 
-def _conservative(oscillator: Oscillator, order: int, amplitude: str) -> Expansion:
+def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Budget) -> Expansion:
     natural = oscillator.normalised()
     force, names = natural.bound, free_names(natural.bound)
+    check("lindstedt", order, budget, parameters=len(names))
     space = space_for(names)
     program = compiled(force, names, constant(space, fmpq(0)))
     if program.root.slope_v:

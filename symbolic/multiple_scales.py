@@ -22,6 +22,7 @@ from __future__ import annotations
 import sympy
 from flint import fmpq
 
+from symbolic.cost import Budget, check
 from symbolic.errors import InputError
 from symbolic.expansion import check_order
 from symbolic.fourier import Scalar, Trig, constant, cosine, harmonic, sine, solve_oscillator, space_for
@@ -31,10 +32,11 @@ from symbolic.series import Program
 from symbolic.slow_flow import SlowFlow
 
 
-def multiple_scales(oscillator: Oscillator, order: int, *, weight: int = 2) -> SlowFlow:
+def multiple_scales(oscillator: Oscillator, order: int, *, weight: int = 2, budget: Budget | None = None) -> SlowFlow:
     """Expand phi' and a'/a in the fundamental amplitude a and the small parameter, through weighted degree ``order``.
 
-    Terms a^p m^r with p + weight r <= order are kept.  Raises InputError for a bad order or weight.
+    Terms a^p m^r with p + weight r <= order are kept.  Raises InputError for a bad order or weight, and when
+    the predicted cost exceeds the budget.
 
     >>> from symbolic.systems import find
     >>> flow = multiple_scales(find("pendulum"), 2)
@@ -47,6 +49,7 @@ def multiple_scales(oscillator: Oscillator, order: int, *, weight: int = 2) -> S
             f"weight {weight!r} is not a whole number above 0; use 2 to count mu like the amplitude squared"
         )
     march = _March(oscillator, weight)
+    check("multiple-scales", order, budget or Budget(), parameters=len(march.names) - 1, weight=weight)
     for n in range(2, order + 2):
         march.step(n)
     return SlowFlow(
