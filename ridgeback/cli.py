@@ -68,7 +68,7 @@ def print_version(ctx: click.Context, _parameter: click.Parameter, value: bool) 
 )
 @click.pass_context
 def cli(context: click.Context) -> None:
-    r"""Amplitude-dependent frequency of nonlinear oscillators.
+    """Amplitude-dependent frequency of nonlinear oscillators.
 
     Exact perturbation expansions (the backbone) held against frequencies estimated from signals (the ridge).
 

@@ -53,7 +53,7 @@ def check_writable(path: str) -> None:
 def write_text(path: str, text: str) -> None:
     """Write the whole text, or leave what was there; ``-`` prints it, devices and pipes are written to."""
     if path == STDOUT:
-        sys.stdout.write(text)
+        print_text(text)
         return
     check_writable(path)
     target = Path(path).resolve()
@@ -61,6 +61,19 @@ def write_text(path: str, text: str) -> None:
         target.write_text(text, encoding="utf-8")
         return
     replace_file(target, text)
+
+
+def print_text(text: str) -> None:
+    """Print the whole text: an unbuffered standard output may take a part of it and say so only by a number."""
+    binary = getattr(sys.stdout, "buffer", None)
+    if binary is None:
+        sys.stdout.write(text)
+        return
+    sys.stdout.flush()
+    rest = memoryview(text.encode(sys.stdout.encoding or "utf-8", "backslashreplace"))
+    while rest:
+        rest = rest[binary.write(rest) :]
+    binary.flush()
 
 
 def replace_file(target: Path, text: str) -> None:
@@ -121,4 +134,4 @@ def json_text(value: Any) -> str:
       ]
     }
     """
-    return json.dumps(plain(value), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    return json.dumps(plain(value), indent=2, allow_nan=False) + "\n"

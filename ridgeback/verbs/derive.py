@@ -38,7 +38,7 @@ def command(
     style: str,
     output: str,
 ) -> None:
-    r"""Derive the fundamental frequency of SYSTEM as a power series with exact coefficients.
+    """Derive the fundamental frequency of SYSTEM as a power series with exact coefficients.
 
     In the amplitude for conservative oscillators, in eps for limit cycles, and by multiple scales in the amplitude
     a and the damping mu together with the decay a'/a.

@@ -39,7 +39,7 @@ def command(
     assignments: tuple[tuple[str, Fraction], ...],
     output: str,
 ) -> None:
-    r"""Write the frequency of SYSTEM as source text: a Python module, or C99 functions.
+    """Write the frequency of SYSTEM as source text: a Python module, or C99 functions.
 
     Each exact coefficient is rounded once, to the nearest double.
 

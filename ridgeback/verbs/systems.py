@@ -21,7 +21,7 @@ COLUMNS = ("name", "kind", "equation", "parameters")
 @format_option("text", "json", "csv", default="text")
 @output_option
 def command(system: str | None, style: str, output: str) -> None:
-    r"""List the oscillators of the catalogue, or describe the one named SYSTEM.
+    """List the oscillators of the catalogue, or describe the one named SYSTEM.
 
     \b
     ridgeback systems

@@ -1,0 +1,92 @@
+"""``ridgeback simulate``: an integrated trajectory as columns of numbers."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ridgeback.arguments import PAIR, POSITIVE
+from ridgeback.options import chosen, format_option, output_option, set_option
+from ridgeback.output import json_text, write_text
+from ridgeback.tables import csv_text
+
+if TYPE_CHECKING:
+    from numeric.dynamics import Dynamics
+    from numeric.trajectory import Trajectory
+
+COLUMNS = ("time_s", "u", "velocity")
+
+
+@click.command("simulate", short_help="Integrate the equation of motion.")
+@click.argument("system")
+@click.option("--initial", type=PAIR, default=None, metavar="U,V", help="State at time 0.  Default: the catalogue's.")
+@click.option("--duration", type=POSITIVE, default="20", show_default=True, metavar="T", help="Time to integrate over.")
+@click.option("--rate", type=POSITIVE, default="64", show_default=True, metavar="R", help="Samples per time unit.")
+@click.option("--method", default="DOP853", show_default=True, help="DOP853, RK45, Radau, BDF, LSODA, or taylor.")
+@click.option(
+    "--digits", type=click.IntRange(15, 200), default=None, help="Digits that taylor works with.  Default: 30."
+)
+@set_option
+@format_option("csv", "json", default="csv")
+@output_option
+def command(
+    system: str,
+    initial: tuple[float, float] | None,
+    duration: float,
+    rate: float,
+    method: str,
+    digits: int | None,
+    assignments: tuple[tuple[str, Fraction], ...],
+    style: str,
+    output: str,
+) -> None:
+    """Integrate SYSTEM from the state U,V and write the columns time_s, u, velocity.
+
+    Every number is written with all the digits that it needs to be read back the same.
+
+    \b
+    ridgeback simulate pendulum --set mu=0.01 --set k=12.566370614359172 --initial 2.984513,0 -o run.csv
+    ridgeback simulate van-der-pol --duration 60 --method taylor --digits 40 --format json
+    """
+    from compare.bind import bind
+
+    oscillator = chosen(system, assignments)
+    start = oscillator.initial if initial is None else initial
+    run = trajectory(bind(oscillator), start, duration=duration, rate=rate, method=method, digits=digits)
+    write_text(output, printed(oscillator.name, run, style))
+
+
+def trajectory(
+    dynamics: Dynamics,
+    initial: tuple[float, float],
+    *,
+    duration: float,
+    rate: float,
+    method: str,
+    digits: int | None,
+) -> Trajectory:
+    """Integrate by the method asked for.
+
+    Raises click.UsageError when ``--digits`` is given to a method in double precision.
+    """
+    if method.lower() == "taylor":
+        from numeric.taylor import integrate_taylor
+
+        return integrate_taylor(dynamics, initial, duration=duration, rate=rate, digits=digits or 30)
+    if digits is not None:
+        raise click.UsageError(f"--digits belongs to --method taylor; {method} works in double precision")
+    from numeric.trajectory import integrate
+
+    return integrate(dynamics, initial, duration=duration, rate=rate, method=method)
+
+
+def printed(system: str, run: Trajectory, style: str) -> str:
+    """The samples in the form asked for."""
+    arrays = (run.time.tolist(), run.u.tolist(), run.velocity.tolist())
+    rows = [dict(zip(COLUMNS, values, strict=True)) for values in zip(*arrays, strict=True)]
+    if style == "csv":
+        return csv_text(COLUMNS, rows)
+    about: dict[str, Any] = {"system": system, "method": run.method, "rtol": run.rtol, "rate": run.rate}
+    return json_text({**about, "samples": rows})

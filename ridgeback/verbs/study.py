@@ -1,0 +1,94 @@
+"""``ridgeback study``: the error of truncated expansions over order and amplitude."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import click
+
+from ridgeback.arguments import GRID, ORDERS
+from ridgeback.failure import PartialError
+from ridgeback.options import chosen, format_option, output_option, set_option
+from ridgeback.output import json_text, write_text
+from ridgeback.tables import Row, aligned, csv_text
+
+if TYPE_CHECKING:
+    from compare.results import Study
+
+
+@click.command("study", short_help="Error of expansions over order and amplitude.")
+@click.argument("system")
+@click.option(
+    "--orders", type=ORDERS, default="2,4,8,16", show_default=True, metavar="N,N,...", help="Orders to compare."
+)
+@click.option(
+    "--amplitudes",
+    type=GRID,
+    required=True,
+    metavar="START:STOP:COUNT",
+    help="Peak amplitudes (or values of eps), as a range with both ends or as a list with commas.",
+)
+@click.option(
+    "--method",
+    type=click.Choice(["lindstedt", "energy-integral"]),
+    default="lindstedt",
+    show_default=True,
+    help="How the expansion is derived.",
+)
+@set_option
+@format_option("text", "json", "csv", default="text")
+@output_option
+def command(
+    system: str,
+    orders: tuple[int, ...],
+    amplitudes: tuple[float, ...],
+    method: str,
+    assignments: tuple[tuple[str, Fraction], ...],
+    style: str,
+    output: str,
+) -> None:
+    """Hold truncated expansions of SYSTEM against its exact frequency: one row per order and amplitude.
+
+    \b
+    ridgeback study pendulum --orders 2,4,8,16 --amplitudes 0.1:3.0:30
+    ridgeback study van-der-pol --orders 4,8 --amplitudes 0.1,0.5,1 --format csv
+    """
+    from compare.study import study
+
+    result = study(chosen(system, assignments), orders, amplitudes, method=method)
+    rows = result.rows()
+    write_text(output, printed(result, rows, style))
+    unknown = sum(not math.isfinite(float(row["omega_reference"])) for row in rows)
+    if unknown:
+        raise PartialError(f"{unknown} of {len(rows)} cells have no reference; they are left empty in the output")
+
+
+def printed(result: Study, rows: list[dict[str, float | int | str]], style: str) -> str:
+    """The rows in the form asked for."""
+    columns = list(rows[0])
+    if style == "csv":
+        return csv_text(columns, rows)
+    if style == "json":
+        return json_text(rows)
+    return heading(result) + "\n\n" + aligned(columns, as_rows(rows)) + "\n"
+
+
+def as_rows(rows: list[dict[str, float | int | str]]) -> list[Row]:
+    """Rows as the table wants them."""
+    return list(rows)
+
+
+def heading(result: Study) -> str:
+    """What the rows hold, and against what."""
+    variable = f"{result.variable} ({result.amplitude_definition})" if result.variable == "A" else result.variable
+    lines = [
+        f"{result.title}: omega0 in rad per time unit over {variable}, {result.method}",
+        f"reference: {result.reference_name}",
+    ]
+    if result.limit is not None:
+        lines.append(f"the oscillation ends at {result.variable} = {result.limit:.6g}")
+    if result.convergence_radius is not None:
+        lines.append(f"the series converges for {result.variable} below about {result.convergence_radius:.4g}")
+    return "\n".join(lines)

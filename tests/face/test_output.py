@@ -1,0 +1,114 @@
+"""Files appear whole or not at all, and JSON holds only what JSON knows."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import stat
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ridgeback import output, tables
+
+
+def test_a_file_is_replaced_in_one_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    target = tmp_path / "out.csv"
+    target.write_text("before", encoding="utf-8")
+
+    def broken(self: Path, _: Path) -> Path:
+        raise OSError(28, "No space left on device", str(self))
+
+    monkeypatch.setattr(Path, "replace", broken)
+    with pytest.raises(OSError, match="No space"):
+        output.write_text(str(target), "after")
+    assert target.read_text(encoding="utf-8") == "before"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_an_interrupt_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(_: int) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "fsync", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        output.write_text(str(tmp_path / "out.csv"), "text")
+    assert not list(tmp_path.iterdir())
+
+
+def test_links_and_modes_are_kept(tmp_path: Path) -> None:
+    real, link = tmp_path / "real.txt", tmp_path / "link.txt"
+    real.write_text("before", encoding="utf-8")
+    real.chmod(0o640)
+    link.symlink_to(real)
+    output.write_text(str(link), "after")
+    assert link.is_symlink()
+    assert real.read_text(encoding="utf-8") == "after"
+    assert stat.S_IMODE(real.stat().st_mode) == 0o640
+
+
+def test_a_new_file_has_the_usual_mode(tmp_path: Path) -> None:
+    output.write_text(str(tmp_path / "new.txt"), "x")
+    assert stat.S_IMODE((tmp_path / "new.txt").stat().st_mode) == 0o666 & ~output.current_umask()
+
+
+def test_devices_are_written_and_not_replaced() -> None:
+    output.write_text(os.devnull, "gone")
+    assert not Path(os.devnull).is_file()
+
+
+@pytest.mark.parametrize(
+    ("path", "error"),
+    [(".", IsADirectoryError), ("missing/out.csv", FileNotFoundError)],
+)
+def test_places_that_cannot_be_written_are_refused_before_the_work(
+    path: str, error: type[OSError], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(error):
+        output.check_writable(path)
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=5), inner, max_size=4),
+    max_leaves=12,
+)
+
+
+@settings(deadline=None, max_examples=100)
+@given(JSON)
+def test_json_is_strict_whatever_the_value(value: object) -> None:
+    text = output.json_text(value)
+    assert text.endswith("\n")
+
+    def refuse(constant: str) -> None:
+        raise AssertionError(constant)
+
+    json.loads(text, parse_constant=refuse)
+
+
+def test_arrays_and_exact_numbers_become_json() -> None:
+    value = {
+        "omega": np.array([1.0, np.nan]),
+        "n": np.int64(3),
+        "ok": np.bool_(True),
+        "c": Fraction(-1, 16),
+        "t": (1, 2),
+    }
+    assert output.plain(value) == {"omega": [1.0, None], "n": 3, "ok": True, "c": "-1/16", "t": [1, 2]}
+
+
+@settings(deadline=None)
+@given(st.floats())
+def test_csv_floats_are_read_back_the_same(value: float) -> None:
+    text = tables.cell(value)
+    if math.isfinite(value):
+        assert float(text).hex() == value.hex()
+    else:
+        assert text == ""
