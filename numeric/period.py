@@ -127,11 +127,9 @@ def peak_of_action(dynamics: Dynamics, value: ArrayLike) -> Array:
 
 def _doubled(dynamics: Dynamics, low: Array, high: Array, tolerance: float) -> tuple[Array, Array, Array]:
     """Return omega0, J and the error of omega0, doubling nodes until each orbit has settled."""
-    restoring, ends = restoring_of(dynamics), well(dynamics)
-    half = 0.5 * (high - low)
-    share = np.minimum(np.minimum(ends[1] - high, low - ends[0]) / half, 1.0)
-    c = np.minimum(1.0, (2 * share) ** 0.25)  # delta = sqrt(2 share), from cosh(delta) = 1 + share
-    inner, inner_error = _inner_points(restoring, low, high)
+    restoring = restoring_of(dynamics)
+    share, c = stretch(dynamics, low, high)
+    inner, inner_error = inner_points(restoring, low, high)
     omega, J = _sums(restoring, low, high, c, _FIRST_NODES, inner)
     # u is rounded next to the end of the well, where V' depends on the distance to it; 1e-3 is what was observed
     # on the pendulum from 1e-3 to 1e-12 before its separatrix, with a margin of 2
@@ -146,8 +144,24 @@ def _doubled(dynamics: Dynamics, low: Array, high: Array, tolerance: float) -> t
     return omega, J, error
 
 
-def _inner_points(restoring: Restoring, low: Array, high: Array) -> tuple[int, float]:
-    """Return Gauss points that give the mean of V' over each half orbit, and the relative error left (0: none)."""
+def stretch(dynamics: Dynamics, low: Array, high: Array) -> tuple[Array, Array]:
+    """Return the distance of each orbit from the end of the well as a share of h (at most 1), and c for it.
+
+    >>> from numeric.dynamics import linear
+    >>> [float(x[0]) for x in stretch(linear(), np.array([-1.0]), np.array([1.0]))]
+    [1.0, 1.0]
+    """
+    left, right = well(dynamics)
+    share = np.minimum(np.minimum(right - high, low - left) / (0.5 * (high - low)), 1.0)
+    return share, np.minimum(1.0, (2 * share) ** 0.25)  # delta = sqrt(2 share), from cosh(delta) = 1 + share
+
+
+def inner_points(restoring: Restoring, low: Array, high: Array) -> tuple[int, float]:
+    """Return Gauss points that give the mean of V' over each half orbit, and the relative error left (0: none).
+
+    >>> inner_points(np.sin, np.array([-1.0]), np.array([1.0]))
+    (16, 0.0)
+    """
     half = 0.5 * (high - low)
     means = _halves(restoring, low, high, half, 8)
     inner, change = 8, np.zeros(1)
@@ -177,16 +191,36 @@ def _sums(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, i
 
 
 def _midpoint(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, inner: int) -> tuple[Array, Array]:
-    """Midpoint rule over psi; ``rise`` and ``fall`` are (u - B) / h and (A - u) / h, shape (orbits, nodes)."""
-    psi = (np.arange(nodes) + 0.5) * (math.pi / nodes)
+    grid = orbit_grid(restoring, low, high, c, nodes, inner)
+    omega = math.sqrt(2) / np.mean(grid.weight / np.sqrt(grid.g), axis=1)
+    loop = np.mean(grid.weight * np.sin(grid.theta) ** 2 * np.sqrt(grid.g), axis=1)
+    return omega, math.sqrt(2) * (0.5 * (high - low)) ** 2 * loop
+
+
+@dataclass(frozen=True)
+class OrbitGrid:
+    """Midpoints psi over (0, pi), trough to peak, of each orbit; theta, its slope in psi, and g, ``[orbit, node]``."""
+
+    psi: Array
+    theta: Array
+    weight: Array
+    g: Array
+
+
+def orbit_grid(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, inner: int) -> OrbitGrid:
+    """Return theta, d theta / d psi and g; ``rise`` and ``fall`` are (u - B) / h and (A - u) / h.
+
+    >>> grid = orbit_grid(np.asarray, -np.ones(1), np.ones(1), np.ones(1), 4, 8)  # V' = u: g = 1/2
+    >>> bool(np.allclose(grid.g, 0.5, rtol=1e-15))
+    True
+    """
+    psi: Array = (np.arange(nodes) + 0.5) * (math.pi / nodes)
     c, half = c[:, None], 0.5 * (high - low)[:, None]
-    theta = np.arctan2(c * np.sin(psi), np.cos(psi))
-    weight = c / (np.cos(psi) ** 2 + (c * np.sin(psi)) ** 2) / nodes
+    theta: Array = np.arctan2(c * np.sin(psi), np.cos(psi))
+    weight: Array = c / (np.cos(psi) ** 2 + (c * np.sin(psi)) ** 2)
     rise, fall = 2 * np.sin(0.5 * theta) ** 2, 2 * np.cos(0.5 * theta) ** 2
     near_low, near_high = np.s_[:, : nodes // 2], np.s_[:, nodes // 2 :]
     low_mean = mean_restoring(restoring, low[:, None], half * rise[near_low], inner)
     high_mean = mean_restoring(restoring, high[:, None], -half * fall[near_high], inner)
     g = np.hstack((-low_mean / (half * fall[near_low]), high_mean / (half * rise[near_high])))
-    omega = math.sqrt(2) / np.sum(weight / np.sqrt(g), axis=1)
-    loop = np.sum(weight * np.sin(theta) ** 2 * np.sqrt(g), axis=1)
-    return omega, math.sqrt(2) * half[:, 0] ** 2 * loop
+    return OrbitGrid(psi, theta, weight, g)
