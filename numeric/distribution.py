@@ -8,8 +8,9 @@ from types import MappingProxyType
 
 import numpy as np
 
+from numeric.arrays import frozen
 from numeric.errors import InputError
-from numeric.samples import TWO_PI, Array, read_only
+from numeric.samples import TWO_PI, Array
 
 
 @dataclass(frozen=True)
@@ -38,8 +39,8 @@ class Distribution:
             )
         plane.flags.writeable = False
         object.__setattr__(self, "values", plane)
-        object.__setattr__(self, "omega", read_only(self.omega))
-        object.__setattr__(self, "time", read_only(self.time))
+        object.__setattr__(self, "omega", frozen(self.omega))
+        object.__setattr__(self, "time", frozen(self.time))
         object.__setattr__(self, "settings", MappingProxyType(dict(self.settings)))
 
     @property

@@ -232,7 +232,10 @@ def by_harmonic_least_squares(request: Request) -> Track:
     fit = harmonic_fit(request.x, request.rate, guide, half=half, shape=Shape(count), start_time=request.start)
     need(fit.valid, "harmonic-least-squares", 0.5 * request.lag_seconds)
     settings = request.settings(
-        noise=float(np.median(fit.noise[fit.valid])), harmonics=count, lag_seconds=fit.window_seconds
+        noise=float(np.median(fit.noise[fit.valid])),
+        harmonics=count,
+        lag_seconds=fit.window_seconds,
+        one_sided_borders=True,
     )
     return Track(fit.time, fit.omega, fit.valid, "harmonic-least-squares", fit.standard_deviation, None, settings)
 

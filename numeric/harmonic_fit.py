@@ -14,14 +14,15 @@ All windows have the same length; near the border they stop moving and omega is 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
+from numeric.arrays import frozen, frozen_flags
 from numeric.errors import InputError
-from numeric.samples import Array, Mask, read_only
+from numeric.samples import Array, Mask
 
 PHASE_DEGREE = 3
 AMPLITUDE_DEGREE = 2
@@ -49,8 +50,9 @@ class Shape:
 class HarmonicFit:
     """Fundamental frequency and amplitude per window, with standard deviations from the Fisher information.
 
-    ``amplitude`` has the definition ``fundamental``.  ``noise`` is the residual's standard deviation per window,
-    ``valid`` is False where the window is one-sided or the iteration did not settle.
+    ``amplitude`` has the definition ``fundamental`` and ``growth`` is a'/a, negative in a decay.  ``noise`` is the
+    residual's standard deviation per window.  ``settled`` says that the iteration came to rest, ``valid`` that the
+    window also lies wholly inside the record, round its time.
     """
 
     time: Array
@@ -58,21 +60,32 @@ class HarmonicFit:
     standard_deviation: Array
     amplitude: Array
     amplitude_sd: Array
+    growth: Array
+    growth_sd: Array
     offset: Array
     noise: Array
+    settled: Mask
     valid: Mask
     shape: Shape
     window_seconds: float
 
     def __post_init__(self) -> None:
-        for name in ("time", "omega", "standard_deviation", "amplitude", "amplitude_sd", "offset", "noise"):
-            object.__setattr__(self, name, read_only(getattr(self, name)))
-        object.__setattr__(self, "valid", read_only(self.valid, np.bool_))
+        for item in fields(self):
+            if item.name not in ("settled", "valid", "shape", "window_seconds"):
+                object.__setattr__(self, item.name, frozen(getattr(self, item.name)))
+        object.__setattr__(self, "settled", frozen_flags(self.settled))
+        object.__setattr__(self, "valid", frozen_flags(self.valid))
 
 
 def powers(s: Array, degree: int) -> Array:
     """Columns s^0 .. s^degree."""
     return s[..., None] ** np.arange(degree + 1)
+
+
+def slopes(s: Array, degree: int) -> Array:
+    """Columns of the derivatives of s^0 .. s^degree."""
+    orders = np.arange(degree + 1)
+    return np.asarray(orders * s[..., None] ** np.maximum(orders - 1, 0), dtype=np.float64)
 
 
 def linear_columns(s: Array, phase: Array, shape: Shape) -> Array:
@@ -210,17 +223,22 @@ def read_off(
     )
     variance = np.concatenate([part.variance for part in parts])
     settled = np.concatenate([part.settled for part in parts])
-    orders = np.arange(shape.phase_degree + 1)
-    slope = orders * at[:, None] ** np.maximum(orders - 1, 0) * (rate / half)
-    value = powers(at, shape.amplitude_degree)
+    phase_slope, value = slopes(at, shape.phase_degree) * (rate / half), powers(at, shape.amplitude_degree)
+    amplitude_slope = slopes(at, shape.amplitude_degree) * (rate / half)
+    amplitude = (value * a).sum(axis=1)
+    safe = np.where(amplitude == 0.0, 1.0, amplitude)
+    growth = (amplitude_slope * a).sum(axis=1) / safe
     return HarmonicFit(
         time=start_time + centres / rate,
-        omega=(slope * p).sum(axis=1),
-        standard_deviation=np.sqrt(variance * quadratic_form(slope, p_cov)),
-        amplitude=(value * a).sum(axis=1),
+        omega=(phase_slope * p).sum(axis=1),
+        standard_deviation=np.sqrt(variance * quadratic_form(phase_slope, p_cov)),
+        amplitude=amplitude,
         amplitude_sd=np.sqrt(variance * quadratic_form(value, a_cov)),
+        growth=growth,
+        growth_sd=np.sqrt(variance * quadratic_form(amplitude_slope - growth[:, None] * value, a_cov)) / np.abs(safe),
         offset=(powers(at, 1) * d).sum(axis=1),
         noise=np.sqrt(variance),
+        settled=settled,
         valid=settled & (at == 0.0),
         shape=shape,
         window_seconds=2.0 * half / rate,

@@ -7,7 +7,6 @@ time unit).  Everything behind this door may rely on it.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,17 +18,6 @@ ComplexArray = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
 
 TWO_PI = 2.0 * math.pi
-
-
-def read_only(values: ArrayLike, dtype: type = np.float64) -> NDArray[Any]:
-    """Return a read-only copy of ``values``.
-
-    >>> read_only([1, 2]).flags.writeable
-    False
-    """
-    copy: NDArray[Any] = np.array(values, dtype=dtype)
-    copy.flags.writeable = False
-    return copy
 
 
 def checked_samples(x: ArrayLike, *, name: str = "signal", at_least: int = 1) -> Array | ComplexArray:

@@ -8,8 +8,9 @@ from types import MappingProxyType
 
 import numpy as np
 
+from numeric.arrays import frozen, frozen_flags
 from numeric.errors import InputError
-from numeric.samples import TWO_PI, Array, Mask, read_only
+from numeric.samples import TWO_PI, Array, Mask
 
 
 @dataclass(frozen=True)
@@ -38,9 +39,9 @@ class Track:
         for name in ("time", "omega", "standard_deviation", "bias"):
             value = getattr(self, name)
             if value is not None:
-                object.__setattr__(self, name, read_only(value))
+                object.__setattr__(self, name, frozen(value))
                 self._check_length(name, np.size(value))
-        object.__setattr__(self, "valid", read_only(self.valid, np.bool_))
+        object.__setattr__(self, "valid", frozen_flags(self.valid))
         self._check_length("valid", self.valid.size)
         object.__setattr__(self, "settings", MappingProxyType(dict(self.settings)))
 

@@ -1,0 +1,161 @@
+"""The backbone of a recording: fundamental frequency and damping against fundamental amplitude, with uncertainty."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from numeric.arrays import frozen
+from numeric.errors import InputError
+from numeric.harmonic_fit import HarmonicFit, Shape, choose_harmonics, harmonic_fit
+from numeric.harmonics import carrier
+from numeric.samples import TWO_PI, Array, Mask, checked_rate, checked_real_samples
+from numeric.track import Track
+from numeric.windows import half_width
+
+WINDOW_CYCLES = 4.0
+POINTS_PER_CYCLE = 4.0
+MOST_BINS = 24
+CLEAR = 5.0
+"""A point is used where the amplitude exceeds its own standard deviation this many times."""
+
+
+@dataclass(frozen=True)
+class Backbone:
+    """omega0 and a'/a against the amplitude a; ``definition`` says which amplitude: that of the first harmonic.
+
+    Along time: ``time, amplitude, omega, damping`` (a'/a per time unit, negative in a decay) with one-sigma ``_sd``.
+    The curve: ``curve_amplitude`` rising, ``curve_omega``, ``curve_damping`` with ``_sd``: weighted means over bins of
+    amplitude; their deviation joins the estimates' own with the scatter in the bin, counting one independent value per
+    window length.  ``offset`` is the mean that was removed; amplitudes are in the signal's unit.
+    """
+
+    time: Array
+    amplitude: Array
+    amplitude_sd: Array
+    omega: Array
+    omega_sd: Array
+    damping: Array
+    damping_sd: Array
+    curve_amplitude: Array
+    curve_omega: Array
+    curve_omega_sd: Array
+    curve_damping: Array
+    curve_damping_sd: Array
+    offset: float
+    definition: str = "fundamental"
+    settings: Mapping[str, object] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for item in fields(self):
+            if isinstance(getattr(self, item.name), np.ndarray):
+                object.__setattr__(self, item.name, frozen(getattr(self, item.name)))
+        object.__setattr__(self, "settings", MappingProxyType(dict(self.settings)))
+
+    def rows(self) -> list[dict[str, float]]:
+        """One row per point of the curve: amplitude, omega, frequency and damping with their standard deviations."""
+        columns = {
+            "amplitude": self.curve_amplitude,
+            "omega_rad_s": self.curve_omega,
+            "frequency_hz": self.curve_omega / TWO_PI,
+            "omega_standard_deviation_rad_s": self.curve_omega_sd,
+            "damping_per_s": self.curve_damping,
+            "damping_standard_deviation_per_s": self.curve_damping_sd,
+        }
+        return [{name: float(column[i]) for name, column in columns.items()} for i in range(self.curve_omega.size)]
+
+
+def backbone(
+    track: Track, x: ArrayLike, rate: float, *, start: float | None = None, window_seconds: float | None = None
+) -> Backbone:
+    """Measure amplitude and damping along a frequency track and set omega0 against amplitude.
+
+    The amplitude and its logarithmic slope come from local harmonic least squares over ``window_seconds`` (default
+    four cycles), started from the track; omega comes from the track itself.  ``start`` is the time of the first sample
+    (default: the track's first time).  Raises InputError when fewer than four points are clear of the noise.
+
+    >>> from numeric.estimate import estimate
+    >>> t = np.arange(1280) / 32.0
+    >>> x = 2.0 * np.exp(-0.05 * t) * np.cos(2 * np.pi * 1.25 * t) + 0.7
+    >>> curve = backbone(estimate(x, 32.0), x, 32.0)
+    >>> bool(np.abs(curve.curve_damping + 0.05).max() < 1e-4), bool(np.abs(curve.omega - 2.5 * np.pi).max() < 1e-3)
+    (True, True)
+    """
+    samples, rate = checked_real_samples(x, what="backbone", at_least=16), checked_rate(rate)
+    first = float(track.time[0]) if start is None else start
+    offset = float(samples.mean())
+    base = carrier(track, samples.size, rate, first)
+    cycle = TWO_PI / float(np.median(base.omega[base.valid]))
+    seconds = WINDOW_CYCLES * cycle if window_seconds is None else window_seconds
+    half = half_width(seconds, rate, name="window_seconds", longest=samples.size)
+    real = samples - offset
+    shape = Shape(choose_harmonics(real, rate, base.omega, half=half))
+    step = max(1, round(cycle * rate / POINTS_PER_CYCLE))
+    fit = harmonic_fit(real, rate, base.omega, half=half, shape=shape, start_time=first, step=step)
+    seen = fit.settled if track.settings.get("one_sided_borders") else fit.valid & base.valid[::step]
+    usable = seen & (fit.amplitude > CLEAR * fit.amplitude_sd)
+    if np.count_nonzero(usable) < 4:
+        raise InputError(
+            f"backbone: {np.count_nonzero(usable)} points are clear of the noise; give a longer or less noisy record"
+        )
+    omega = base.omega[::step]
+    omega_sd = fit.standard_deviation
+    if track.standard_deviation is not None:
+        omega_sd = np.interp(fit.time, track.time, track.standard_deviation)
+    return assemble(fit, usable, omega, omega_sd, offset, track.method)
+
+
+def assemble(fit: HarmonicFit, usable: Mask, omega: Array, omega_sd: Array, offset: float, method: str) -> Backbone:
+    """Put the usable points into a Backbone and bin them over amplitude."""
+    a, w, s = fit.amplitude[usable], omega[usable], omega_sd[usable]
+    d, ds = fit.growth[usable], fit.growth_sd[usable]
+    edges = np.linspace(a.min(), a.max(), min(MOST_BINS, max(2, a.size // 4)) + 1)
+    bin_of = np.clip(np.digitize(a, edges) - 1, 0, edges.size - 2)
+    filled = np.unique(bin_of)
+    spacing = float(np.median(np.diff(fit.time)))
+    crowding = max(1.0, fit.window_seconds / spacing)
+    of = [np.flatnonzero(bin_of == b) for b in filled]
+    curve_omega = np.array([pooled(w[i], s[i], crowding) for i in of])
+    curve_damping = np.array([pooled(d[i], ds[i], crowding) for i in of])
+    left_out = int(usable.size - a.size)
+    notes = [f"the mean {offset:.6g} was removed"]
+    if left_out:
+        notes.append(
+            f"{left_out} of {usable.size} points lie near a border or are not {CLEAR:g} times above their noise"
+        )
+    return Backbone(
+        time=fit.time[usable],
+        amplitude=a,
+        amplitude_sd=fit.amplitude_sd[usable],
+        omega=w,
+        omega_sd=s,
+        damping=d,
+        damping_sd=ds,
+        curve_amplitude=np.array([a[i].mean() for i in of]),
+        curve_omega=curve_omega[:, 0],
+        curve_omega_sd=curve_omega[:, 1],
+        curve_damping=curve_damping[:, 0],
+        curve_damping_sd=curve_damping[:, 1],
+        offset=offset,
+        settings={"track": method, "window_seconds": fit.window_seconds, "harmonics": fit.shape.harmonics},
+        notes=tuple(notes),
+    )
+
+
+def pooled(values: Array, deviations: Array, crowding: float) -> tuple[float, float]:
+    """Weighted mean and its standard deviation, when ``crowding`` neighbouring values share one window.
+
+    >>> pooled(np.array([1.0, 1.0]), np.array([0.1, 0.1]), 2.0)
+    (1.0, 0.1)
+    """
+    weights = 1.0 / np.maximum(deviations, 1e-12 * np.abs(values).max() + 1e-300) ** 2
+    weights = weights / weights.sum()
+    mean = float((weights * values).sum())
+    independent = max(1.0, values.size / crowding)
+    variance = float((weights * (deviations**2 + (values - mean) ** 2)).sum())
+    return mean, float(np.sqrt(variance / independent))
