@@ -115,7 +115,8 @@ def harmonic_of(recording: Recording, fundamental: Track, multiple: int) -> Trac
     """The track of a harmonic, found along multiples of the fundamental's phase."""
     from numeric.harmonics import harmonic_track
 
-    return harmonic_track(recording.values, recording.rate, fundamental, multiple=multiple)
+    first = float(recording.time[0])
+    return harmonic_track(recording.values, recording.rate, fundamental, multiple=multiple, start=first)
 
 
 def track_text(recording: Recording, track: Track, style: str) -> str:
@@ -133,7 +134,7 @@ def backbone_text(recording: Recording, track: Track, style: str) -> str:
     """The rows of a backbone in the form asked for."""
     from numeric.backbone import backbone
 
-    curve: Backbone = backbone(track, recording.values, recording.rate)
+    curve: Backbone = backbone(track, recording.values, recording.rate, start=float(recording.time[0]))
     rows = curve.rows()
     if style == "json":
         return json_text({"method": track.method, "settings": about(recording, track.settings), "backbone": rows})

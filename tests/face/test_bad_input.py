@@ -60,7 +60,7 @@ REFUSALS = [
     Refusal("derive pendulum --amplitude energy", 2, ("energy", "peak")),
     Refusal("derive pendulum --weight 3", 2, ("weight", "multiple-scales")),
     Refusal("derive pendulum --method multiple-scales --amplitude peak", 2, ("peak", "fundamental")),
-    Refusal("derive damped-pendulum --method lindstedt", 2, ("lindstedt", "multiple")),
+    Refusal("derive damped-pendulum --method lindstedt", 2, ("damped-pendulum", "multiple-scales")),
     Refusal("derive damped-pendulum --method energy-integral", 2, ("energy",)),
     Refusal("derive pendulum --format yaml", 2, ("yaml", "json")),
     Refusal("generate pendulum --language fortran", 2, ("fortran", "python")),
@@ -101,7 +101,7 @@ REFUSALS = [
     Refusal("estimate empty.csv", 2, ("empty.csv",)),
     Refusal("estimate binary.csv", 2, ("binary.csv",)),
     Refusal("estimate missing.csv", 4, ("missing.csv",)),
-    Refusal("estimate .", 4, (".",)),
+    Refusal("estimate folder.csv", 4, ("folder.csv",)),
     Refusal("derive pendulum -o missing/out.txt", 4, ("missing", "path")),
     Refusal("derive pendulum -o .", 4, ("folder", "'.'")),
     Refusal("report -o missing/out.html", 4, ("missing", "path")),
@@ -114,6 +114,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with the files above as the current one."""
     for name, text in FILES.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
+    (tmp_path / "folder.csv").mkdir()
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -176,6 +177,15 @@ def test_an_unexpected_error_is_owned_in_one_line(
     printed = capsys.readouterr().err
     assert printed.count("\n") == 1
     assert "please report" in printed
+
+
+def test_an_interrupt_is_one_line_and_130(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("symbolic.systems.catalogue", interrupted)
+    assert main(["systems"]) == 130
+    assert capsys.readouterr().err == "ridgeback: interrupted; nothing was written\n"
 
 
 def shell(command: str, folder: Path, unbuffered: str) -> subprocess.CompletedProcess[str]:

@@ -1,0 +1,37 @@
+"""Time of exact derivations by order: ``python -m pytest benchmarks`` with the development tools installed.
+
+Outside the test run, and without a bound: machines differ.  Compare lines of one run with each other.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from symbolic.energy_integral import energy_integral
+from symbolic.lindstedt import lindstedt
+from symbolic.multiple_scales import multiple_scales
+from symbolic.systems import find
+
+
+@pytest.mark.parametrize("order", [10, 20, 50, 100])
+@pytest.mark.parametrize("system", ["pendulum", "duffing-hardening", "helmholtz-duffing"])
+@pytest.mark.parametrize("derive", [lindstedt, energy_integral], ids=["lindstedt", "energy-integral"])
+def test_conservative(benchmark: Any, derive: Any, system: str, order: int) -> None:
+    if system == "helmholtz-duffing" and order > 50:
+        pytest.skip("even and odd powers: beyond a minute")
+    result = benchmark.pedantic(derive, args=(find(system), order), rounds=3, warmup_rounds=1)
+    assert result.order == order
+
+
+@pytest.mark.parametrize("order", [8, 16, 24])
+def test_limit_cycle(benchmark: Any, order: int) -> None:
+    result = benchmark.pedantic(lindstedt, args=(find("van-der-pol"), order), rounds=3, warmup_rounds=1)
+    assert result.order == order
+
+
+@pytest.mark.parametrize("order", [4, 8, 12])
+def test_slow_flow(benchmark: Any, order: int) -> None:
+    result = benchmark.pedantic(multiple_scales, args=(find("damped-pendulum"), order), rounds=3, warmup_rounds=1)
+    assert result.order == order
