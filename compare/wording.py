@@ -49,13 +49,15 @@ def amplitude(value: float, unit: str) -> str:
     return f"{text} rad ({in_pi(value)})" if unit == "rad" else f"{text} {unit}".strip()
 
 
-def hertz(omega: float) -> str:
-    """Frequency in hertz from rad per second.
+def frequency(omega: float, time_unit: str) -> str:
+    """Angular frequency as a reader meets it: hertz when time is in seconds, else rad per time unit.
 
-    >>> hertz(2 * math.pi)
-    '1.000 Hz'
+    >>> frequency(2 * math.pi, "s"), frequency(2.0, "")
+    ('1.0000 Hz', '2.0000')
     """
-    return f"{omega / (2 * math.pi):.3f} Hz"
+    if time_unit == "s":
+        return f"{omega / (2 * math.pi):.4f} Hz"
+    return f"{omega:.4f} rad/{time_unit}" if time_unit else f"{omega:.4f}"
 
 
 def nanoseconds(value: float) -> str:

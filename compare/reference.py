@@ -1,0 +1,44 @@
+"""The exact frequency that an expansion is held against: closed form and quadrature, or the periodic orbit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from compare.bind import bind
+from compare.results import Array
+from numeric.dynamics import Dynamics
+from numeric.orbit import periodic_orbit
+from numeric.period import exact_frequency
+from symbolic.oscillator import Oscillator
+
+
+@dataclass(frozen=True)
+class Exact:
+    """Frequency of the periodic motion at each value of the variable, with its relative uncertainty."""
+
+    omega: Array
+    relative_error: Array
+    name: str
+
+
+def conservative_reference(dynamics: Dynamics, peaks: Array) -> Exact:
+    """Exact omega0 at peak amplitudes: the closed form where there is one, else quadrature.
+
+    With both, the uncertainty is their difference plus the quadrature's own error.
+    """
+    table = exact_frequency(dynamics, peaks)
+    spread = table.error / table.omega
+    if dynamics.closed_form is None:
+        return Exact(table.omega, spread, "quadrature of the period")
+    closed = dynamics.closed_form(peaks)
+    return Exact(closed, np.abs(table.omega / closed - 1) + spread, "closed form, checked by quadrature")
+
+
+def limit_cycle_reference(oscillator: Oscillator, strengths: Array) -> Exact:
+    """Frequency of the limit cycle at each eps, from the periodic orbit found by shooting."""
+    orbits = [periodic_orbit(bind(oscillator, values={"eps": float(eps)})) for eps in strengths]
+    omega = np.array([orbit.omega for orbit in orbits])
+    error = np.array([orbit.error for orbit in orbits])
+    return Exact(omega, error / omega, "periodic orbit found by shooting")

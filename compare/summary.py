@@ -1,0 +1,134 @@
+"""What a report says first: its title is the finding, then a plain-language summary and three figures to take away."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from compare.results import Card, DecayComparison, Range, Score, Study, Timing
+from compare.wording import amplitude, frequency, in_pi, nanoseconds, relative
+
+
+def study_title(study: Study, found: Range) -> str:
+    """The range of use of one order, as a sentence without a full stop.
+
+    The target is a relative error that holds everywhere up to the amplitude named.
+    """
+    target = relative(found.target)
+    if found.up_to is None:
+        return f"Order {found.order} misses {target} at every amplitude studied for {study.title}"
+    symbol = "eps" if study.variable == "eps" else "A"
+    reach = amplitude(found.up_to, study.amplitude_unit)
+    extent = "on all of the range studied, up to" if found.up_to >= study.amplitudes[-1] else "up to"
+    return f"Order {found.order} stays within {target} {extent} {symbol} = {reach}"
+
+
+def cards(study: Study, found: Range, timings: Sequence[Timing]) -> tuple[Card, Card, Card]:
+    """Range of use, worst error and where, cost."""
+    return _range_card(study, found), _worst_card(study, found.order), _cost_card(timings)
+
+
+def _range_card(study: Study, found: Range) -> Card:
+    symbol = "eps" if study.variable == "eps" else "A"
+    value = "none" if found.up_to is None else f"{symbol} ≤ {amplitude(found.up_to, study.amplitude_unit)}"
+    ends = (
+        ""
+        if study.limit is None
+        else f"  The oscillation itself ends at {amplitude(study.limit, study.amplitude_unit)}."
+    )
+    text = (
+        f"Order {found.order} keeps its relative error within {relative(found.target)} below this, at every amplitude."
+    )
+    return Card("Range of use", value, text + ends)
+
+
+def _worst_card(study: Study, order: int) -> Card:
+    row = study.relative_error[study.orders.index(order)]
+    at = int(np.argmax(np.abs(row)))
+    symbol = "eps" if study.variable == "eps" else "A"
+    where = f"{symbol} = {amplitude(float(study.amplitudes[at]), study.amplitude_unit)}"
+    text = f"Order {order} against the exact frequency ({study.reference_name}), at {where}."
+    return Card("Worst error", relative(float(row[at]), signed=True), text)
+
+
+def _cost_card(timings: Sequence[Timing]) -> Card:
+    if not timings:
+        return Card("Cost", "not measured", "No evaluation time was taken in this run.")
+    best = min(timings, key=lambda item: item.nanoseconds)
+    others = [item for item in timings if item is not best]
+    text = f"{best.name}, {best.note}." + "".join(f"  {item.name}: {nanoseconds(item.nanoseconds)}." for item in others)
+    return Card("Cost per value", nanoseconds(best.nanoseconds), text)
+
+
+def decay_sentences(decay: DecayComparison) -> tuple[str, ...]:
+    """What was compared along the motion and how it came out, in plain words."""
+    return tuple(_decay_sentences(decay))
+
+
+def _decay_sentences(decay: DecayComparison) -> Iterator[str]:
+    yield _motion_sentence(decay)
+    yield _reference_sentence(decay)
+    scores = {score.method: score for score in decay.scores}
+    for name, words in _HEADLINES:
+        score = scores.get(name)
+        if score is not None and score.rms_interior is not None:
+            yield words.format(
+                label=score.label, rms=relative(score.rms_interior), mean=relative(score.mean_interior, signed=True)
+            )
+    yield from _best_and_failed(decay.scores)
+
+
+_HEADLINES = (
+    (
+        "closed-form",
+        "The paper's model, the exact backbone at the amplitude from the energy, follows it within {rms} rms.",
+    ),
+    ("averaged-action", "The averaged-action model, which needs no integration, follows it within {rms} rms."),
+    ("lindstedt-4", "The fourth-order expansion at the same amplitude is {rms} rms off ({mean} on average)."),
+    (
+        "wigner",
+        "The peak of the full-length Wigner distribution lies {mean} off on average ({rms} rms): curvature, not noise.",
+    ),
+    ("pseudo-wigner", "A windowed (pseudo-)Wigner peak comes within {rms} rms."),
+    ("pseudo-wigner-corrected", "With its computable curvature bias removed, within {rms} rms."),
+)
+
+
+def _motion_sentence(decay: DecayComparison) -> str:
+    smooth = next((curve for curve in decay.curves if curve.name == "averaged-action"), decay.reference)
+    valid = smooth.omega[smooth.valid]
+    unit, time_unit = decay.case.unit, decay.case.time_unit
+    start, end = (_size(float(x), unit) for x in (decay.amplitudes.energy[0], decay.amplitudes.energy[-1]))
+    text = f"The amplitude goes from {start} to {end}"
+    if not valid.size:
+        return text + "."
+    first, last = (frequency(float(x), time_unit) for x in (valid[0], valid[-1]))
+    return f"{text} while the frequency goes from {first} to {last}."
+
+
+def _size(value: float, unit: str) -> str:
+    return in_pi(value) if unit == "rad" else amplitude(value, unit)
+
+
+def _reference_sentence(decay: DecayComparison) -> str:
+    low, high = decay.interior
+    agree = (
+        ""
+        if decay.disagreement is None
+        else f"  Two integrators agree within {decay.disagreement:.1e} {decay.case.unit}".rstrip() + "."
+    )
+    return (
+        f"Every curve is held against the cycle frequency of the integrated solution, from {low:g} to {high:g} "
+        f"{decay.case.time_unit} unless another zone is named.{agree}"
+    )
+
+
+def _best_and_failed(scores: Sequence[Score]) -> Iterator[str]:
+    measured = [score for score in scores if score.kind == "estimate" and score.rms_interior is not None]
+    if measured:
+        best = min(measured, key=lambda score: score.rms_interior or 0.0)
+        yield f"The closest estimate from the signal is {best.label}, within {relative(best.rms_interior)} rms."
+    failed = [score.label for score in scores if score.failed]
+    if failed:
+        yield f"No result from: {', '.join(failed)} (the reasons are in the table)."
