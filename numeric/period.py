@@ -214,7 +214,7 @@ def orbit_grid(restoring: Restoring, low: Array, high: Array, c: Array, nodes: i
     >>> bool(np.allclose(grid.g, 0.5, rtol=1e-15))
     True
     """
-    psi: Array = (np.arange(nodes) + 0.5) * (math.pi / nodes)
+    psi = np.array((np.arange(nodes) + 0.5) * (math.pi / nodes), dtype=np.float64)
     c, half = c[:, None], 0.5 * (high - low)[:, None]
     theta: Array = np.arctan2(c * np.sin(psi), np.cos(psi))
     weight: Array = c / (np.cos(psi) ** 2 + (c * np.sin(psi)) ** 2)
