@@ -19,10 +19,11 @@ from symbolic import truncated
 from symbolic.cost import Budget, check
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion, check_definition, check_order
-from symbolic.fourier import Scalar, constant, space_for
+from symbolic.fourier import constant
 from symbolic.oscillator import Oscillator, U, V
 from symbolic.rings import TrigRing, free_names
 from symbolic.series import Program
+from symbolic.spaces import Scalar, space_for
 
 ALLOWED = ("peak", "trough", "action")
 
@@ -80,7 +81,7 @@ def _twice_potential(force: sympy.Expr, names: tuple[str, ...], length: int) -> 
     fixed = {sympy.Symbol(name, real=True): [ring.parameter(name)] for name in names}
     u = [constant(space, fmpq(0)), constant(space, fmpq(1))]
     program = Program(force, ring, {}, U, V, fixed={**fixed, U: u})
-    taylor = [space.coefficients(program.root.get(n).c) for n in range(1, length + 1)]
+    taylor = [program.root.get(n).coefficients(0) for n in range(1, length + 1)]
     return [(value[0] if value else fmpq(0)) * fmpq(2, n + 2) for n, value in enumerate(taylor)]
 
 

@@ -19,8 +19,9 @@ from flint import fmpq
 
 from symbolic import truncated
 from symbolic.errors import InputError
-from symbolic.fourier import Scalar, Trig, at_zero, degree, harmonic
+from symbolic.fourier import Trig, at_zero, degree, harmonic
 from symbolic.rendering import as_sympy, mathml
+from symbolic.spaces import Scalar
 
 DEFINITIONS = ("peak", "trough", "fundamental", "action")
 """Amplitude definitions: positive turning point, size of the negative one, first harmonic, sqrt(2 J)."""
@@ -231,7 +232,8 @@ def nearest(value: sympy.Expr) -> float:
 def first_harmonic(p: Trig) -> Scalar:
     """Return the coefficient of cos tau: the amplitude by the definition ``fundamental``.
 
-    >>> from symbolic.fourier import cosine, space_for
+    >>> from symbolic.fourier import cosine
+    >>> from symbolic.spaces import space_for
     >>> first_harmonic(cosine(space_for(())))
     1
     """
@@ -241,7 +243,8 @@ def first_harmonic(p: Trig) -> Scalar:
 def substitute(waveform: tuple[Trig, ...], inner: list[Scalar]) -> tuple[Trig, ...]:
     """Insert a series without constant term for the variable of ``sum_n X^n u_n``.
 
-    >>> from symbolic.fourier import constant, cosine, space_for
+    >>> from symbolic.fourier import constant, cosine
+    >>> from symbolic.spaces import space_for
     >>> space = space_for(())
     >>> u = (constant(space, fmpq(0)), cosine(space))
     >>> substitute(u, [fmpq(0), fmpq(1)])[1] == u[1]

@@ -12,9 +12,10 @@ from flint import fmpq, fmpq_poly
 
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion, first_harmonic
-from symbolic.fourier import Scalar, at_zero, constant, cosine, harmonic, solve_oscillator, space_for
+from symbolic.fourier import at_zero, constant, cosine, harmonic, solve_oscillator
 from symbolic.oscillator import Oscillator, U, V
 from symbolic.rings import free_names
+from symbolic.spaces import Scalar, space_for
 from symbolic.strained import March, compiled, normalise, residual
 
 

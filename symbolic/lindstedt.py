@@ -22,10 +22,11 @@ from flint import fmpq
 from symbolic.cost import Budget, check
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion, check_definition, check_order
-from symbolic.fourier import constant, cosine, solve_oscillator, space_for
+from symbolic.fourier import constant, cosine, solve_oscillator
 from symbolic.limit_cycle import limit_cycle
 from symbolic.oscillator import Oscillator, U, V
 from symbolic.rings import free_names
+from symbolic.spaces import space_for
 from symbolic.strained import March, compiled, normalise, residual
 
 ALLOWED = ("peak", "fundamental")
@@ -86,7 +87,7 @@ def _conservative_step(march: March, n: int, amplitude: str, oscillator: Oscilla
     program, space = march.program, march.space
     zero = constant(space, fmpq(0))
     program.supply(U, zero)
-    program.supply(V, march.velocity(n, n - 2))
+    program.supply(V, march.velocity(n, n - 2) if program.uses_velocity else zero)
     right = -program.root.get(n) - march.inertia(n, 1, n - 2)
     particular, p, q = solve_oscillator(right)
     if q != 0:

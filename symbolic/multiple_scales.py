@@ -25,11 +25,12 @@ from flint import fmpq
 from symbolic.cost import Budget, check
 from symbolic.errors import InputError
 from symbolic.expansion import check_order
-from symbolic.fourier import Scalar, Trig, constant, cosine, harmonic, sine, solve_oscillator, space_for
+from symbolic.fourier import Trig, constant, cosine, harmonic, sine, solve_oscillator
 from symbolic.oscillator import Oscillator, U, V
 from symbolic.rings import TrigRing, free_names
 from symbolic.series import Program
 from symbolic.slow_flow import SlowFlow
+from symbolic.spaces import Scalar, space_for
 
 
 def multiple_scales(oscillator: Oscillator, order: int, *, weight: int = 2, budget: Budget | None = None) -> SlowFlow:
@@ -126,10 +127,8 @@ class _March:
 
     def _by_amplitude(self, p: Trig, n: int) -> Trig:
         """a d/da of a grade: its terms a^(n - w r) m^r have a-degree n - w r."""
-        index, m = 1, self.space.gen(self.small)
-        c = p.c * n - p.c.derivative(index) * m * self.weight
-        s = p.s * n - p.s.derivative(index) * m * self.weight
-        return Trig(self.space, c, s)
+        m = self.space.gen(self.small)
+        return p.map(lambda part: part * n - part.derivative(1) * m * self.weight)
 
     def residual(self, flow: SlowFlow) -> list[int]:
         """Substitute u and the slow flow anew, with complete coefficients; return the grades that do not cancel."""

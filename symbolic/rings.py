@@ -6,8 +6,9 @@ import sympy
 from flint import fmpq
 
 from symbolic.errors import InputError
-from symbolic.fourier import Space, Trig, constant
+from symbolic.fourier import Trig, constant
 from symbolic.parse import U, V
+from symbolic.spaces import Space
 
 # Values at the only arguments where an elementary function of a rational is rational.
 _AT_ZERO = {"sin": 0, "cos": 1, "sinh": 0, "cosh": 1, "exp": 1}
@@ -25,9 +26,9 @@ def free_names(force: sympy.Expr) -> tuple[str, ...]:
 class TrigRing:
     """Trigonometric polynomials with rational coefficients, or polynomials in named parameters.
 
-    >>> from symbolic.fourier import space_for
-    >>> TrigRing(space_for(())).number(sympy.Rational(1, 3)).c
-    1/3
+    >>> from symbolic.spaces import space_for
+    >>> TrigRing(space_for(())).number(sympy.Rational(1, 3)).coefficients(0)
+    [1/3]
     """
 
     def __init__(self, space: Space) -> None:
@@ -74,10 +75,8 @@ class TrigRing:
 
     def _rational(self, element: Trig) -> fmpq | None:
         """Return the value of a constant rational element, else None."""
-        if element.s != 0:
-            return None
-        coefficients = self.space.coefficients(element.c)
-        if len(coefficients) > 1:
+        coefficients = element.coefficients(0)
+        if any(p is not None and p != 0 for p in element.parts[1:]) or len(coefficients) > 1:
             return None
         value = coefficients[0] if coefficients else fmpq(0)
         if isinstance(value, fmpq):

@@ -54,6 +54,7 @@ class Node:
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
         self.known: list[Element] = []
+        self._rates: list[Element] = []
         self.slope_u: Element = ring.number(sympy.S.Zero)
         self.slope_v: Element = ring.number(sympy.S.Zero)
 
@@ -62,6 +63,12 @@ class Node:
         while len(self.known) <= n:
             self.known.append(self.step(len(self.known)))
         return self.known[n]
+
+    def rate(self, j: int) -> Element:
+        """Return j times coefficient j, remembered; only for coefficients that will not be corrected any more."""
+        while len(self._rates) <= j:
+            self._rates.append(self.ring.scale(self.get(len(self._rates)), len(self._rates), 1))
+        return self._rates[j]
 
     def step(self, n: int) -> Element:
         """Compute coefficient n from the children's coefficients up to n and the own ones below n."""
@@ -192,11 +199,12 @@ class Power(Node):
 
 def weighted(ring: Ring, y: Node, partner: Node, n: int) -> Element:
     """(1/n) sum over 1 <= j <= n of j y_j partner_(n-j): the integral of y' times the partner."""
-    total = ring.number(sympy.S.Zero)
-    for j in range(1, n + 1):
-        if y.get(j) and partner.known[n - j]:
-            total = total + ring.scale(y.get(j) * partner.known[n - j], j, n)
-    return total
+    total = ring.scale(y.get(n) * partner.known[0], n, 1) if partner.known[0] else ring.number(sympy.S.Zero)
+    for j in range(1, n):
+        rate = y.rate(j)
+        if rate and partner.known[n - j]:
+            total = total + rate * partner.known[n - j]
+    return ring.scale(total, 1, n)
 
 
 class Exponential(Node):
@@ -257,13 +265,13 @@ class Program:
     coefficients of the other symbols.  ``root.get(n)`` then yields the expression's coefficient n.  A coefficient of
     u or u' may be supplied provisionally and mended with ``correct``: order n of u enters order n of all linearly.
 
-    >>> from symbolic.fourier import space_for
+    >>> from symbolic.spaces import space_for
     >>> from symbolic.rings import TrigRing
     >>> u, v = sympy.symbols("u v")
     >>> ring = TrigRing(space_for(()))
     >>> program = Program(sympy.sin(u), ring, {u: [ring.number(sympy.S.Zero)], v: [ring.number(sympy.S.Zero)]}, u, v)
     >>> program.supply(u, ring.number(sympy.S.One))
-    >>> [program.supply(u, ring.number(sympy.S.Zero)) for _ in range(2)] and program.root.get(3).c.coeffs()
+    >>> [program.supply(u, ring.number(sympy.S.Zero)) for _ in range(2)] and program.root.get(3).coefficients(0)
     [-1/6]
     """
 
@@ -291,6 +299,7 @@ class Program:
         if v in self.inputs:
             self.inputs[v].slope_v = one
         self.root = self._compile(expression)
+        self.uses_velocity = bool(expression.has(v))
 
     def supply(self, symbol: sympy.Symbol, coefficient: Element) -> None:
         """Append the next coefficient of an input."""
@@ -307,6 +316,7 @@ class Program:
         for node in set(self.nodes.values()):
             if not isinstance(node, Fixed):
                 del node.known[n:]
+                del node._rates[n:]
 
     def _compile(self, e: sympy.Expr) -> Node:
         if e in self.inputs:

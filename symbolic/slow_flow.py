@@ -14,8 +14,9 @@ from typing import Any
 import sympy
 
 from symbolic.expansion import nearest, series_latex
-from symbolic.fourier import Scalar, Trig
+from symbolic.fourier import Trig
 from symbolic.rendering import as_sympy, mathml
+from symbolic.spaces import Scalar
 
 
 @dataclass(frozen=True)

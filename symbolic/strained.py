@@ -10,10 +10,11 @@ from flint import fmpq
 
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion
-from symbolic.fourier import Scalar, Space, Trig, at_zero, constant, cosine, harmonic, sine
+from symbolic.fourier import Trig, at_zero, constant, cosine, harmonic, sine
 from symbolic.parse import U, V
 from symbolic.rings import TrigRing
 from symbolic.series import Element, Program
+from symbolic.spaces import Scalar, Space
 
 
 class March:

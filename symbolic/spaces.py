@@ -1,0 +1,140 @@
+"""Where the coefficients of a derivation live, and the polynomials in ``y`` over them, all by FLINT.
+
+* ``Rationals``: exact rationals, dense ``fmpq_poly``.
+* ``Modular``: residues modulo one word-sized prime, ``nmod_poly``; many primes make the rationals (``modular``).
+* ``Parametric``: polynomials in named parameters, sparse ``fmpq_mpoly`` with ``y`` as first generator.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+from typing import Any, Protocol
+
+from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpq_poly, nmod, nmod_poly
+
+Polynomial = Any
+"""A FLINT polynomial in y: ``fmpq_poly``, ``nmod_poly`` or ``fmpq_mpoly``."""
+Scalar = Any
+"""What multiplies a power of y: ``fmpq``, ``nmod``, or an ``fmpq_mpoly`` that is free of y."""
+
+
+class Space(Protocol):
+    """Polynomials in one variable y."""
+
+    names: tuple[str, ...]
+
+    def constant(self, value: Scalar) -> Polynomial:
+        """Return the constant polynomial."""
+
+    def gen(self, name: str) -> Polynomial:
+        """Return the polynomial of one named parameter."""
+
+    def shift(self, p: Polynomial) -> Polynomial:
+        """Return y p."""
+
+    def derivative(self, p: Polynomial) -> Polynomial:
+        """Return dp/dy."""
+
+    def coefficients(self, p: Polynomial) -> list[Scalar]:
+        """Return the coefficients of y**0, y**1, ..."""
+
+    def assemble(self, coefficients: Sequence[Scalar]) -> Polynomial:
+        """Undo ``coefficients``."""
+
+
+class Rationals:
+    """Rational coefficients, dense in y.
+
+    >>> Rationals().coefficients(Rationals().shift(Rationals().constant(fmpq(3))))
+    [0, 3]
+    """
+
+    names: tuple[str, ...] = ()
+
+    def constant(self, value: Scalar) -> Polynomial:
+        return fmpq_poly([value])
+
+    def gen(self, name: str) -> Polynomial:
+        raise KeyError(name)
+
+    def shift(self, p: Polynomial) -> Polynomial:
+        return p.left_shift(1)
+
+    def derivative(self, p: Polynomial) -> Polynomial:
+        return p.derivative()
+
+    def coefficients(self, p: Polynomial) -> list[Scalar]:
+        return list(p.coeffs())
+
+    def assemble(self, coefficients: Sequence[Scalar]) -> Polynomial:
+        return fmpq_poly(list(coefficients))
+
+
+class Modular(Rationals):
+    """Residues modulo a prime below 2^63, dense in y.
+
+    A rational enters as the residue of its numerator over its denominator.
+
+    >>> space = Modular(7)
+    >>> space.constant(fmpq(1, 3))
+    5
+    """
+
+    def __init__(self, prime: int) -> None:
+        self.prime = prime
+
+    def constant(self, value: Scalar) -> Polynomial:
+        return nmod_poly([nmod(value, self.prime)], self.prime)
+
+    def assemble(self, coefficients: Sequence[Scalar]) -> Polynomial:
+        return nmod_poly([nmod(value, self.prime) for value in coefficients], self.prime)
+
+
+class Parametric:
+    """Coefficients polynomial in named parameters, sparse.
+
+    >>> space = Parametric(("mu",))
+    >>> space.derivative(space.shift(space.gen("mu")))
+    mu
+    """
+
+    def __init__(self, names: tuple[str, ...]) -> None:
+        self.names = names
+        self._context = fmpq_mpoly_ctx.get(("y*", *names), Ordering.lex)  # no parameter can be called y*
+
+    def constant(self, value: Scalar) -> Polynomial:
+        return self._context.constant(value) if isinstance(value, int | fmpq) else value
+
+    def gen(self, name: str) -> Polynomial:
+        return self._context.gen(1 + self.names.index(name))
+
+    def shift(self, p: Polynomial) -> Polynomial:
+        return p * self._context.gen(0)
+
+    def derivative(self, p: Polynomial) -> Polynomial:
+        return p.derivative(0)
+
+    def coefficients(self, p: Polynomial) -> list[Scalar]:
+        rows: dict[int, dict[tuple[int, ...], Any]] = {}
+        for powers, value in p.to_dict().items():
+            rows.setdefault(int(powers[0]), {})[(0, *powers[1:])] = value
+        top = max(rows, default=-1)
+        return [self._context.from_dict(rows.get(m, {})) for m in range(top + 1)]
+
+    def assemble(self, coefficients: Sequence[Scalar]) -> Polynomial:
+        total: dict[tuple[int, ...], Any] = {}
+        for m, coefficient in enumerate(coefficients):
+            for powers, value in self.constant(coefficient).to_dict().items():
+                total[(m, *powers[1:])] = value
+        return self._context.from_dict(total)
+
+
+@lru_cache(maxsize=64)
+def space_for(names: tuple[str, ...]) -> Space:
+    """Return the exact space for coefficients in the named parameters (none: plain rationals).
+
+    >>> space_for(("mu",)).names
+    ('mu',)
+    """
+    return Parametric(names) if names else Rationals()
