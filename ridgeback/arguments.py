@@ -64,8 +64,8 @@ def number(text: str) -> float:
     >>> number("2.984513"), number("1/4")
     (2.984513, 0.25)
     """
-    exact = rational(text)
-    value = float(text) if DECIMAL.fullmatch(text.strip()) else exact.numerator / exact.denominator
+    exact, word = rational(text), text.strip()
+    value = float(word) if DECIMAL.fullmatch(word) else exact.numerator / exact.denominator
     if not math.isfinite(value):
         raise ValueError(f"{shown(text)} is beyond the largest double, 1.8e308; give a smaller number")
     return value

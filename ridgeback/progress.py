@@ -12,20 +12,20 @@ from typing import TextIO
 class Progress:
     """One line on a terminal that says which step runs; silent when standard error is a file or a pipe.
 
-    Calling it with the name of a step is all that a caller does; a fraction between 0 and 1 may follow.
+    Calling it with a fraction from 0 to 1 and the name of the step is all that a caller does.
 
     >>> with Progress(stream=None) as progress:
-    ...     progress("Wigner distribution", 0.5)
+    ...     progress(0.5, "Wigner distribution")
     """
 
     def __init__(self, stream: TextIO | None = sys.stderr) -> None:
         self.stream = stream if stream is not None and is_terminal(stream) else None
         self.started = time.monotonic()
 
-    def __call__(self, step: str, fraction: float | None = None) -> None:
-        """Show the step, and how far it is."""
-        share = "" if fraction is None else f"{min(max(fraction, 0.0), 1.0):4.0%} "
-        self.show(f"{time.monotonic() - self.started:5.1f} s  {share}{step}")
+    def __call__(self, fraction: float, step: str) -> None:
+        """Show the step, and how far the whole work is."""
+        share = min(max(fraction, 0.0), 1.0)
+        self.show(f"{time.monotonic() - self.started:5.1f} s {share:4.0%}  {step}")
 
     def show(self, text: str) -> None:
         """Put the text in the place of the line before."""

@@ -83,7 +83,7 @@ def command(
         )
     recording = read(file, Columns(column, time_column, rate))
     with Progress() as progress:
-        progress(f"estimating by {method}")
+        progress(0.0, f"estimating by {method}")
         track = tracked(recording, method=method, band=band, lag_seconds=lag, remove_bias=remove_bias)
         if harmonic > 1:
             track = harmonic_of(recording, track, harmonic)

@@ -34,6 +34,7 @@ NEARLY = st.text(alphabet="0123456789.,:=/eE+-_ kmunaif²٣½\x00\n", max_size=3
 @example(text="1/0")
 @example(text="=1")
 @example(text="٣")
+@example(text="0\x1f")
 def test_any_text_is_read_or_refused_in_one_sentence(name: str, text: str) -> None:
     """Either a finite value or a ValueError that names a remedy; nothing is evaluated, nothing explodes."""
     try:
