@@ -177,7 +177,7 @@ def order(text: str) -> int:
     """
     if not re.fullmatch(r"\d{1,9}", text.strip(), re.ASCII):
         raise ValueError(f"{shown(text)} is not an order; give an integer of 0 or more, for example 8")
-    return int(text)
+    return int(text.strip())
 
 
 ASSIGNMENT = written(assignment)
