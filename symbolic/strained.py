@@ -12,8 +12,9 @@ from symbolic.errors import InputError
 from symbolic.expansion import Expansion
 from symbolic.fourier import Trig, at_zero, constant, cosine, harmonic, sine
 from symbolic.parse import U, V
+from symbolic.recurrences import Element
 from symbolic.rings import TrigRing
-from symbolic.series import Element, Program
+from symbolic.series import Program
 from symbolic.spaces import Scalar, Space
 
 
