@@ -84,7 +84,7 @@ def assemble(
         u=motion.trajectory.u,
         velocity=motion.trajectory.velocity,
         integrators=_integrators(motion),
-        disagreement=None if motion.agreement is None else motion.agreement.max_abs,
+        disagreement=motion.disagreement,
         amplitudes=_amplitudes(motion),
         reference=motion.reference_curve(),
         interior=(motion.zone.lower, motion.zone.upper),
@@ -114,7 +114,7 @@ def _scores(motion: Motion, models: tuple[Curve, ...], outcomes: tuple[Outcome, 
 def _integrators(motion: Motion) -> tuple[str, ...]:
     run = motion.trajectory
     first = f"{run.method}, rtol {run.rtol:g}, {run.evaluations} evaluations"
-    return (first,) if motion.precise is None else (first, motion.precise.method)
+    return first, motion.precise.method
 
 
 def _amplitudes(motion: Motion) -> Amplitudes:

@@ -38,7 +38,8 @@ def conservative_reference(dynamics: Dynamics, peaks: Array) -> Exact:
 
 def limit_cycle_reference(oscillator: Oscillator, strengths: Array) -> Exact:
     """Frequency of the limit cycle at each eps, from the periodic orbit found by shooting."""
-    orbits = [periodic_orbit(bind(oscillator, values={"eps": float(eps)})) for eps in strengths]
+    name = oscillator.small or "eps"
+    orbits = [periodic_orbit(bind(oscillator, values={name: float(eps)})) for eps in strengths]
     omega = np.array([orbit.omega for orbit in orbits])
-    error = np.array([orbit.error for orbit in orbits])
-    return Exact(omega, error / omega, "periodic orbit found by shooting")
+    error = np.array([orbit.period_error / orbit.period for orbit in orbits])
+    return Exact(omega, error, "periodic orbit found by shooting")

@@ -15,11 +15,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from compare.bind import bind
+from compare.derivation import undamped
 from compare.radius import convergence_radius
 from compare.reference import Exact, conservative_reference, limit_cycle_reference
 from compare.results import Array, Range, Study
 from numeric.dynamics import Dynamics
-from numeric.period import peak_limit
+from numeric.potential import peak_limit
 from symbolic.energy_integral import energy_integral
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion
@@ -31,8 +32,8 @@ METHODS: Mapping[str, Callable[[Oscillator, int], Expansion]] = {
     "energy-integral": energy_integral,
 }
 MAX_CELLS = 200_000
-MAX_ORBITS = 200
-"""Limit cycles: each value of eps costs one shooting, about a tenth of a second."""
+MAX_ORBITS = 100
+"""Limit cycles: each value of eps costs one shooting, about half a second."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ def study(
     >>> result.relative_error.shape, bool(abs(result.relative_error[1, 1]) < 1e-4)
     ((2, 2), True)
     """
-    bound = oscillator.with_parameters(values) if values else oscillator
+    bound = undamped(oscillator.with_parameters(values) if values else oscillator)
     kept, grid = _checked_orders(orders), _checked_amplitudes(amplitudes)
     _check_size(len(kept), grid.size, limit_cycle=bound.kind == "limit-cycle")
     derive = _method(method)
