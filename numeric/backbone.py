@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from numeric.arrays import frozen
 from numeric.errors import InputError
-from numeric.harmonic_fit import HarmonicFit, Shape, choose_harmonics, harmonic_fit
+from numeric.harmonic_fit import HarmonicFit, Shape, choose_multiples, harmonic_fit
 from numeric.harmonics import carrier
 from numeric.samples import TWO_PI, Array, Mask, checked_rate, checked_real_samples
 from numeric.track import Track
@@ -94,16 +94,16 @@ def backbone(
     seconds = WINDOW_CYCLES * cycle if window_seconds is None else window_seconds
     half = half_width(seconds, rate, name="window_seconds", longest=samples.size)
     real = samples - offset
-    shape = Shape(choose_harmonics(real, rate, base.omega, half=half))
-    step = max(1, round(cycle * rate / POINTS_PER_CYCLE))
-    fit = harmonic_fit(real, rate, base.omega, half=half, shape=shape, start_time=first, step=step)
-    seen = fit.settled if track.settings.get("one_sided_borders") else fit.valid & base.valid[::step]
+    shape = Shape(choose_multiples(real, rate, base.omega, half=half))
+    centres = np.arange(0, samples.size, max(1, round(cycle * rate / POINTS_PER_CYCLE)))
+    fit = harmonic_fit(real, rate, base.omega, half=half, shape=shape, start_time=first, centres=centres)
+    seen = fit.settled if track.settings.get("one_sided_borders") else fit.valid & base.valid[centres]
     usable = seen & (fit.amplitude > CLEAR * fit.amplitude_sd)
     if np.count_nonzero(usable) < 4:
         raise InputError(
             f"backbone: {np.count_nonzero(usable)} points are clear of the noise; give a longer or less noisy record"
         )
-    omega = base.omega[::step]
+    omega = base.omega[centres]
     omega_sd = fit.standard_deviation
     if track.standard_deviation is not None:
         omega_sd = np.interp(fit.time, track.time, track.standard_deviation)
@@ -142,7 +142,7 @@ def assemble(fit: HarmonicFit, usable: Mask, omega: Array, omega_sd: Array, offs
         curve_damping=curve_damping[:, 0],
         curve_damping_sd=curve_damping[:, 1],
         offset=offset,
-        settings={"track": method, "window_seconds": fit.window_seconds, "harmonics": fit.shape.harmonics},
+        settings={"track": method, "window_seconds": fit.window_seconds, "harmonics": (1, *fit.shape.multiples)},
         notes=tuple(notes),
     )
 

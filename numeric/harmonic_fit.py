@@ -2,8 +2,8 @@
 
 In a window of n samples, with s = -1 .. 1 across it,
 
-    x = (a_0 + a_1 s + ..) cos phi + sum over h = 2 .. H of [(b_h + b'_h s) cos h phi + (c_h + c'_h s) sin h phi]
-        + d + d' s + noise,        phi = p_0 + p_1 s + .. + p_D s^D,
+    x = a(s) cos phi + sum over h of [b_h(s) cos h phi + c_h(s) sin h phi] + d + d' s + noise,
+    phi = p_0 + p_1 s + .. + p_D s^D,      a, b_h, c_h polynomials in s,
 
 so phi is by definition the phase of the fundamental, the higher harmonics may drift against it, and omega = phi'.
 For white Gaussian noise this is maximum likelihood, and the standard deviation is the Cramer-Rao bound of this model
@@ -22,7 +22,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from numeric.arrays import frozen, frozen_flags
 from numeric.errors import InputError
-from numeric.samples import Array, Mask
+from numeric.samples import Array, Mask, checked_work
 
 PHASE_DEGREE = 3
 AMPLITUDE_DEGREE = 2
@@ -34,16 +34,20 @@ BLOCK_VALUES = 2_000_000
 
 @dataclass(frozen=True)
 class Shape:
-    """What the local model holds: harmonics H, degrees of phase and fundamental amplitude."""
+    """What the local model holds: the multiples beside the fundamental, and the degrees of phase and amplitudes.
 
-    harmonics: int
+    >>> Shape((3, 5)).size
+    21
+    """
+
+    multiples: tuple[int, ...] = ()
     phase_degree: int = PHASE_DEGREE
     amplitude_degree: int = AMPLITUDE_DEGREE
 
     @property
     def size(self) -> int:
         """The number of parameters."""
-        return self.phase_degree + self.amplitude_degree + 4 + 4 * (self.harmonics - 1)
+        return self.phase_degree + 1 + (self.amplitude_degree + 1) * (1 + 2 * len(self.multiples)) + 2
 
 
 @dataclass(frozen=True)
@@ -90,12 +94,11 @@ def slopes(s: Array, degree: int) -> Array:
 
 def linear_columns(s: Array, phase: Array, shape: Shape) -> Array:
     """Model columns that enter linearly, for all windows: amplitude, harmonics, offset; ``(windows, n, columns)``."""
-    amplitude = powers(s, shape.amplitude_degree)[None] * np.cos(phase)[..., None]
-    slow = powers(s, 1)
-    parts = [amplitude]
-    for h in range(2, shape.harmonics + 1):
+    slow = powers(s, shape.amplitude_degree)
+    parts = [slow * np.cos(phase)[..., None]]
+    for h in shape.multiples:
         parts += [slow * np.cos(h * phase)[..., None], slow * np.sin(h * phase)[..., None]]
-    parts.append(np.broadcast_to(slow, (*phase.shape, 2)))
+    parts.append(np.broadcast_to(powers(s, 1), (*phase.shape, 2)))
     return np.concatenate(parts, axis=2)
 
 
@@ -181,15 +184,16 @@ def harmonic_fit(
     half: int,
     shape: Shape,
     start_time: float = 0.0,
-    step: int = 1,
+    centres: NDArray[np.intp] | None = None,
 ) -> HarmonicFit:
-    """Fit every ``step``-th sample's window of ``2 half + 1`` samples, starting from ``guide`` (N frequencies).
+    """Fit a window of ``2 half + 1`` samples round each of ``centres`` (default: all), from ``guide`` (N frequencies).
 
-    Raises InputError when the record is shorter than one window or the window holds too few samples for the model.
+    Raises InputError when the record is shorter than one window, the window holds too few samples for the model, or
+    the work is over the budget.
 
     >>> t = np.arange(320) / 32.0
     >>> x = 2.0 * np.cos(2 * np.pi * (1.0 * t + 0.02 * t**2)) + 0.3
-    >>> fit = harmonic_fit(x, 32.0, np.full(320, 2 * np.pi * 1.2), half=48, shape=Shape(1))
+    >>> fit = harmonic_fit(x, 32.0, np.full(320, 2 * np.pi * 1.2), half=48, shape=Shape())
     >>> bool(np.abs(fit.omega / (2 * np.pi) - 1.0 - 0.04 * t).max() < 1e-9), round(float(fit.amplitude[160]), 9)
     (True, 2.0)
     """
@@ -198,10 +202,12 @@ def harmonic_fit(
         raise InputError(f"signal has {x.size} samples, the window of harmonic least squares needs {length}")
     if length < shape.size + 4:
         raise InputError(
-            f"window of {length} samples is too short for the {shape.size} parameters of {shape.harmonics} harmonics; "
+            f"window of {length} samples is too short for the {shape.size} parameters of the harmonics asked for; "
             f"use at least {shape.size + 4} samples ({(shape.size + 4) / rate:.4g} time units) or fewer harmonics"
         )
-    centres = np.arange(0, x.size, step)
+    centres = np.arange(x.size) if centres is None else centres
+    work = float(centres.size) * length * shape.size**2 * ITERATIONS
+    checked_work(work, f"harmonic least squares of {centres.size} windows of {length} samples", "shorten the window")
     begins = np.clip(centres - half, 0, x.size - length)
     s = np.arange(-half, half + 1) / half
     guide_phase = cumulative_trapezoid(guide, dx=1.0 / rate, initial=0)
@@ -245,26 +251,27 @@ def read_off(
     )
 
 
-def choose_harmonics(x: Array, rate: float, guide: Array, *, half: int) -> int:
-    """Number of harmonics by the Bayesian information criterion over windows that tile the record.
+def choose_multiples(x: Array, rate: float, guide: Array, *, half: int) -> tuple[int, ...]:
+    """Which harmonics to fit: each multiple in turn, kept when it lowers the Bayesian information criterion.
 
-    Candidates keep below nine tenths of the Nyquist frequency and below a third of the window's samples as parameters.
+    The criterion is summed over windows that tile the record.  Multiples stay below nine tenths of the Nyquist
+    frequency, and the model below a third of the window's samples.
     """
     length = 2 * half + 1
-    nyquist = math.pi * rate
-    top = max(1, min(MOST_HARMONICS, int(0.9 * nyquist / guide.max())))
     begins = np.unique(np.linspace(0, x.size - length, min(12, max(1, x.size // length))).astype(int))
     window = begins[:, None] + np.arange(length)
     guide_phase = cumulative_trapezoid(guide, dx=1.0 / rate, initial=0)[window]
     s = np.arange(-half, half + 1) / half
-    best, best_score = 1, math.inf
-    for harmonics in range(1, top + 1):
-        shape = Shape(harmonics)
-        if 3 * shape.size > length:
-            break
+    floor = (1e-9 * np.abs(x).max()) ** 2
+
+    def criterion(shape: Shape) -> float:
         variance = gauss_newton(s, x[window], guide_phase, shape).variance
-        floor = (1e-9 * np.abs(x).max()) ** 2
-        score = float(np.sum(length * np.log(variance + floor))) + shape.size * begins.size * math.log(length)
-        if score < best_score:
-            best, best_score = harmonics, score
-    return best
+        return float(np.sum(length * np.log(variance + floor))) + shape.size * begins.size * math.log(length)
+
+    kept: tuple[int, ...] = ()
+    best = criterion(Shape(kept))
+    for h in range(2, min(MOST_HARMONICS, int(0.9 * math.pi * rate / guide.max())) + 1):
+        trial = Shape((*kept, h))
+        if 3 * trial.size <= length and (score := criterion(trial)) < best:
+            kept, best = trial.multiples, score
+    return kept

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from numeric.errors import InputError
-from numeric.harmonic_fit import Shape, choose_harmonics, harmonic_fit
+from numeric.harmonic_fit import Shape, choose_multiples, harmonic_fit
 from numeric.samples import Array
 
 
@@ -22,8 +22,8 @@ class Level:
 def measure_level(x: Array, rate: float, guide: Array, *, half: int) -> Level:
     """Local harmonic least squares in half-overlapping windows; the noise is the median of the residuals."""
     half = min(half, (x.size - 1) // 2)
-    harmonics = choose_harmonics(x, rate, guide, half=half)
-    fit = harmonic_fit(x, rate, guide, half=half, shape=Shape(harmonics), step=max(1, half))
+    shape = Shape(choose_multiples(x, rate, guide, half=half))
+    fit = harmonic_fit(x, rate, guide, half=half, shape=shape, centres=np.arange(half, x.size - half, max(1, half)))
     usable = fit.valid if fit.valid.any() else np.ones_like(fit.valid)
     amplitude = np.interp(np.arange(x.size) / rate, fit.time[usable], np.abs(fit.amplitude[usable]))
     if not amplitude.max() > 0.0:

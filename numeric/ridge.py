@@ -20,7 +20,12 @@ class Kernel(Protocol):
     """What gives columns by the block, their spectra on the bins ``omega``, and the spectra's exact derivatives."""
 
     @property
-    def omega(self) -> Array: ...
+    def n_fft(self) -> int:
+        """Length of the transform."""
+
+    @property
+    def omega(self) -> Array:
+        """The bins."""
 
     def blocks(self) -> Iterator[tuple[int, int, ComplexArray]]:
         """All columns as (start, stop, columns)."""

@@ -18,6 +18,8 @@ ComplexArray = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
 
 TWO_PI = 2.0 * math.pi
+WORK_BUDGET = 1e12
+"""Floating-point operations that one estimate may take: about ten minutes on one core."""
 
 
 def checked_samples(x: ArrayLike, *, name: str = "signal", at_least: int = 1) -> Array | ComplexArray:
@@ -89,3 +91,18 @@ def checked_budget(needed: int, budget: int, what: str, remedy: str) -> None:
     """
     if needed > budget:
         raise InputError(f"{what} needs {needed / 1e6:.3g} MB, over the budget of {budget / 1e6:.3g} MB; {remedy}")
+
+
+def checked_work(operations: float, what: str, remedy: str) -> None:
+    """Refuse, before the work, what would take more than WORK_BUDGET floating-point operations (about ten minutes).
+
+    >>> checked_work(1e15, "wigner of 10 million samples", "use pseudo-wigner")
+    Traceback (most recent call last):
+        ...
+    numeric.errors.InputError: wigner of 10 million samples needs about 1e+15 operations, over the budget of 1e+12; use
+    pseudo-wigner
+    """
+    if operations > WORK_BUDGET:
+        raise InputError(
+            f"{what} needs about {operations:.2g} operations, over the budget of {WORK_BUDGET:.2g}; {remedy}"
+        )

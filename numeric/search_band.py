@@ -26,11 +26,12 @@ FEWEST_CYCLES = 3.0
 
 @dataclass(frozen=True)
 class Corridor:
-    """Band limits per sample (rad per time unit), the guide between them, and how they were found."""
+    """Band limits per sample (rad per time unit), the guide between them, its strongest line, and how it was found."""
 
     low: Array
     high: Array
     guide: Array
+    centre: float
     why: str
 
     @property
@@ -39,22 +40,26 @@ class Corridor:
         return float(self.low.min()), float(self.high.max())
 
 
-def strongest_frequency(x: Array, rate: float) -> float:
-    """Angular frequency of the highest line of the Hann-windowed spectrum, the constant and slow drift left out.
+def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | None = None) -> float:
+    """Angular frequency of the highest line of the Hann-windowed spectrum within ``band``.
+
+    By default everything above FEWEST_CYCLES per record counts: the constant and slow drift are left out.
 
     >>> t = np.arange(320) / 32.0
     >>> round(strongest_frequency(np.cos(2 * np.pi * 1.5 * t), rate=32.0) / (2 * np.pi), 2)
     1.5
     """
-    size = x.size
-    padded = 4 * size
-    spectrum = np.abs(fft.rfft((x - x.mean()) * np.hanning(size), padded)) ** 2
-    lowest = math.ceil(FEWEST_CYCLES * padded / size)
-    if lowest >= spectrum.size - 1 or not np.any(spectrum[lowest:] > 0.0):
+    padded = 4 * x.size
+    spectrum = np.abs(fft.rfft((x - x.mean()) * np.hanning(x.size), padded)) ** 2
+    omega = TWO_PI * rate * np.arange(spectrum.size) / padded
+    low, high = band or (TWO_PI * rate * FEWEST_CYCLES / x.size, math.pi * rate)
+    within = np.where((omega >= low) & (omega <= high), spectrum, 0.0)
+    if not within.max() > 0.0:
         raise InputError(
-            f"signal of {size} samples shows no oscillation of {FEWEST_CYCLES:g} cycles or more; give a longer record"
+            f"signal of {x.size} samples shows no oscillation between {low:.4g} and {high:.4g} rad per time unit; "
+            f"give a longer record or another band"
         )
-    return TWO_PI * rate * (lowest + int(spectrum[lowest:].argmax())) / padded
+    return float(omega[within.argmax()])
 
 
 def continuous_path(level: Array, reach: int) -> NDArray[np.intp]:
@@ -78,29 +83,47 @@ def continuous_path(level: Array, reach: int) -> NDArray[np.intp]:
     return path
 
 
-def find_corridor(x: Array, rate: float) -> Corridor:
-    """Return the corridor around the strongest component of the real signal ``x``."""
-    centre = strongest_frequency(x, rate)
+def guide_path(x: Array, rate: float, centre: float, low: float, high: float) -> Array:
+    """Frequency per sample along the strongest continuous path of a spectrogram between ``low`` and ``high``."""
     seconds = min(GUIDE_CYCLES * TWO_PI / centre, (x.size - 1) / rate * 0.999)
     hop = max(1, round(0.25 * TWO_PI / centre * rate))
-    plane = spectrogram(x, rate, window_seconds=seconds, hop=hop, n_fft=fft.next_fast_len(int(8 * seconds * rate)))
-    rows = (plane.omega >= 0.25 * centre) & (plane.omega <= 4.0 * centre)
-    level = plane.values[rows] / plane.values[rows].max(axis=0)
-    path = plane.omega[rows][continuous_path(np.log(level + 1e-6), reach=3)]
+    n_fft = fft.next_fast_len(max(int(8 * seconds * rate), 64), real=True)
+    plane = spectrogram(x, rate, window_seconds=seconds, hop=hop, n_fft=n_fft)
+    rows = (plane.omega >= low) & (plane.omega <= high)
+    if not rows.any():
+        return np.full(x.size, centre)
+    values = plane.values[rows]
+    level = np.log(values / np.maximum(values.max(axis=0), np.finfo(float).tiny) + 1e-6)
+    path = plane.omega[rows][continuous_path(level, reach=3)]
     smooth = gaussian_filter1d(path, GUIDE_CYCLES, mode="nearest")
-    guide = np.interp(np.arange(x.size) / rate, plane.time, smooth)
-    why = f"corridor of a factor {MARGIN} around the strongest component, near {centre / TWO_PI:.4g} cycles per unit"
-    nyquist = math.pi * rate
-    return Corridor(guide / MARGIN, np.minimum(guide * MARGIN, nyquist), guide, why)
+    return np.asarray(np.interp(np.arange(x.size) / rate, plane.time, smooth), dtype=np.float64)
 
 
-def given_band(band: tuple[float, float], x: Array, rate: float) -> Corridor:
-    """Return the corridor of a band given as (low, high) in rad per time unit."""
+def checked_band(band: tuple[float, float], rate: float) -> tuple[float, float]:
+    """Return a band (low, high) in rad per time unit that lies within 0 .. Nyquist."""
     low, high = float(band[0]), float(band[1])
     nyquist = math.pi * rate
     if not (math.isfinite(low) and math.isfinite(high) and 0.0 <= low < high <= nyquist * (1 + 1e-12)):
         raise InputError(
             f"band ({low:g}, {high:g}) rad per time unit is not usable; need 0 <= low < high <= {nyquist:.6g} (Nyquist)"
         )
-    ones = np.ones(x.size)
-    return Corridor(low * ones, high * ones, 0.5 * (low + high) * ones, "band given")
+    return low, high
+
+
+def find_corridor(x: Array, rate: float, *, band: tuple[float, float] | None = None) -> Corridor:
+    """Return the corridor of the real signal ``x``: the given band, or a factor MARGIN round the strongest component.
+
+    >>> t = np.arange(640) / 32.0
+    >>> corridor = find_corridor(np.cos(2 * np.pi * 1.5 * t), 32.0)
+    >>> [round(limit / (2 * np.pi), 1) for limit in corridor.limits]
+    [1.0, 2.2]
+    """
+    if band is not None:
+        low, high = checked_band(band, rate)
+        centre = strongest_frequency(x, rate, band=(low, high))
+        ones = np.ones(x.size)
+        return Corridor(low * ones, high * ones, guide_path(x, rate, centre, low, high), centre, "band given")
+    centre = strongest_frequency(x, rate)
+    guide = guide_path(x, rate, centre, 0.25 * centre, 4.0 * centre)
+    why = f"corridor of a factor {MARGIN} around the strongest component, near {centre / TWO_PI:.4g} cycles per unit"
+    return Corridor(guide / MARGIN, np.minimum(guide * MARGIN, math.pi * rate), guide, centre, why)

@@ -1,0 +1,131 @@
+"""Tracks from the peak of a distribution: Wigner, pseudo-Wigner, smoothed pseudo-Wigner, spectrogram."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy import fft
+
+from numeric.curvature import formula_bias, reestimated_bias
+from numeric.lag_kernel import LagKernel
+from numeric.noise import peak_deviation
+from numeric.request import Request, need
+from numeric.ridge import Kernel, follow
+from numeric.samples import Array, ComplexArray, checked_work
+from numeric.short_time import ShortTimeKernel
+from numeric.track import Track
+from numeric.wigner import wigner_kernel
+from numeric.windows import window
+
+
+def peak_estimate(
+    request: Request,
+    method: str,
+    make: Callable[[ComplexArray], Kernel],
+    *,
+    border: float,
+    half_window: Array,
+    smoothing: Array | None = None,
+    formula: LagKernel | None = None,
+    **settings: object,
+) -> Track:
+    """Ridge of a kernel with its deviation and its bias: by formula where given, else by estimating again."""
+    corridor, time, kernel = request.corridor, request.time, make(request.z)
+    work = 20.0 * time.size * kernel.n_fft * (1.0 + np.log2(kernel.n_fft))
+    checked_work(
+        work, f"{method} of {time.size} samples by {kernel.n_fft} bins", "use a windowed method or less signal"
+    )
+    ridge = follow(kernel, corridor.low, corridor.high)
+    valid = ridge.inside & request.away_from_border(border)
+    need(valid, method, border)
+
+    def again(z: ComplexArray) -> Array:
+        return follow(make(z), corridor.low, corridor.high).omega
+
+    bias: Array | None = None
+    if request.bias and formula is not None:
+        bias = formula_bias(time, ridge.omega, valid, kernel=formula)
+    elif request.bias:
+        bias = reestimated_bias(time, ridge.omega, valid, resolution=2.0 * border, estimator=again)
+    level = request.level(ridge.omega, valid)
+    deviation = peak_deviation(level, request.rate, half_window, smoothing)
+    how = {"bias_by": "formula" if formula is not None else "estimating again on the fitted chirp"}
+    return Track(
+        time, ridge.omega, valid, method, deviation, bias, request.settings(noise=level.noise, **how, **settings)
+    )
+
+
+def by_wigner(request: Request) -> Track:
+    """Peak of the full-length Wigner distribution; biased by the curvature of omega(t), to all orders."""
+    n_fft = fft.next_fast_len(request.z.size, real=True)
+    kernel = wigner_kernel(request.z, request.rate, n_fft=n_fft)
+    # The number of lags changes from column to column; the deviation is that of the mean available window.
+    quarter = np.ones(kernel.half_lags // 2 + 1)
+    return peak_estimate(
+        request,
+        "wigner",
+        lambda z: wigner_kernel(z, request.rate, n_fft=n_fft),
+        border=request.cycle,
+        half_window=quarter,
+    )
+
+
+def by_pseudo_wigner(request: Request) -> Track:
+    """Peak of the pseudo-Wigner distribution."""
+
+    def make(z: ComplexArray) -> LagKernel:
+        return wigner_kernel(z, request.rate, lag_seconds=request.lag_seconds, lag_window=request.lag_window)
+
+    kernel = make(request.z)
+    return peak_estimate(
+        request,
+        "pseudo-wigner",
+        make,
+        border=0.5 * request.lag_seconds,
+        half_window=kernel.lag_window,
+        formula=kernel,
+        lag_seconds=2.0 * kernel.half_lags / request.rate,
+        lag_window=request.lag_window,
+    )
+
+
+def by_smoothed_pseudo_wigner(request: Request) -> Track:
+    """Peak of the smoothed pseudo-Wigner distribution."""
+
+    def make(z: ComplexArray) -> LagKernel:
+        return wigner_kernel(
+            z,
+            request.rate,
+            lag_seconds=request.lag_seconds,
+            lag_window=request.lag_window,
+            smoothing_seconds=request.smoothing_seconds,
+        )
+
+    kernel = make(request.z)
+    return peak_estimate(
+        request,
+        "smoothed-pseudo-wigner",
+        make,
+        border=0.5 * (request.lag_seconds + request.smoothing_seconds),
+        half_window=kernel.lag_window,
+        smoothing=kernel.smoothing,
+        lag_seconds=2.0 * kernel.half_lags / request.rate,
+        lag_window=request.lag_window,
+        smoothing_seconds=2.0 * kernel.half_smoothing / request.rate,
+    )
+
+
+def by_spectrogram(request: Request) -> Track:
+    """Peak of the spectrogram of the analytic signal."""
+    w = window(request.lag_window, request.half)
+    n_fft = fft.next_fast_len(2 * w.size)
+    return peak_estimate(
+        request,
+        "spectrogram",
+        lambda z: ShortTimeKernel(z, request.rate, w, n_fft),
+        border=0.5 * request.lag_seconds,
+        half_window=w[request.half :],
+        lag_seconds=2.0 * request.half / request.rate,
+        lag_window=request.lag_window,
+    )
