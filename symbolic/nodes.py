@@ -9,10 +9,10 @@ from typing import Final, Literal, TypeAlias
 
 from symbolic.errors import InputError
 
-MAX_EXPONENT: Final = 1000
-MAX_TERMS: Final = 10_000
-MAX_DEGREE: Final = 2000
-MAX_BITS: Final = 20_000
+MAX_EXPONENT: Final = 200
+MAX_TERMS: Final = 1000
+MAX_DEGREE: Final = 400
+MAX_BITS: Final = 10_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,7 +205,7 @@ def _product(values: list[Fraction]) -> Fraction:
 
 @dataclass(frozen=True, slots=True)
 class Size:
-    """An upper bound on what an expression becomes: terms once expanded, degree, bits of its numbers."""
+    """An upper bound on what an expression becomes: terms once expanded, degree, bits of its coefficients' sum."""
 
     terms: int
     degree: int
@@ -246,7 +246,7 @@ def _size(node: Node, below: list[Size]) -> Size:
         case Number(value=value):
             return Size(1, 0, value.numerator.bit_length() + value.denominator.bit_length())
         case Name() | Unknown():
-            return Size(1, 1, 0)
+            return Size(1, 1, 1)
         case Sum():
             return Size(sum(s.terms for s in below), max(s.degree for s in below), sum(s.bits for s in below))
         case Product() | Quotient():

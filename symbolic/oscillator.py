@@ -191,7 +191,7 @@ class Oscillator:
     @property
     def equation_latex(self) -> str:
         """The equation in LaTeX: acceleration, damping, restoring; terms with a parameter of value 0 are left out."""
-        zero = {sympy.Symbol(n, real=True): 0 for n, value in self.parameters.items() if value == 0}
+        zero = {_symbol(name): 0 for name, value in self.parameters.items() if value == 0}
         return equation_latex(self.force.subs(zero), self.symbol)
 
     def check_at_origin(self) -> None:
@@ -221,7 +221,7 @@ class Oscillator:
         (2*mu*u' + sin(u), 1/400)
         """
         k, kept = self.natural_frequency, [name for name in (self.damping, self.small) if name]
-        symbols = {name: sympy.Symbol(name, real=True) for name in kept}
+        symbols = {name: _symbol(name) for name in kept}
         force = self._inserted(self.force, keep=kept).subs({V: k * V, **{s: k * s for s in symbols.values()}})
         force = divided(force, self.stiffness)
         values = {name: self._inserted(symbol) / k for name, symbol in symbols.items()}
@@ -237,11 +237,15 @@ class Oscillator:
 
     def _inserted(self, expression: sympy.Expr, keep: list[str] | None = None) -> sympy.Expr:
         values = {
-            sympy.Symbol(name, real=True): value
+            _symbol(name): value
             for name, value in self.parameters.items()
             if value is not None and name not in (keep or ())
         }
         return expression.subs(values)
+
+
+def _symbol(name: str) -> sympy.Symbol:
+    return sympy.Symbol(name, real=True)
 
 
 def _rebuilt(cls: type[Oscillator], values: dict[str, Any]) -> Oscillator:

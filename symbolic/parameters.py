@@ -28,9 +28,17 @@ def merged(system: str, known: Parameters, given: Mapping[str, Value]) -> Parame
     """
     for name in given:
         if name not in known:
-            valid = ", ".join(known) if known else "it has none"
-            raise InputError(f"{system} has no parameter {name!r}; its parameters: {valid}")
+            raise InputError(unknown_parameter(system, name, known))
     return {**known, **{name: _exact(name, value) for name, value in given.items()}}
+
+
+def unknown_parameter(system: str, name: str, known: Parameters) -> str:
+    """The message for a name that is not a parameter.
+
+    >>> unknown_parameter("pendulum", "g", {"mu": None, "k": None})
+    "pendulum has no parameter 'g'; its parameters: mu, k"
+    """
+    return f"{system} has no parameter {name[:60]!r}; its parameters: {', '.join(known) or 'none'}"
 
 
 def _exact(name: str, value: Value) -> sympy.Rational | None:

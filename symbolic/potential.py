@@ -31,13 +31,9 @@ def potential_of(restoring: sympy.Expr) -> sympy.Expr | None:
     >>> potential_of(U + sympy.sin(2 * U))
     u**2/2 - cos(2*u)/2 + 1/2
     """
-    total = sympy.S.Zero
-    for term in sympy.Add.make_args(_expanded(restoring)):
-        integral = _term(term)
-        if integral is None:
-            return None
-        total += integral
-    return _from_zero(total)
+    integrals = [_term(term) for term in sympy.Add.make_args(_expanded(restoring))]
+    known = [integral for integral in integrals if integral is not None]
+    return _from_zero(sympy.Add(*known)) if len(known) == len(integrals) else None
 
 
 def checked_potential(potential: sympy.Expr, restoring: sympy.Expr) -> sympy.Expr:

@@ -21,7 +21,7 @@ def positive_root(square: sympy.Expr) -> sympy.Expr:
 def solved_for_acceleration(left: sympy.Expr) -> sympy.Expr:
     """f of u'' + f = 0 from left = 0, dividing by the factor of u'' exactly.
 
-    Raises InputError when u'' cancels or does not enter linearly.
+    Raises InputError when u'' cancels, does not enter linearly or has a factor that vanishes at rest.
 
     >>> solved_for_acceleration(2 * W + 4 * U)
     2*u
@@ -34,6 +34,10 @@ def solved_for_acceleration(left: sympy.Expr) -> sympy.Expr:
         raise InputError("the second derivative cancels out of the equation; an oscillator needs it")
     if factor.has(W):
         raise InputError(f"u'' enters through {brief(left)}; it must enter linearly, as in (1 + u**2)*u'' + u = 0")
+    if factor.subs({U: 0, V: 0}) == 0:
+        raise InputError(
+            f"the factor {brief(factor)} of u'' vanishes at rest; there is no oscillation about the origin"
+        )
     rest = left.subs(W, 0)
     return rest if factor == 1 else divided(rest, factor)
 

@@ -121,7 +121,7 @@ _ENTRIES: Final = (
         reference=_VAN_DER_POL,
         description="Self-excited: every orbit approaches a limit cycle of amplitude near 2; expanded in eps.",
         initial=(2.0, 0.0),
-        aliases=("vdp", "vanderpol"),
+        aliases=("vdp",),
     ),
     _Entry(
         name="rayleigh",
