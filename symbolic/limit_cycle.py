@@ -12,10 +12,10 @@ from flint import fmpq, fmpq_poly
 
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion, first_harmonic
-from symbolic.fourier import at_zero, constant, cosine, harmonic, solve_oscillator
+from symbolic.fourier import Trig, at_zero, constant, cosine, harmonic, solve_oscillator
 from symbolic.oscillator import Oscillator, U, V
 from symbolic.rings import free_names
-from symbolic.spaces import Scalar, space_for
+from symbolic.spaces import Scalar, Space, space_for
 from symbolic.strained import March, compiled, normalise, residual
 
 
@@ -29,26 +29,12 @@ def limit_cycle(oscillator: Oscillator, order: int, amplitude: str) -> Expansion
     (2, 0, 1/96)
     """
     natural = oscillator.normalised()
-    eps = sympy.Symbol(str(oscillator.small), real=True)
-    rest = sympy.expand(natural.force - U)
-    if free_names(rest) not in ((), (str(eps),)) or rest.subs(eps, 0) != 0:
-        raise InputError(
-            f"{oscillator.name} must be u'' + k**2*u plus terms that carry {eps}, with every other parameter set"
-        )
-    space = space_for(())
-    averaged = _averaged_sine(rest, eps)
-    a0 = _first_amplitude(averaged, oscillator)
-    slope = averaged.derivative()(a0)
-    start = cosine(space).scale(a0)
-    small = {eps: [constant(space, fmpq(0)), constant(space, fmpq(1))]}
-    march = March(compiled(rest, (), start, small), [start], space)
-    for n in range(1, order + 2):
-        _limit_cycle_step(march, n, amplitude, slope)
+    march = march_cycle(oscillator, order, amplitude, space_for(()))
     read = at_zero if amplitude == "peak" else first_harmonic
     return Expansion(
         system=oscillator.name,
         method="lindstedt",
-        variable=str(eps),
+        variable=str(oscillator.small),
         amplitude=amplitude,
         order=order,
         scale=natural.scale,
@@ -56,11 +42,54 @@ def limit_cycle(oscillator: Oscillator, order: int, amplitude: str) -> Expansion
         coefficients=tuple(march.omega[: order + 1]),
         waveform=tuple(march.u[: order + 1]),
         amplitude_coefficients=tuple(read(p) for p in march.u[: order + 1]),
-        residual_of=lambda e: residual(e, natural.force, small),
+        residual_of=lambda e: residual(e, natural.force, _graded(oscillator, march.space)),
     )
 
 
-def _limit_cycle_step(march: March, n: int, amplitude: str, slope: Scalar) -> None:
+def march_cycle(oscillator: Oscillator, order: int, amplitude: str, space: Space) -> March:
+    """Run the orders of a limit cycle over a given coefficient space.
+
+    Raises InputError as ``limit_cycle`` does.
+
+    >>> from symbolic.systems import find
+    >>> march_cycle(find("van-der-pol"), 2, "peak", space_for(())).omega[:3]
+    [1, 0, -1/16]
+    """
+    rest = _rest(oscillator)
+    averaged = _averaged_sine(rest, oscillator)
+    a0 = _first_amplitude(averaged, oscillator)
+    start = cosine(space).scale(a0)
+    march = March(compiled(rest, (), start, _graded(oscillator, space)), [start], space)
+    for n in range(1, order + 2):
+        _cycle_step(march, n, amplitude, averaged.derivative()(a0))
+    return march
+
+
+def _rest(oscillator: Oscillator) -> sympy.Expr:
+    """The force without its linear part u: all of it must carry eps."""
+    rest = sympy.expand(oscillator.normalised().force - U)
+    if (
+        oscillator.small is None
+        or free_names(rest) not in ((), (oscillator.small,))
+        or _at_zero_eps(rest, oscillator) != 0
+    ):
+        raise InputError(
+            f"{oscillator.name} is not u'' + k**2*u plus terms that carry one small parameter, with every other "
+            "parameter set; write it so, e.g. u'' - eps*(1 - u**2)*u' + u = 0, or use --method multiple-scales"
+        )
+    return rest
+
+
+def _at_zero_eps(rest: sympy.Expr, oscillator: Oscillator) -> sympy.Expr:
+    return rest.subs(sympy.Symbol(str(oscillator.small), real=True), 0)
+
+
+def _graded(oscillator: Oscillator, space: Space) -> dict[sympy.Symbol, list[Trig]]:
+    """eps as the series 0 + 1 eps."""
+    return {sympy.Symbol(str(oscillator.small), real=True): [constant(space, fmpq(0)), constant(space, fmpq(1))]}
+
+
+def _cycle_step(march: March, n: int, amplitude: str, slope: Scalar) -> None:
     """Find a_(n-1), w_n and u_n but for its cos tau part a_n, which the next order decides."""
     program = march.program
     if n > 1:
@@ -87,12 +116,11 @@ def _settle_amplitude(march: March, n: int, slope: Scalar) -> None:
     march.curve[n - 1] = march.curve[n - 1] - change
 
 
-def _averaged_sine(rest: sympy.Expr, eps: sympy.Symbol) -> fmpq_poly:
+def _averaged_sine(rest: sympy.Expr, oscillator: Oscillator) -> fmpq_poly:
     """Return Q(a), the secular sine of order 1 for u_0 = a cos tau: the first-order averaged equation."""
     space = space_for(("a",))
     start = cosine(space).scale(space.gen("a"))
-    small = {eps: [constant(space, fmpq(0)), constant(space, fmpq(1))]}
-    _, _, q = solve_oscillator(-compiled(rest, (), start, small).root.get(1))
+    _, _, q = solve_oscillator(-compiled(rest, (), start, _graded(oscillator, space)).root.get(1))
     rows = {powers[1]: value for powers, value in q.to_dict().items()} if q != 0 else {}
     return fmpq_poly([rows.get(n, fmpq(0)) for n in range(max(rows, default=-1) + 1)])
 

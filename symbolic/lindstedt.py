@@ -26,7 +26,7 @@ from symbolic.fourier import constant, cosine, solve_oscillator
 from symbolic.limit_cycle import limit_cycle
 from symbolic.oscillator import Oscillator, U, V
 from symbolic.rings import free_names
-from symbolic.spaces import space_for
+from symbolic.spaces import Space, space_for
 from symbolic.strained import March, compiled, normalise, residual
 
 ALLOWED = ("peak", "fundamental")
@@ -57,15 +57,7 @@ def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Bu
     natural = oscillator.normalised()
     force, names = natural.bound, free_names(natural.bound)
     check("lindstedt", order, budget, parameters=len(names))
-    space = space_for(names)
-    program = compiled(force, names, constant(space, fmpq(0)))
-    if program.root.slope_v:
-        raise InputError(_no_family(oscillator))
-    march = March(program, [constant(space, fmpq(0)), cosine(space)], space)
-    program.supply(U, march.u[1])
-    program.supply(V, march.slope[1])
-    for n in range(2, order + 2):
-        _conservative_step(march, n, amplitude, oscillator)
+    march = march_family(oscillator, order, amplitude, space_for(names))
     return Expansion(
         system=oscillator.name,
         method="lindstedt",
@@ -82,7 +74,28 @@ def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Bu
     )
 
 
-def _conservative_step(march: March, n: int, amplitude: str, oscillator: Oscillator) -> None:
+def march_family(oscillator: Oscillator, order: int, amplitude: str, space: Space) -> March:
+    """Run the orders of a conservative oscillator over a given coefficient space.
+
+    Raises InputError when the oscillator has no family of periodic orbits.
+
+    >>> from symbolic.systems import find
+    >>> march_family(find("duffing"), 2, "peak", space_for(())).omega
+    [1, 0, 3/8]
+    """
+    force = oscillator.normalised().bound
+    program = compiled(force, space.names, constant(space, fmpq(0)))
+    if program.root.slope_v:
+        raise InputError(_no_family(oscillator))
+    march = March(program, [constant(space, fmpq(0)), cosine(space)], space)
+    program.supply(U, march.u[1])
+    program.supply(V, march.slope[1])
+    for n in range(2, order + 2):
+        _family_step(march, n, amplitude, oscillator)
+    return march
+
+
+def _family_step(march: March, n: int, amplitude: str, oscillator: Oscillator) -> None:
     """Find u_n and omega_(n-1)."""
     program, space = march.program, march.space
     zero = constant(space, fmpq(0))

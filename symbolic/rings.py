@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sympy
-from flint import fmpq
+from flint import fmpq, nmod
 
 from symbolic.errors import InputError
 from symbolic.fourier import Trig, constant
@@ -47,7 +47,7 @@ class TrigRing:
         return element.scale(fmpq(numerator, denominator))
 
     def invert(self, element: Trig) -> Trig:
-        value = self._rational(element)
+        value = self._constant(element)
         if value is None or value == 0:
             raise InputError(
                 "a denominator, log or root does not start from a nonzero rational number at the equilibrium; "
@@ -56,7 +56,7 @@ class TrigRing:
         return constant(self.space, 1 / value)
 
     def function(self, name: str, element: Trig) -> Trig:
-        value = self._rational(element)
+        value = self._constant(element)
         if value == 0 and name in _AT_ZERO:
             return constant(self.space, fmpq(_AT_ZERO[name]))
         if value == 1 and name == "log":
@@ -67,19 +67,19 @@ class TrigRing:
         )
 
     def power(self, element: Trig, exponent: sympy.Rational) -> Trig:
-        value = self._rational(element)
-        root = None if value is None else sympy.Rational(int(value.p), int(value.q)) ** exponent
+        value = self._constant(element)
+        root = None if not isinstance(value, fmpq) else sympy.Rational(int(value.p), int(value.q)) ** exponent
         if root is None or not root.is_Rational:
             raise InputError(f"the power {exponent} of {value} is not rational; scale the argument to start from 1")
         return self.number(root)
 
-    def _rational(self, element: Trig) -> fmpq | None:
-        """Return the value of a constant rational element, else None."""
+    def _constant(self, element: Trig) -> fmpq | nmod | None:
+        """Return the value of a constant element without parameters, else None."""
         coefficients = element.coefficients(0)
         if any(p is not None and p != 0 for p in element.parts[1:]) or len(coefficients) > 1:
             return None
         value = coefficients[0] if coefficients else fmpq(0)
-        if isinstance(value, fmpq):
+        if isinstance(value, fmpq | nmod):
             return value
         terms = value.to_dict()
         if any(any(powers) for powers in terms):

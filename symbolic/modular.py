@@ -1,0 +1,180 @@
+r"""Very high orders exactly: the expansion modulo many primes, put together by the Chinese remainder theorem.
+
+Modulo one prime of 63 bits every coefficient is one machine word, however many digits the rational has.  The primes are
+independent, so they run through any ``concurrent.futures.Executor``: a process pool, ``dask.distributed`` or
+``mpi4py.futures`` alike.  The rationals come back by rational reconstruction (Wang 1981; von zur Gathen and Gerhard,
+Modern Computer Algebra, 5.10), and are accepted when they predict every residue modulo further primes that took no
+part: a wrong coefficient survives each of these with a probability below 2^-50.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from functools import partial
+from itertools import islice
+
+from flint import fmpq, fmpz, nmod
+
+from symbolic.cost import Budget, check
+from symbolic.errors import InputError
+from symbolic.expansion import Expansion, check_definition, check_order, first_harmonic
+from symbolic.fourier import at_zero
+from symbolic.limit_cycle import march_cycle
+from symbolic.lindstedt import ALLOWED, march_family
+from symbolic.oscillator import Oscillator
+from symbolic.rings import free_names
+from symbolic.spaces import Modular, Scalar
+
+CHECKS = 2
+"""Primes kept back to test the result."""
+
+
+@dataclass(frozen=True)
+class Residues:
+    """The coefficients of omega0, and of a limit cycle's amplitude, modulo one prime, in units with k = 1."""
+
+    prime: int
+    frequency: tuple[int, ...]
+    amplitude: tuple[int, ...]
+
+
+def primes() -> Iterator[int]:
+    """Yield the primes below 2^63, largest first.
+
+    >>> next(primes()) == 2**63 - 25
+    True
+    """
+    candidate = 2**63 - 1
+    while True:
+        if fmpz(candidate).is_probable_prime():
+            yield candidate
+        candidate -= 2
+
+
+def residues(oscillator: Oscillator, order: int, amplitude: str, prime: int) -> Residues:
+    """Run the derivation modulo one prime.
+
+    >>> from symbolic.systems import find
+    >>> residues(find("duffing"), 2, "peak", 10007).frequency[2] * 8 % 10007
+    3
+    """
+    space = Modular(prime)
+    if oscillator.kind != "limit-cycle":
+        march = march_family(oscillator, order, amplitude, space)
+        return Residues(prime, tuple(_residue(c, prime) for c in march.omega), ())
+    march = march_cycle(oscillator, order, amplitude, space)
+    read = at_zero if amplitude == "peak" else first_harmonic
+    return Residues(
+        prime,
+        tuple(_residue(c, prime) for c in march.omega[: order + 1]),
+        tuple(_residue(read(p), prime) for p in march.u[: order + 1]),
+    )
+
+
+def _residue(value: Scalar, prime: int) -> int:
+    return int(nmod(value, prime))
+
+
+def lindstedt_by_primes(
+    oscillator: Oscillator,
+    order: int,
+    *,
+    amplitude: str = "peak",
+    executor: Executor | None = None,
+    workers: int = 1,
+    progress: Callable[[int, bool], None] | None = None,
+    budget: Budget | None = None,
+) -> Expansion:
+    """Expand omega0 like ``lindstedt``, for orders whose coefficients have thousands of digits; no waveform is kept.
+
+    ``executor`` runs the primes, ``workers`` of them at a time; ``progress`` is told the bits of the modulus so far and
+    whether they sufficed.  Raises InputError as ``lindstedt`` does, and for symbolic parameters.
+
+    >>> from symbolic.systems import find
+    >>> lindstedt_by_primes(find("van-der-pol"), 4).frequency
+    (1, 0, -1/16, 0, 17/3072)
+    """
+    order = check_order(order)
+    check_definition(amplitude, ALLOWED)
+    natural = oscillator.normalised()
+    cycle = oscillator.kind == "limit-cycle"
+    if set(free_names(natural.force if cycle else natural.bound)) - {oscillator.small}:
+        raise InputError(f"{oscillator.name} has symbolic parameters; the primes need a number for each of them")
+    check("limit-cycle" if cycle else "lindstedt", order, budget or Budget())
+    frequency, size = _collect(partial(residues, oscillator, order, amplitude), executor, workers, progress)
+    return Expansion(
+        system=oscillator.name,
+        method="lindstedt",
+        variable=str(oscillator.small) if cycle else "A",
+        amplitude=amplitude,
+        order=order,
+        scale=natural.scale,
+        scaled_variable=cycle,
+        coefficients=frequency,
+        waveform=None,
+        amplitude_coefficients=size if cycle else None,
+        residual_of=None,
+    )
+
+
+def _collect(
+    work: Callable[[int], Residues],
+    executor: Executor | None,
+    workers: int,
+    progress: Callable[[int, bool], None] | None,
+) -> tuple[tuple[fmpq, ...], tuple[fmpq, ...]]:
+    """Gather primes until the rationals predict the residues kept back."""
+    source = primes()
+    run = map if executor is None else executor.map
+    kept = list(run(work, islice(source, CHECKS)))
+    modulus, values = 1, [0] * len(_all(kept[0]))
+    while True:
+        for found in run(work, list(islice(source, max(2, 2 * workers)))):
+            modulus, values = _combine(modulus, values, found)
+        rationals = _reconstructed(values, modulus, kept)
+        if progress is not None:
+            progress(modulus.bit_length(), rationals is not None)
+        if rationals is not None:
+            split = len(kept[0].frequency)
+            return tuple(rationals[:split]), tuple(rationals[split:])
+
+
+def _all(found: Residues) -> tuple[int, ...]:
+    return found.frequency + found.amplitude
+
+
+def _combine(modulus: int, values: list[int], found: Residues) -> tuple[int, list[int]]:
+    """One step of the Chinese remainder theorem for all coefficients."""
+    inverse = pow(modulus, -1, found.prime)
+    new = [v + modulus * ((r - v) * inverse % found.prime) for v, r in zip(values, _all(found), strict=True)]
+    return modulus * found.prime, new
+
+
+def _reconstructed(values: list[int], modulus: int, kept: list[Residues]) -> list[fmpq] | None:
+    """Return the rationals behind the residues, or None while the modulus is too small; the largest is tried first."""
+    result: list[fmpq] = []
+    for index in range(len(values) - 1, -1, -1):
+        candidate = rational(values[index], modulus)
+        if candidate is None or any(int(nmod(candidate, k.prime)) != _all(k)[index] for k in kept):
+            return None
+        result.append(candidate)
+    return result[::-1]
+
+
+def rational(value: int, modulus: int) -> fmpq | None:
+    """Return the fraction p/q = value modulo ``modulus`` with |p|, q below sqrt(modulus / 2), if there is one.
+
+    >>> rational(pow(3, -1, 10007) * 2 % 10007, 10007)
+    2/3
+    """
+    bound = math.isqrt(modulus // 2)
+    r0, r1, t0, t1 = modulus, value % modulus, 0, 1
+    while r1 > bound:
+        quotient = r0 // r1
+        r0, r1, t0, t1 = r1, r0 - quotient * r1, t1, t0 - quotient * t1
+    if t1 == 0 or abs(t1) > bound or math.gcd(r1, t1) != 1:
+        return None
+    return fmpq(r1, t1)
