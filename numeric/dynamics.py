@@ -278,6 +278,7 @@ def _check(*, k: float, **others: float) -> None:
 # The scan for equilibria: 1e-6 to 1e6 in steps of 1 %.  Two further equilibria closer together than 1 % of
 # their distance from the origin would be missed; nothing shorter than a proof could promise more.
 SCAN = 1e-6 * 1.01 ** np.arange(2778)
+_UNDERFLOW = 1e-290  # V' vanishing from below this is a tail (Morse's potential), not an equilibrium
 
 
 def well(dynamics: Dynamics) -> tuple[float, float]:
@@ -308,6 +309,8 @@ def _well_end(dynamics: Dynamics, side: float) -> float:
             raise InputError(f"{dynamics.name}: u = 0 is not a stable equilibrium: V' does not restore near it")
         if np.isnan(pull[first]):
             return float(SCAN[first - 1])
+        if pull[first] == 0 and pull[first - 1] < _UNDERFLOW:
+            return math.inf
         return _equilibrium(lambda u: side * restoring(side * u), SCAN[first - 1], SCAN[first])
 
 
