@@ -126,6 +126,7 @@ def test_c_and_python_agree_bit_for_bit(system: str, order: int, tmp_path: Path)
 @needs_compiler
 def test_limit_cycle_in_both_languages(tmp_path: Path) -> None:
     expansion = lindstedt(find("van-der-pol"), 8)
+    assert generate(lindstedt(find("van-der-pol").with_parameters({"k": 2}), 8)).count("k=2.0") == 3
     module = load(generate(expansion), tmp_path)
     in_c = compiled(generate(expansion, "c"), tmp_path, "van_der_pol_omega0", 2)
     assert expansion.amplitude_series is not None
@@ -142,8 +143,9 @@ def test_limit_cycle_in_both_languages(tmp_path: Path) -> None:
 
 
 @needs_compiler
-def test_slow_flow_in_both_languages(tmp_path: Path) -> None:
-    flow = multiple_scales(find("damped-pendulum"), 8)
+@pytest.mark.parametrize("k", [1, 3])
+def test_slow_flow_in_both_languages(k: int, tmp_path: Path) -> None:
+    flow = multiple_scales(find("damped-pendulum").with_parameters({"k": k}), 8)
     module = load(generate(flow), tmp_path)
     source = generate(flow, "c")
     for name in ("omega0", "damping"):
@@ -152,9 +154,9 @@ def test_slow_flow_in_both_languages(tmp_path: Path) -> None:
         for a, mu in itertools.product((0.0, 0.3, 1.0, 2.0), (0.0, 0.01, 0.2)):
             value = getattr(module, name)(a, mu)
             assert value == pytest.approx(float(direct(a, mu)), rel=1e-13, abs=1e-300)
-            assert in_c(a, mu, 1.0).hex() == float(value).hex()
+            assert in_c(a, mu, k).hex() == float(value).hex()
             # Twice the natural frequency and twice the damping: the same motion, twice as fast.
-            assert getattr(module, name)(a, 2 * mu, 2.0) == 2 * value
+            assert getattr(module, name)(a, 2 * mu, 2.0 * k) == 2 * value
 
 
 @needs_compiler
