@@ -77,7 +77,7 @@ def backbone(
 
     The amplitude and its logarithmic slope come from local harmonic least squares over ``window_seconds`` (default
     four cycles), started from the track; omega comes from the track itself.  ``start`` is the time of the first sample
-    (default: the track's first time).  Raises InputError when fewer than four points are clear of the noise.
+    (default: as the track noted it).  Raises InputError when fewer than four points are clear of the noise.
 
     >>> from numeric.estimate import estimate
     >>> t = np.arange(1280) / 32.0
@@ -87,7 +87,7 @@ def backbone(
     (True, True)
     """
     samples, rate = checked_real_samples(x, what="backbone", at_least=16), checked_rate(rate)
-    first = float(track.time[0]) if start is None else start
+    first = track.start if start is None else start
     offset = float(samples.mean())
     base = carrier(track, samples.size, rate, first)
     cycle = TWO_PI / float(np.median(base.omega[base.valid]))

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from numeric.errors import InputError
 from numeric.harmonic_fit import Shape
+from numeric.harmonics import harmonic_track
 from numeric.peak_track import by_pseudo_wigner, by_smoothed_pseudo_wigner, by_spectrogram, by_wigner
 from numeric.phase_track import by_harmonic_least_squares, by_hilbert, by_zero_crossing
 from numeric.request import Request
@@ -67,6 +68,7 @@ def estimate(
     lag_window: str = "blackman",
     smoothing_seconds: float | None = None,
     harmonics: int | None = None,
+    harmonic: int = 1,
     bias: bool = True,
     remove_bias: bool = False,
 ) -> Track:
@@ -75,6 +77,8 @@ def estimate(
     ``method`` is one of METHODS.  ``band`` limits the search, (low, high) in rad per time unit; by default a corridor
     around the strongest component is found from the data.  ``lag_seconds`` is the stretch of signal under the window
     of the windowed methods (default four cycles), ``smoothing_seconds`` the time smoothing (default one cycle).
+    ``harmonics`` is the highest multiple that harmonic least squares fits (default: those the data show).
+    ``harmonic`` above 1 asks for the track of that harmonic, phase-locked to the fundamental found by ``method``.
     ``bias=False`` leaves the bias estimate out; ``remove_bias=True`` takes it off.  The mean is removed.
 
     Raises InputError for an unknown method, values that are not finite, a constant signal, a record too short for the
@@ -109,4 +113,6 @@ def estimate(
         bias=bias or remove_bias,
     )
     track = finish(ESTIMATORS[method](request), remove_bias)
+    if harmonic != 1:
+        track = harmonic_track(real, rate, track, multiple=harmonic, start=start)
     return replace(track, settings={"offset_removed": offset, **track.settings})

@@ -107,7 +107,7 @@ def harmonic_track(
 ) -> Track:
     """Track harmonic ``multiple`` of the real signal ``x`` (omega of the harmonic itself), phase-locked to a track.
 
-    ``start`` is the time of the first sample (default: the track's first time).  ``filter_seconds`` is the full width
+    ``start`` is the time of the first sample (default: as the track noted it).  ``filter_seconds`` is the full width
     of the low-pass (default: four cycles of the slowest fundamental); it is the resolution, and half of it is the
     border zone.  Raises InputError when the harmonic lies beyond the Nyquist frequency.
 
@@ -120,7 +120,7 @@ def harmonic_track(
     True
     """
     samples, rate = checked_real_samples(x, what="harmonic_track"), checked_rate(rate)
-    first = float(fundamental.time[0]) if start is None else start
+    first = fundamental.start if start is None else start
     base = carrier(fundamental, samples.size, rate, first)
     checked_multiple(multiple, base.omega, rate)
     seconds = FILTER_CYCLES * TWO_PI / float(base.omega.min()) if filter_seconds is None else filter_seconds
@@ -137,6 +137,7 @@ def harmonic_track(
     noise = measure_level(real, rate, base.omega, half=half).noise
     deviation = peak_deviation(Level(amplitude, noise), rate, w[half:])
     settings = {
+        "start": first,
         "multiple": multiple,
         "filter_seconds": 2.0 * half / rate,
         "fundamental": fundamental.method,
@@ -157,13 +158,14 @@ def raw_harmonic_peak(
     and oscillates along time at the difference frequency.  To be shown as what goes wrong; use :func:`harmonic_track`.
     """
     samples, rate = checked_real_samples(x, what="raw_harmonic_peak"), checked_rate(rate)
-    first = float(fundamental.time[0]) if start is None else start
+    first = fundamental.start if start is None else start
     base = carrier(fundamental, samples.size, rate, first)
     checked_multiple(multiple, base.omega * (1.0 + reach), rate)
     expected = multiple * base.omega
     ridge = follow(wigner_kernel(samples, rate), (1.0 - reach) * expected, (1.0 + reach) * expected)
     time = first + np.arange(samples.size) / rate
     settings = {
+        "start": first,
         "multiple": multiple,
         "reach": reach,
         "why": f"cross terms of components m and n with m + n = {2 * multiple} fall on harmonic {multiple}",

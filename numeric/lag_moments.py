@@ -19,8 +19,10 @@ def lag_moments(columns: ComplexArray, theta: Array) -> ComplexArray:
     count, lags = columns.shape
     q = max(1, math.isqrt(lags))
     rows = -(-lags // q)
-    padded = np.zeros((count, rows * q), dtype=np.complex128)
-    padded[:, :lags] = columns
+    padded = columns
+    if rows * q > lags:
+        padded = np.zeros((count, rows * q), dtype=np.complex128)
+        padded[:, :lags] = columns
     a = np.arange(q)
     turns = np.exp(-1j * theta[:, None] * a)
     inner = padded.reshape(count, rows, q) @ np.stack([turns, turns * a, turns * a * a], axis=2)

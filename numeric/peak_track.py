@@ -40,17 +40,18 @@ def peak_estimate(
     valid = ridge.inside & request.away_from_border(border)
     need(valid, method, border)
 
+    level = request.level(ridge.omega, valid)
+
     def again(z: ComplexArray) -> Array:
-        return follow(make(z), corridor.low, corridor.high).omega
+        return follow(make(level.amplitude * z), corridor.low, corridor.high).omega
 
     bias: Array | None = None
     if request.bias and formula is not None:
         bias = formula_bias(time, ridge.omega, valid, kernel=formula)
     elif request.bias:
         bias = reestimated_bias(time, ridge.omega, valid, resolution=2.0 * border, estimator=again)
-    level = request.level(ridge.omega, valid)
     deviation = peak_deviation(level, request.rate, half_window, smoothing)
-    how = {"bias_by": "formula" if formula is not None else "estimating again on the fitted chirp"}
+    how = {"bias_by": "formula" if formula is not None else "estimating again on the fitted chirp and amplitude"}
     return Track(
         time, ridge.omega, valid, method, deviation, bias, request.settings(noise=level.noise, **how, **settings)
     )

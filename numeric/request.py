@@ -60,7 +60,7 @@ class Request:
     def settings(self, **more: object) -> dict[str, object]:
         """What every track reports, and more."""
         low, high = self.corridor.limits
-        return {"rate": self.rate, "band_rad": (low, high), "band_why": self.corridor.why, **more}
+        return {"rate": self.rate, "start": self.start, "band_rad": (low, high), "band_why": self.corridor.why, **more}
 
 
 def need(valid: Mask, method: str, border: float) -> None:

@@ -13,7 +13,9 @@ import numpy as np
 
 from numeric.samples import Array, ComplexArray, Mask
 
-NEWTON_STEPS = 4
+NEWTON_STEPS = 5
+SETTLED = 1e-10
+"""Share of a bin below which a step of all columns ends the iteration."""
 
 
 class Kernel(Protocol):
@@ -65,6 +67,8 @@ def refine(kernel: Kernel, columns: ComplexArray, omega: Array, reach: float) ->
         concave = bend < 0.0
         step = np.where(concave, -slope / np.where(concave, bend, -1.0), 0.25 * reach * np.sign(slope))
         best = np.clip(best + np.clip(step, -0.5 * reach, 0.5 * reach), omega - reach, omega + reach)
+        if np.abs(step).max() < SETTLED * reach:
+            break
     return best
 
 

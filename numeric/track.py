@@ -54,6 +54,12 @@ class Track:
         """Cycles per time unit."""
         return self.omega / TWO_PI
 
+    @property
+    def start(self) -> float:
+        """Time of the first sample of the signal: what the estimator noted, else the first time of the track."""
+        noted = self.settings.get("start")
+        return float(noted) if isinstance(noted, (int, float)) else float(self.time[0])
+
     def inside(self) -> Track:
         """Return the valid part of the track."""
         return self._select(self.valid)

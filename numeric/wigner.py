@@ -2,7 +2,7 @@
 
 Scaling: with omega in rad per time unit, ``sum(values[:, n]) * d_omega / (2 pi) = |z(t_n)|^2`` and
 ``sum(values[k, :]) / rate = |Z(omega_k)|^2 + |Z(omega_k + pi rate)|^2`` with Z = sum of z exp(-i omega t) / rate;
-for an analytic signal the second term vanishes on the bins of its own DFT (even k when n_fft = N).
+for an analytic signal of even N the second term vanishes on the bins of its own DFT (even k when n_fft = N).
 The axis runs over [0, pi rate), that is 0 .. rate / 2 in cycles: all that an analytic signal holds.  A complex
 signal is taken as it is; what it holds at a negative frequency omega appears at omega + pi rate.
 """
