@@ -26,7 +26,7 @@ from symbolic.spaces import Polynomial, Scalar, Space
 
 Parts = tuple[Polynomial | None, Polynomial | None, Polynomial | None, Polynomial | None]
 """p_0 ... p_3; None stands for zero.  Index = 2 * (sine) + (odd power of x)."""
-_NOTHING: Parts = (None, None, None, None)
+NOTHING: Parts = (None, None, None, None)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,6 +44,8 @@ class Trig:
 
     def __add__(self, other: Trig) -> Trig:
         p, q = self.parts, other.parts
+        if q == NOTHING:
+            return self
         return Trig(
             self.space,
             (_plus(p[0], q[0]), _plus(p[1], q[1]), _plus(p[2], q[2]), _plus(p[3], q[3])),
@@ -56,21 +58,7 @@ class Trig:
         return self.map(lambda p: -p)
 
     def __mul__(self, other: Trig) -> Trig:
-        """Multiply part by part: odd times odd gives a factor y, sine times sine a factor 1 - y."""
-        result: list[Polynomial | None] = [None, None, None, None]
-        for i, p in enumerate(self.parts):
-            if p is None:
-                continue
-            for j, q in enumerate(other.parts):
-                if q is None:
-                    continue
-                product = p * q
-                if i & j & 1:
-                    product = self.space.shift(product)
-                if i & j & 2:
-                    product = product - self.space.shift(product)
-                result[i ^ j] = _plus(result[i ^ j], product)
-        return Trig(self.space, (result[0], result[1], result[2], result[3]))
+        return dot(self.space, [self], [other])
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Trig) and not self - other
@@ -79,7 +67,7 @@ class Trig:
         return hash(tuple(str(p) for p in self.parts))
 
     def __bool__(self) -> bool:
-        return any(p is not None and p != 0 for p in self.parts)
+        return self.parts != NOTHING and any(p is not None and p != 0 for p in self.parts)
 
     def map(self, change: Callable[[Polynomial], Polynomial]) -> Trig:
         """Apply a linear map to each part that is there."""
@@ -116,6 +104,31 @@ class Trig:
         return [] if p is None else self.space.coefficients(p)
 
 
+def dot(space: Space, left: list[Trig], right: list[Trig]) -> Trig:
+    """Return the sum of products, part by part: odd times odd gives a factor y, sine times sine a factor 1 - y.
+
+    The factors are applied once to the sums, not to each product.
+
+    >>> from symbolic.spaces import space_for
+    >>> c, s = cosine(space_for(())), sine(space_for(()))
+    >>> dot(c.space, [c, s], [c, s]) == constant(c.space, fmpq(1))
+    True
+    """
+    sums: dict[tuple[int, int], Polynomial] = {}
+    for x, y in zip(left, right, strict=True):
+        for i, p in enumerate(x.parts):
+            if p is not None:
+                for j, q in enumerate(y.parts):
+                    if q is not None:
+                        key = (i ^ j, i & j)
+                        sums[key] = sums[key] + p * q if key in sums else p * q
+    result: list[Polynomial | None] = [None, None, None, None]
+    for (part, shared), total in sums.items():
+        product = space.shift(total) if shared & 1 else total
+        result[part] = _plus(result[part], product - space.shift(product) if shared & 2 else product)
+    return Trig(space, (result[0], result[1], result[2], result[3]))
+
+
 def _plus(p: Polynomial | None, q: Polynomial | None) -> Polynomial | None:
     if p is None:
         return q
@@ -129,7 +142,7 @@ def constant(space: Space, value: Scalar) -> Trig:
     >>> bool(constant(space_for(()), fmpq(0)))
     False
     """
-    return Trig(space, _NOTHING if value == 0 else (space.constant(value), None, None, None))
+    return Trig(space, NOTHING if value == 0 else (space.constant(value), None, None, None))
 
 
 def cosine(space: Space) -> Trig:

@@ -29,6 +29,12 @@ class Ring(Protocol):
     def scale(self, element: Element, numerator: int, denominator: int) -> Element:
         """Return element * numerator / denominator."""
 
+    def absent(self, element: Element) -> bool:
+        """Whether the element is zero at a glance; a zero that only shows on inspection may count as present."""
+
+    def dot(self, left: list[Element], right: list[Element]) -> Element:
+        """Return the sum of products of two lists of the same length."""
+
     def invert(self, element: Element) -> Element:
         """Return 1 / element for a leading coefficient; InputError when the ring cannot."""
 
@@ -147,14 +153,8 @@ def convolve(ring: Ring, x: Node, y: Node, n: int, indices: range) -> Element:
 
     That last point matters: with x = eps it lets y stop one order behind, where eps y is already complete.
     """
-    total = ring.number(sympy.S.Zero)
-    for j in indices:
-        left = x.get(j)
-        if left:
-            right = y.get(n - j)
-            if right:
-                total = total + left * right
-    return total
+    present = [j for j in indices if not ring.absent(x.get(j))]
+    return ring.dot([x.known[j] for j in present], [y.get(n - j) for j in present])
 
 
 class Quotient(Node):
@@ -198,12 +198,8 @@ class Power(Node):
 
 def weighted(ring: Ring, y: Node, partner: Node, n: int) -> Element:
     """(1/n) sum over 1 <= j <= n of j y_j partner_(n-j): the integral of y' times the partner."""
-    total = ring.scale(y.get(n) * partner.known[0], n, 1) if partner.known[0] else ring.number(sympy.S.Zero)
-    for j in range(1, n):
-        rate = y.rate(j)
-        if rate and partner.known[n - j]:
-            total = total + rate * partner.known[n - j]
-    return ring.scale(total, 1, n)
+    rates = [y.rate(j) for j in range(1, n)] + [ring.scale(y.get(n), n, 1)]
+    return ring.scale(ring.dot(rates, partner.known[n - 1 :: -1] if n else []), 1, n)
 
 
 class Exponential(Node):

@@ -6,7 +6,7 @@ import sympy
 from flint import fmpq, nmod
 
 from symbolic.errors import InputError
-from symbolic.fourier import Trig, constant
+from symbolic.fourier import NOTHING, Trig, constant, dot
 from symbolic.parse import U, V
 from symbolic.spaces import Space
 
@@ -45,6 +45,12 @@ class TrigRing:
 
     def scale(self, element: Trig, numerator: int, denominator: int) -> Trig:
         return element.scale(fmpq(numerator, denominator))
+
+    def absent(self, element: Trig) -> bool:
+        return element.parts == NOTHING
+
+    def dot(self, left: list[Trig], right: list[Trig]) -> Trig:
+        return dot(self.space, left, right)
 
     def invert(self, element: Trig) -> Trig:
         value = self._constant(element)
