@@ -1,0 +1,188 @@
+r"""Rational resummation: Padé approximants, in the variable itself or in one that moves the singularity.
+
+    omega0 = k v(w)^(-growth/rate) P(w)/Q(w),      w = w(x),      x = X^step
+
+P/Q is the [m/n] Padé approximant of the series re-expanded exactly in w (n = 0: the mapped series itself).  ``growth``
+is the power of x that omega0 is known to follow at infinity; it is taken out before the re-expansion by a polynomial
+v(w) that falls like x^(-rate).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+import sympy
+from flint import arb
+
+from symbolic import truncated
+from symbolic.balls import ball, natural_frequency
+from symbolic.errors import InputError
+from symbolic.expansion import Expansion
+from symbolic.mapping import CutPlane, Euler, Identity, Mapping, Pair, padded, power
+from symbolic.rational_function import Coefficients, approximant, as_expression, at, first_positive_zero
+from symbolic.resummation import Resummation
+from symbolic.singularity import Limits, limits, stripped
+
+_DENOMINATOR = 1000
+"""Places of singularities are rounded to fractions with denominators up to this before an exact re-expansion."""
+
+
+@dataclass(frozen=True)
+class RationalForm(Resummation):
+    """A quotient of polynomials in w, with exact rational coefficients.
+
+    >>> from symbolic.lindstedt import lindstedt
+    >>> from symbolic.systems import find
+    >>> pade(lindstedt(find("pendulum"), 4)).expression()
+    (1 - 11*A**2/192)/(A**2/192 + 1)
+    """
+
+    step: int
+    """x = X^step."""
+    mapping: Mapping
+    growth: Fraction
+    numerator: Coefficients
+    denominator: Coefficients
+    pole: arb | None
+    """The first pole at a positive value of the printed variable, certified; None when there is none."""
+
+    def normalised(self, x: arb) -> arb:
+        w = self.mapping.image(x**self.step)
+        result = at(self.numerator, w) / at(self.denominator, w)
+        if self.growth == 0:
+            return result
+        vanishing = at(tuple(padded(self.mapping.vanishing, 3)), w)
+        return result * vanishing ** ball(-self.growth / self.mapping.rate)
+
+    def formula(self, x: sympy.Expr) -> sympy.Expr:
+        w = self.mapping.expression(x**self.step)
+        quotient = as_expression(self.numerator, w) / as_expression(self.denominator, w)
+        if self.growth == 0:
+            return quotient
+        vanishing = as_expression(tuple(padded(self.mapping.vanishing, 3)), w)
+        return quotient * vanishing ** sympy.Rational(-self.growth / self.mapping.rate)
+
+    def refusal(self, value: arb) -> str | None:
+        if self.pole is None or abs(value) < self.pole:
+            return None
+        return f"it has a pole at {self.variable} = {self.pole.str(10, radius=False)}"
+
+
+def pade(
+    expansion: Expansion, m: int | None = None, n: int | None = None, *, up_to: float | Fraction | None = None
+) -> RationalForm:
+    """Return the [m/n] Padé approximant in x = A^2 (A when odd powers occur, eps^2), diagonal by default.
+
+    A pole at or below ``up_to`` (in the printed variable; without it, inside the radius of convergence as far as
+    ``limits`` knows it) is refused with its place, and so is evaluation beyond the first pole.  Raises InputError for
+    that, for coefficients that are not rational, and for degrees that do not fit the order.
+
+    >>> from symbolic.energy_integral import energy_integral
+    >>> from symbolic.systems import find
+    >>> pade(energy_integral(find("duffing"), 4)).expression()
+    (19*A**2/32 + 1)/(7*A**2/32 + 1)
+    """
+    return mapped(expansion, Identity(), m=m, n=_half(expansion) if n is None else n, up_to=up_to)
+
+
+def mapped(
+    expansion: Expansion,
+    mapping: Mapping,
+    *,
+    growth: Fraction = Fraction(0),
+    m: int | None = None,
+    n: int = 0,
+    up_to: float | Fraction | None = None,
+) -> RationalForm:
+    """Re-expand exactly in the variable of ``mapping``, then take the [m/n] Padé approximant of that (n = 0: none).
+
+    ``growth`` is the power of x = X^step that omega0 follows at infinity, to be taken out first: 1/2 in x = A^2 for a
+    cubic stiffness, -1/2 in x = eps^2 for the van der Pol oscillator.  Raises InputError as ``pade`` does.
+
+    >>> from symbolic.energy_integral import energy_integral
+    >>> from symbolic.systems import find
+    >>> duffing = energy_integral(find("duffing"), 16)
+    >>> abs(mapped(duffing, Euler(Fraction(1)), growth=Fraction(1, 2))(100.0) / 84.7274824 - 1) < 1e-4
+    True
+    """
+    step, series = stripped(expansion)
+    if growth != 0 and mapping.rate == 0:
+        raise InputError(f"growth {growth} needs a mapping to be taken out with, such as Euler")
+    inner = truncated.compose(series, mapping.series(len(series)))
+    if growth != 0:
+        prefactor = power(padded(mapping.vanishing, len(inner)), growth / mapping.rate)
+        inner = truncated.multiply(inner, prefactor)
+    top = len(inner) - 1 - n if m is None else m
+    numerator, denominator = approximant(inner, top, n)
+    form = RationalForm(
+        system=expansion.system,
+        method=_title(mapping, top, n),
+        variable=expansion.variable,
+        amplitude=expansion.amplitude,
+        order=step * (top + n),
+        scale=expansion.scale,
+        scaled_variable=expansion.scaled_variable,
+        step=step,
+        mapping=mapping,
+        growth=growth,
+        numerator=numerator,
+        denominator=denominator,
+        pole=_first_pole(expansion, mapping, denominator, step),
+    )
+    _refuse_pole_within(form, expansion, up_to)
+    return form
+
+
+def mapping_for(found: Limits, *, cut: bool = False) -> Mapping:
+    """Choose the change of variable that moves the nearest singularity: Euler, cut plane or Andersen-Geer.
+
+    ``cut`` prefers the cut-plane map for a negative singularity, where Euler's transformation would do; a positive one
+    has only the cut plane.  Places are rounded to simple fractions.  Raises InputError when the limits are not known.
+
+    >>> from symbolic.energy_integral import energy_integral
+    >>> from symbolic.systems import find
+    >>> mapping_for(limits(energy_integral(find("duffing"), 24)))
+    Euler(x0=Fraction(1, 1))
+    """
+    if not found.singularities:
+        raise InputError(f"no change of variable can be chosen: {found.why}; give one, such as Euler(Fraction(1))")
+    first = found.singularities[0]
+    modulus = Fraction(first.modulus).limit_denominator(_DENOMINATOR)
+    if first.argument == 0:
+        return CutPlane(modulus)
+    if first.argument == math.pi:
+        return CutPlane(-modulus) if cut else Euler(modulus)
+    real_part = Fraction(first.modulus * math.cos(first.argument)).limit_denominator(_DENOMINATOR)
+    return Pair(modulus, real_part)
+
+
+def _half(expansion: Expansion) -> int:
+    return (len(stripped(expansion)[1]) - 1) // 2
+
+
+def _title(mapping: Mapping, m: int, n: int) -> str:
+    parts = [f"Pade [{m}/{n}]"] if n or not mapping.name else []
+    return " of ".join([*parts, mapping.name] if mapping.name else parts)
+
+
+def _first_pole(expansion: Expansion, mapping: Mapping, denominator: Coefficients, step: int) -> arb | None:
+    """The place, in the printed variable, of the first zero of the denominator on the image of X > 0."""
+    w = first_positive_zero(denominator)
+    if w is None or not (mapping.rate == 0 or w < 1):
+        return None
+    place = mapping.preimage(w).root(step)
+    return natural_frequency(expansion.scale) * place if expansion.scaled_variable else place
+
+
+def _refuse_pole_within(form: RationalForm, expansion: Expansion, up_to: float | Fraction | None) -> None:
+    if form.pole is None:
+        return
+    reach = limits(expansion).radius if up_to is None else float(up_to)
+    if reach is not None and form.pole <= reach:
+        place = f"{form.variable} = {form.pole.str(10, radius=False)}"
+        raise InputError(
+            f"{form.method} of {form.system} has a pole at {place}, inside the range of use, {reach:.4g}; "
+            "change the degrees or the order"
+        )
