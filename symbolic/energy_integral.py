@@ -16,16 +16,17 @@ import sympy
 from flint import fmpq
 
 from symbolic import truncated
+from symbolic.amplitude import check_definition
 from symbolic.cost import Budget, check
 from symbolic.errors import InputError
-from symbolic.expansion import Expansion, check_definition, check_order
+from symbolic.expansion import Expansion, check_order
 from symbolic.fourier import constant
 from symbolic.oscillator import Oscillator, U, V
 from symbolic.rings import TrigRing, free_names
 from symbolic.series import Program
 from symbolic.spaces import Scalar, space_for
 
-ALLOWED = ("peak", "trough", "action")
+ALLOWED = ("peak", "trough", "action", "energy")
 
 
 def energy_integral(
@@ -33,8 +34,8 @@ def energy_integral(
 ) -> Expansion:
     """Expand omega0 in the amplitude through the power ``order``.
 
-    ``trough`` counts the size of the negative turning point as positive; ``action`` is sqrt(2 J), J the loop integral
-    of u' du over 2 pi.  Raises InputError for a bad order or definition, for forces that depend on u', and when
+    The amplitude is that of ``symbolic.amplitude``; ``fundamental`` needs the waveform, which this method does not
+    have.  Raises InputError for a bad order or definition, for forces that depend on u', and when
     the predicted cost exceeds the budget.
 
     >>> from symbolic.systems import find
@@ -101,6 +102,8 @@ def _energy_of(amplitude: str, twice_potential: list[Scalar], period: list[Scala
         return [fmpq(0), fmpq(0), *twice_potential][:length]
     if amplitude == "trough":
         return [fmpq(0), fmpq(0), *((-1) ** n * c for n, c in enumerate(twice_potential))][:length]
+    if amplitude == "energy":
+        return ([fmpq(0), fmpq(0), fmpq(1)] + [fmpq(0)] * length)[:length]
     # dJ/dE = T / 2 pi, so 2J = sum t_n e^(n+1) / (n+1) =: e j(e);  X = sqrt(2J) gives X^2 = e j(e), to be reverted.
     twice_action = [fmpq(0), *(t * fmpq(1, n + 1) for n, t in enumerate(period))][: length + 1]
     energy = truncated.revert(twice_action)

@@ -18,13 +18,11 @@ import sympy
 from flint import fmpq
 
 from symbolic import truncated
+from symbolic.amplitude import check_definition, measured, same_definition
 from symbolic.errors import InputError
-from symbolic.fourier import Trig, at_zero, degree, harmonic
+from symbolic.fourier import Trig, degree, harmonic
 from symbolic.rendering import as_sympy, mathml
 from symbolic.spaces import Scalar
-
-DEFINITIONS = ("peak", "trough", "fundamental", "action")
-"""Amplitude definitions: positive turning point, size of the negative one, first harmonic, sqrt(2 J)."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +52,7 @@ class Expansion:
     variable: str
     """``A`` (amplitude) or ``eps``."""
     amplitude: str
-    """Definition of the amplitude: one of ``DEFINITIONS``."""
+    """Definition of the amplitude: a key of ``symbolic.amplitude.MEANINGS``."""
     order: int
     """Highest power of the variable kept."""
     scale: sympy.Expr
@@ -145,16 +143,11 @@ class Expansion:
 
         Raises InputError for an unknown definition, or when the waveform that carries the conversion is missing.
         """
-        if definition == self.amplitude:
+        if check_definition(definition) == self.amplitude:
             return self
-        if definition not in ("peak", "fundamental"):
-            raise InputError(f"amplitude {definition!r} cannot be reached from here; use peak or fundamental")
         if self.variable != "A" or self.waveform is None:
-            raise InputError(
-                f"this {self.method} expansion cannot be converted; derive it with amplitude={definition!r}"
-            )
-        read = at_zero if definition == "peak" else first_harmonic
-        new_of_old = [read(p) for p in self.waveform]
+            raise InputError(f"this {self.method} expansion cannot be converted; derive it as {definition!r} instead")
+        new_of_old = measured(definition, self.waveform, self.coefficients)
         old_of_new = truncated.revert(new_of_old)
         return replace(
             self,
@@ -162,6 +155,17 @@ class Expansion:
             coefficients=tuple(truncated.compose(list(self.coefficients), old_of_new[: self.order + 1])),
             waveform=substitute(self.waveform, old_of_new),
         )
+
+    def difference(self, other: Expansion) -> tuple[sympy.Expr, ...]:
+        """Exact differences of the coefficients through the lower of the two orders.
+
+        Raises InputError when the variables or the amplitude definitions differ.
+        """
+        same_definition(self.amplitude, other.amplitude)
+        if self.variable != other.variable:
+            raise InputError(f"an expansion in {self.variable} meets one in {other.variable}; they cannot be compared")
+        pairs = zip(self.frequency, other.frequency, strict=False)
+        return tuple(sympy.expand(mine - yours) for mine, yours in pairs)
 
     def terms(self) -> tuple[sympy.Expr, ...]:
         """The nonzero terms of omega0 in rising order."""
@@ -274,16 +278,3 @@ def check_order(order: object, *, lowest: int = 0) -> int:
     if order < lowest:
         raise InputError(f"order {order} is below {lowest}; use {lowest} or more")
     return order
-
-
-def check_definition(amplitude: str, allowed: tuple[str, ...]) -> str:
-    """Return the amplitude definition.
-
-    Raises InputError when it is not one of those allowed here.
-
-    >>> check_definition("peak", ("peak",))
-    'peak'
-    """
-    if amplitude not in allowed:
-        raise InputError(f"amplitude {amplitude!r} is not available here; use {' or '.join(allowed)}")
-    return amplitude

@@ -19,9 +19,10 @@ from __future__ import annotations
 
 from flint import fmpq
 
+from symbolic.amplitude import DEFINITIONS, check_definition
 from symbolic.cost import Budget, check
 from symbolic.errors import InputError
-from symbolic.expansion import Expansion, check_definition, check_order
+from symbolic.expansion import Expansion, check_order
 from symbolic.fourier import constant, cosine, solve_oscillator
 from symbolic.limit_cycle import limit_cycle
 from symbolic.oscillator import Oscillator, U, V
@@ -29,7 +30,8 @@ from symbolic.rings import free_names
 from symbolic.spaces import Space, space_for
 from symbolic.strained import March, compiled, normalise, residual
 
-ALLOWED = ("peak", "fundamental")
+DIRECT = ("peak", "fundamental")
+"""Definitions that fix the homogeneous solution order by order; the others are reached by conversion."""
 
 
 def lindstedt(
@@ -45,11 +47,13 @@ def lindstedt(
     (1, 0, -1/16, 0, 17/3072)
     """
     order = check_order(order)
-    check_definition(amplitude, ALLOWED)
+    check_definition(amplitude, DIRECT if oscillator.kind == "limit-cycle" else DEFINITIONS)
     budget = budget or Budget()
     if oscillator.kind == "limit-cycle":
         check("limit-cycle", order, budget)
         return limit_cycle(oscillator, order, amplitude)
+    if amplitude not in DIRECT:
+        return _conservative(oscillator, order, "peak", budget).convert(amplitude)
     return _conservative(oscillator, order, amplitude, budget)
 
 

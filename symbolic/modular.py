@@ -18,12 +18,13 @@ from itertools import islice
 
 from flint import fmpq, fmpz, nmod
 
+from symbolic.amplitude import check_definition
 from symbolic.cost import Budget, check
 from symbolic.errors import InputError
-from symbolic.expansion import Expansion, check_definition, check_order, first_harmonic
+from symbolic.expansion import Expansion, check_order, first_harmonic
 from symbolic.fourier import at_zero
 from symbolic.limit_cycle import march_cycle
-from symbolic.lindstedt import ALLOWED, march_family
+from symbolic.lindstedt import DIRECT, march_family
 from symbolic.oscillator import Oscillator
 from symbolic.rings import free_names
 from symbolic.spaces import Modular, Scalar
@@ -98,7 +99,7 @@ def lindstedt_by_primes(
     (1, 0, -1/16, 0, 17/3072)
     """
     order = check_order(order)
-    check_definition(amplitude, ALLOWED)
+    check_definition(amplitude, DIRECT)
     natural = oscillator.normalised()
     cycle = oscillator.kind == "limit-cycle"
     if set(free_names(natural.force if cycle else natural.bound)) - {oscillator.small}:

@@ -208,6 +208,15 @@ def test_frequency_in_action_amplitude_of_the_pendulum() -> None:
     assert [energy.coeff(j, n) for n in (1, 2, 3, 4)] == list(rationals("1", "-1/16", "-1/256", "-5/8192"))
 
 
+@pytest.mark.parametrize("name", CONSERVATIVE)
+@pytest.mark.parametrize("definition", ["peak", "trough", "action", "energy"])
+def test_every_definition_agrees_with_the_energy_integral_and_converts_back(name: str, definition: str) -> None:
+    converted = lindstedt(find(name), 8, amplitude=definition)
+    assert converted.difference(energy_integral(find(name), 8, amplitude=definition)) == (0,) * 9
+    assert converted.residual() == []
+    assert converted.convert("peak").coefficients == lindstedt(find(name), 8).coefficients
+
+
 def test_trough_is_the_mirrored_oscillator() -> None:
     own = Oscillator.from_equation("u'' + u + u**2/3 + u**3/5")
     mirrored = Oscillator.from_equation("u'' + u - u**2/3 + u**3/5")
@@ -276,13 +285,15 @@ def test_slow_twin_by_complex_exponentials(values: list[str]) -> None:
     [
         (lambda: lindstedt(find("pendulum"), -1), "order -1"),
         (lambda: lindstedt(find("pendulum"), 2.5), "whole number"),  # type: ignore[arg-type]
-        (lambda: lindstedt(find("pendulum"), 4, amplitude="rms"), "peak or fundamental"),
+        (lambda: lindstedt(find("pendulum"), 4, amplitude="rms"), "peak or trough or fundamental"),
         (lambda: lindstedt(find("damped-pendulum"), 4), "multiple-scales"),
         (lambda: energy_integral(find("van-der-pol"), 4), "multiple-scales"),
         (lambda: energy_integral(find("pendulum"), 4, amplitude="fundamental"), "peak"),
         (lambda: multiple_scales(find("pendulum"), 4, weight=0), "weight 0"),
         (lambda: lindstedt(find("pendulum"), 4).truncated(5), "order 5"),
-        (lambda: lindstedt(find("pendulum"), 4).convert("action"), "peak or fundamental"),
+        (lambda: lindstedt(find("van-der-pol"), 4, amplitude="action"), "peak or fundamental"),
+        (lambda: energy_integral(find("pendulum"), 4).convert("fundamental"), "derive it as 'fundamental'"),
+        (lambda: lindstedt(find("pendulum"), 4).difference(lindstedt(find("pendulum"), 4, amplitude="action")), "peak"),
     ],
 )
 def test_bad_input_says_what_would_work(call, words: str) -> None:  # type: ignore[no-untyped-def]
