@@ -17,11 +17,18 @@ WINDOW_CYCLES = 4.0
 
 
 def spectrogram_image(
-    x: Array, rate: float, *, period: float, top: float, name: str, overlays: tuple[Curve, ...] = ()
+    x: Array,
+    rate: float,
+    *,
+    period: float,
+    top: float,
+    name: str,
+    overlays: tuple[Curve, ...] = (),
+    start: float = 0.0,
 ) -> Image:
     """Spectrogram of ``x`` with a window of a few periods, up to the angular frequency ``top``."""
     seconds = min(WINDOW_CYCLES * period, 0.5 * x.size / rate)
-    plane = spectrogram(x, rate, window_seconds=seconds, hop=max(1, x.size // COLUMNS))
+    plane = spectrogram(x, rate, window_seconds=seconds, hop=max(1, x.size // COLUMNS), start=start)
     note = f"Hann window of {seconds:.3g} time units; {rate:g} samples per time unit."
     return image(plane, top=top, name=name, overlays=overlays, note=note)
 
