@@ -15,10 +15,11 @@ from functools import cached_property
 from typing import Any
 
 import sympy
-from flint import fmpq
+from flint import arb, fmpq
 
 from symbolic import truncated
 from symbolic.amplitude import check_definition, measured, same_definition
+from symbolic.balls import natural_frequency
 from symbolic.errors import InputError
 from symbolic.fourier import Trig, degree, harmonic
 from symbolic.rendering import as_sympy, mathml
@@ -109,6 +110,19 @@ class Expansion:
         if self.residual_of is None:
             raise InputError(f"{self.method} has no waveform to substitute; compare it with lindstedt instead")
         return self.residual_of(self)
+
+    def in_balls(self, value: arb) -> arb:
+        """Return an enclosure of this truncated series, in rad per time unit, at FLINT's working precision.
+
+        It encloses the series, not the exact frequency.  Raises InputError when a parameter is still symbolic.
+        """
+        if not all(isinstance(c, fmpq) for c in self.coefficients):
+            raise InputError(f"the coefficients hold {', '.join(self.names)} as symbols; set them before evaluating")
+        k, total = natural_frequency(self.scale), arb(0)
+        x = value / k if self.scaled_variable else value
+        for c in reversed(self.coefficients):
+            total = total * x + c
+        return k * total
 
     def __call__(self, value: Any) -> Any:
         """Evaluate omega0 in rad per time unit, at a number or an array (float), or exactly at a Fraction.

@@ -77,33 +77,42 @@ class Identity:
 
 @dataclass(frozen=True)
 class Euler:
-    """Euler's transformation w = x/(x + x0): sends the singularity x = -x0 to infinity and x = infinity to w = 1.
+    """Euler's transformation w = x/(x + x0), or with another rate than 1 its power w = 1 - (1 + x/x0)^(-rate).
+
+    The singularity x = -x0 goes to infinity and x = infinity to w = 1, where a function of x^(-rate) becomes analytic.
 
     >>> Euler(Fraction(1)).series(4)
     [0, 1, 1, 1]
     """
 
     x0: Fraction
+    rate: Fraction = Fraction(1)
 
-    name = "Euler transformation"
     vanishing = (1, -1)
-    rate = Fraction(1)
 
     def __post_init__(self) -> None:
-        if self.x0 <= 0:
-            raise InputError(f"x0 = {self.x0} is not positive; Euler's transformation moves a singularity at -x0 < 0")
+        for name, value in (("x0", self.x0), ("rate", self.rate)):
+            if value <= 0:
+                raise InputError(f"{name} = {value} of an Euler transformation is not positive; use e.g. 1")
+
+    @property
+    def name(self) -> str:
+        return "Euler transformation" if self.rate == 1 else f"Euler transformation of rate {self.rate}"
 
     def image(self, x: arb) -> arb:
-        return x / (x + ball(self.x0))
+        scaled = 1 + x / ball(self.x0)
+        return 1 - (1 / scaled if self.rate == 1 else scaled ** ball(-self.rate))
 
     def preimage(self, w: arb) -> arb:
-        return ball(self.x0) * w / (1 - w)
+        return ball(self.x0) * ((1 - w) ** ball(-1 / self.rate) - 1)
 
     def series(self, length: int) -> Coefficients:
-        return padded([fmpq(0)] + [rational(self.x0)] * (length - 1), length)
+        scaled = power(padded(self.vanishing, length), -1 / self.rate)
+        return [fmpq(0), *(rational(self.x0) * c for c in scaled[1:])]
 
     def expression(self, x: sympy.Expr) -> sympy.Expr:
-        return x / (x + sympy.Rational(self.x0))
+        x0 = sympy.Rational(self.x0)
+        return x / (x + x0) if self.rate == 1 else 1 - (1 + x / x0) ** sympy.Rational(-self.rate)
 
 
 @dataclass(frozen=True)

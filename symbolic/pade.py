@@ -144,7 +144,7 @@ def mapping_for(found: Limits, *, cut: bool = False) -> Mapping:
     >>> from symbolic.energy_integral import energy_integral
     >>> from symbolic.systems import find
     >>> mapping_for(limits(energy_integral(find("duffing"), 24)))
-    Euler(x0=Fraction(1, 1))
+    Euler(x0=Fraction(1, 1), rate=Fraction(1, 1))
     """
     if not found.singularities:
         raise InputError(f"no change of variable can be chosen: {found.why}; give one, such as Euler(Fraction(1))")

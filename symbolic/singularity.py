@@ -181,7 +181,7 @@ def _function(series: list[fmpq], of: str) -> list[fmpq]:
 
 def _chosen(expansion: Expansion, series: list[fmpq]) -> tuple[str, Estimate] | None:
     """The function whose singularities are plain, by the rule above, with its estimate."""
-    factor = _LOGARITHMS if expansion.amplitude in ("action", "fundamental") and expansion.variable == "A" else 1
+    factor = _LOGARITHMS if expansion.variable == "A" and expansion.amplitude not in ("peak", "trough") else 1
     period, frequency = (_settled(_function(series, of), factor) for of in ("period", "frequency"))
     found = []
     if period is not None and not _has_pole(period):
