@@ -5,11 +5,16 @@ measures; it is the mean of omega over the cycle and differs from the instantane
 
     mean of omega = omega + omega'' T^2 / 24 + O(T^4).
 
-The *instantaneous* value removes this bias: crossings have the phases pi i (symmetric oscillators) or 2 pi i (one
-direction only, asymmetric ones); the times as a smooth function of phase, t(phi), are interpolated by a spline on
-these equidistant phases, and omega = 1 / t'(phi).
+The *instantaneous* value removes this bias: located events have known phases, and their times as a smooth function of
+phase, t(phi), are interpolated by a spline on these equidistant phases; omega = 1 / t'(phi).
 
-A second reading, from the other family of events (turning points, or falling crossings), differs from the first by
+In a symmetric oscillator the events are the zero crossings, pi apart.  In an asymmetric one the phase phi_0 of a
+crossing depends on the amplitude, so that crossings of one direction alone would be wrong by (d phi_0 / dA) A', of
+first order in the damping, and those of the other direction by as much with the other sign.  The centre between an
+upward and the next downward crossing is free of it; these centres, 2 pi apart, are the events then.
+
+A second reading, from the other families of events (turning points, centres of the lower half
+swings), differs from the first by
 what a damped oscillation leaves undefined, of relative order (mu/k)^2, and by interpolation error; this spread is
 part of the uncertainty.  Beyond its outermost events the spline is continued by at most 0.6 of their spacing, which
 reaches a start or an end at a turning point; its error estimate grows accordingly.
@@ -28,7 +33,7 @@ from numeric.arrays import Array, Flags, frozen
 from numeric.dynamics import Dynamics
 from numeric.errors import InputError
 from numeric.roots import bracketed_newton
-from numeric.trajectory import Trajectory
+from numeric.trajectory import CrossingEvents, Trajectory
 
 _DEGREE = 7
 _LEAST_EVENTS = 4
@@ -87,7 +92,7 @@ class CycleFrequency:
     omega: Array
     uncertainty: Array
     kind: str
-    """``symmetric``: all crossings, pi apart; ``one-directional``: upward and downward ones apart, 2 pi each."""
+    """``crossings``, pi apart (symmetric oscillators), or ``centres`` between crossings, 2 pi apart."""
     span: tuple[float, float]
     """First and last time at which ``at`` gives a value."""
     readings: tuple[PhaseReading, ...]
@@ -119,8 +124,8 @@ class CycleFrequency:
 def cycle_frequency(trajectory: Trajectory, *, dynamics: Dynamics | None = None) -> CycleFrequency:
     """Return the frequency of a trajectory from its located events.
 
-    With ``dynamics`` the oscillator is asked whether it is symmetric, f(-u, -u') = -f(u, u'); without, crossings
-    of one direction only are used, which is right for both.  Raises InputError with fewer than 4 events.
+    With ``dynamics`` the oscillator is asked whether it is symmetric, f(-u, -u') = -f(u, u'); without, the
+    centres between crossings are used, which is right for both.  Raises InputError with fewer than 4 events.
 
     >>> from numeric.dynamics import linear
     >>> from numeric.trajectory import integrate
@@ -146,7 +151,7 @@ def cycle_frequency(trajectory: Trajectory, *, dynamics: Dynamics | None = None)
         time=frozen(time),
         omega=frozen(omega),
         uncertainty=frozen(np.abs(draft.at(time) - omega)),
-        kind="symmetric" if symmetric else "one-directional",
+        kind="crossings" if symmetric else "centres",
         span=span,
         readings=readings,
     )
@@ -170,12 +175,20 @@ def _families(trajectory: Trajectory, symmetric: bool) -> list[tuple[str, Array,
     crossings, turnings = trajectory.crossings, trajectory.turnings
     if symmetric:
         return [("crossings", crossings.time, math.pi), ("turning points", turnings.time, math.pi)]
+    upper, lower = _centres(crossings)
     return [
-        ("rising crossings", crossings.time[crossings.rising], 2 * math.pi),
-        ("falling crossings", crossings.time[~crossings.rising], 2 * math.pi),
+        ("centres of upper half swings", upper, 2 * math.pi),
+        ("centres of lower half swings", lower, 2 * math.pi),
         ("peaks", turnings.time[turnings.value > 0], 2 * math.pi),
         ("troughs", turnings.time[turnings.value < 0], 2 * math.pi),
     ]
+
+
+def _centres(crossings: CrossingEvents) -> tuple[Array, Array]:
+    """Times half way from each crossing to the next: of the half swings above and below zero."""
+    middle = 0.5 * (crossings.time[:-1] + crossings.time[1:])
+    above = crossings.rising[:-1]
+    return middle[above], middle[~above]
 
 
 def _reading(name: str, time: Array, step: float) -> PhaseReading:
@@ -191,13 +204,12 @@ def _reading(name: str, time: Array, step: float) -> PhaseReading:
 
 
 def _averages(trajectory: Trajectory, symmetric: bool) -> tuple[Array, Array]:
-    """Full cycles: every crossing to the next but one, which has the same direction."""
-    crossings = trajectory.crossings
+    """Full cycles: every crossing to the next but one, or every centre to the next of its kind."""
     if symmetric:
-        pairs = [(crossings.time[:-2], crossings.time[2:])]
+        crossings = trajectory.crossings.time
+        pairs = [(crossings[:-2], crossings[2:])]
     else:
-        rising, falling = crossings.time[crossings.rising], crossings.time[~crossings.rising]
-        pairs = [(rising[:-1], rising[1:]), (falling[:-1], falling[1:])]
+        pairs = [(centres[:-1], centres[1:]) for centres in _centres(trajectory.crossings)]
     start, stop = (np.concatenate(x) for x in zip(*pairs, strict=True))
     order = np.argsort(start)
     return 0.5 * (start + stop)[order], 2 * math.pi / (stop - start)[order]

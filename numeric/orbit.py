@@ -20,6 +20,7 @@ from numeric.taylor import taylor_solution
 from numeric.trajectory import Trajectory, integrate
 
 _SLOPE_STEP = 1e-4  # in ln A: balances the truncation of a central difference against rounding
+_VANISHED = 1e-6  # of the start: peaks below this are the noise of the transient's tolerance
 _NEUTRAL = 1e-6  # multipliers this near to 1 cannot be told from a family of orbits
 
 
@@ -92,6 +93,11 @@ def _settle(dynamics: Dynamics, start: float) -> float:
     peaks = run.turnings.value[run.turnings.value > 0]
     if peaks.size < 2:
         raise InputError(f"{dynamics.name}: fewer than two peaks within 20 natural periods; it does not oscillate")
+    if peaks[-1] < _VANISHED * start:
+        raise InputError(
+            f"{dynamics.name}: from u = {start:g} the motion dies out to {peaks[-1]:.1e} in 20 natural periods: "
+            "no limit cycle; if there is a smaller one, start nearer to it"
+        )
     return float(peaks[-1])
 
 
