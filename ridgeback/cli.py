@@ -90,7 +90,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = sys.argv[1:] if arguments is None else list(arguments)
     try:
         # Not `cli.main`, which turns a broken pipe into exit code 1 before anybody can see it.
-        with cli.make_context("ridgeback", given) as context:
+        with cli.make_context("ridgeback", list(given), obj=tuple(given)) as context:
             cli.invoke(context)
         sys.stdout.flush()
     except click.exceptions.Exit as stop:

@@ -95,9 +95,20 @@ def chosen(system: str, assignments: tuple[tuple[str, Fraction], ...]) -> Oscill
     """
     from symbolic.systems import find
 
-    names = [name for name, _ in assignments]
-    twice = sorted({name for name in names if names.count(name) > 1})
-    if twice:
-        raise click.UsageError(f"--set gives {twice[0]} twice; keep one of the values")
+    values = unique(assignments)
     oscillator = find(system)
-    return oscillator.with_parameters(dict(assignments)) if assignments else oscillator
+    return oscillator.with_parameters(values) if values else oscillator
+
+
+def unique(assignments: tuple[tuple[str, Fraction], ...]) -> dict[str, Fraction]:
+    """The parameters by name; click.UsageError when one is set twice.
+
+    >>> unique((("k", Fraction(2)),))
+    {'k': Fraction(2, 1)}
+    """
+    values: dict[str, Fraction] = {}
+    for name, value in assignments:
+        if name in values:
+            raise click.UsageError(f"--set gives {name} twice; keep one of the values")
+        values[name] = value
+    return values

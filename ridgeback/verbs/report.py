@@ -1,0 +1,217 @@
+"""``ridgeback report``: the whole comparison as one HTML page."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import click
+
+from ridgeback.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
+from ridgeback.failure import PartialError, say
+from ridgeback.options import chosen, set_option, unique
+from ridgeback.output import STDOUT, output_path, write_text
+from ridgeback.progress import Progress
+
+if TYPE_CHECKING:
+    from compare.motion import Setting
+    from compare.results import Report
+
+DEFAULT_NAME = "ridgeback-report.html"
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What is to be simulated, as far as it was said."""
+
+    system: str | None
+    assignments: tuple[tuple[str, Fraction], ...]
+    initial: tuple[float, float] | None
+    duration: float | None
+    rate: float | None
+
+
+@dataclass(frozen=True)
+class Scope:
+    """What is to be derived and studied, as far as it was said."""
+
+    order: int | None
+    orders: tuple[int, ...] | None
+    amplitudes: tuple[float, ...] | None
+    target: float | None
+
+
+@dataclass(frozen=True)
+class Source:
+    """A recording, and where its samples are."""
+
+    file: str
+    column: str | None
+    time_column: str | None
+
+
+@click.command("report", short_help="Write the comparison as one HTML page.")
+@click.argument("system", required=False)
+@set_option
+@click.option("--initial", type=PAIR, default=None, metavar="U,V", help="State at time 0.")
+@click.option("--duration", type=POSITIVE, default=None, metavar="T", help="Time to integrate over.")
+@click.option("--rate", type=POSITIVE, default=None, metavar="R", help="Samples per time unit, also of a recording.")
+@click.option(
+    "--order", type=ORDER, default=None, metavar="N", help="The expansion that the page is about.  Default: 8."
+)
+@click.option("--orders", type=ORDERS, default=None, metavar="N,N,...", help="Orders of the accuracy study.")
+@click.option("--amplitudes", type=GRID, default=None, metavar="START:STOP:COUNT", help="Amplitudes of the study.")
+@click.option("--target", type=POSITIVE, default=None, metavar="E", help="Relative error aimed at.  Default: 0.001.")
+@click.option("--recording", default=None, metavar="FILE", help="Report on a recording (CSV, NPZ, WAV) instead.")
+@click.option("--column", default=None, metavar="NAME", help="The recording's samples.")
+@click.option("--time-column", default=None, metavar="NAME", help="The recording's times.")
+@click.option(
+    "-o",
+    "--output",
+    type=output_path,
+    default=DEFAULT_NAME,
+    show_default=True,
+    metavar="FILE",
+    help="Where to write the page; - is standard output.",
+)
+@click.pass_context
+def command(
+    context: click.Context,
+    system: str | None,
+    assignments: tuple[tuple[str, Fraction], ...],
+    initial: tuple[float, float] | None,
+    duration: float | None,
+    rate: float | None,
+    order: int | None,
+    orders: tuple[int, ...] | None,
+    amplitudes: tuple[float, ...] | None,
+    target: float | None,
+    recording: str | None,
+    column: str | None,
+    time_column: str | None,
+    output: str,
+) -> None:
+    """Compare expansions, models and estimated frequencies of SYSTEM, or of a recording, on one HTML page.
+
+    Without an argument: the damped pendulum of Galleani and Cohen, k = 4 pi, mu = 0.01, from 0.95 pi at rest.  With
+    a recording, SYSTEM is optional and its exact backbone is drawn over the measured one.
+
+    \b
+    ridgeback report
+    ridgeback report damped-duffing --set mu=0.02 --initial 1.5,0 --duration 60 -o duffing.html
+    ridgeback report --recording decay.csv --column displacement -o decay.html
+    """
+    motion = Motion(system, assignments, initial, duration, rate)
+    scope = Scope(order, orders, amplitudes, target)
+    shown = as_typed(context.find_root().obj or ("report",))
+    with Progress() as progress:
+        if recording is None:
+            refuse({"--column": column, "--time-column": time_column}, "belongs to --recording FILE")
+            report = of_motion(motion, scope, shown, progress)
+        else:
+            report = of_recording(Source(recording, column, time_column), motion, scope, shown, progress)
+    publish(report, output)
+
+
+def refuse(given: dict[str, object], why: str) -> None:
+    """Raise click.UsageError for the first option that was given and has no place here."""
+    for name, value in given.items():
+        if value is not None:
+            raise click.UsageError(f"{name} {why}; leave it out")
+
+
+def of_motion(motion: Motion, scope: Scope, shown: str, progress: Progress) -> Report:
+    """The report on a simulated motion."""
+    from compare.report import ORDER as USUAL
+    from compare.report import TARGET, assemble_system
+
+    return assemble_system(
+        setting_of(motion),
+        order=USUAL if scope.order is None else scope.order,
+        orders=scope.orders,
+        amplitudes=scope.amplitudes,
+        target=TARGET if scope.target is None else scope.target,
+        command=shown,
+        progress=progress,
+    )
+
+
+def setting_of(motion: Motion) -> Setting:
+    """The motion asked for; without a system the paper's, with whatever was said changed."""
+    from compare.motion import setting
+    from compare.report import paper_case
+
+    if motion.system is not None:
+        oscillator = chosen(motion.system, motion.assignments)
+        return setting(oscillator, initial=motion.initial, duration=motion.duration, rate=motion.rate)
+    paper = paper_case()
+    return setting(
+        paper.oscillator.with_parameters(unique(motion.assignments)),
+        initial=motion.initial or paper.initial,
+        duration=motion.duration or paper.duration,
+        rate=motion.rate or paper.rate,
+        time_unit=paper.time_unit,
+    )
+
+
+def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progress: Progress) -> Report:
+    """The report on a recording, with an oscillator's exact backbone over it when one is named."""
+    from compare.report import assemble_recording
+
+    refuse({"--initial": motion.initial, "--duration": motion.duration}, "belongs to a simulation, not to a recording")
+    studied = {"--order": scope.order, "--orders": scope.orders, "--amplitudes": scope.amplitudes}
+    refuse({**studied, "--target": scope.target}, "belongs to the study of a system, not to a recording")
+    if motion.system is None and motion.assignments:
+        raise click.UsageError("--set needs a SYSTEM whose parameters it sets; name one, or leave it out")
+    return assemble_recording(
+        source.file,
+        column=source.column,
+        time_column=source.time_column,
+        rate=motion.rate,
+        oscillator=None if motion.system is None else chosen(motion.system, motion.assignments),
+        command=shown,
+        progress=progress,
+    )
+
+
+def as_typed(arguments: Sequence[str]) -> str:
+    """The command that makes the same page again; where it is written to is no part of it.
+
+    >>> as_typed(["report", "pendulum", "-o", "page.html", "--initial", "1,0"])
+    'ridgeback report pendulum --initial 1,0'
+    """
+    kept: list[str] = []
+    rest = iter(arguments)
+    for word in rest:
+        if word in ("-o", "--output"):
+            next(rest, None)
+        elif not word.startswith(("--output=", "-o")):
+            kept.append(word)
+    return shlex.join(["ridgeback", *kept])
+
+
+def publish(report: Report, output: str) -> None:
+    """Write the page, say where it is and what it found, and own up to what is missing."""
+    from reports.page import render, size_warning
+
+    page = render(report)
+    write_text(output, page)
+    if output != STDOUT:
+        write_text(STDOUT, findings(report, output, len(page.encode())))
+    warning = size_warning(page)
+    if warning is not None:
+        say(warning)
+    missing = [score.label for score in report.decay.scores if score.failed] if report.decay else []
+    if missing:
+        raise PartialError(f"the page is written, but gave no result: {', '.join(missing)}; it says why")
+
+
+def findings(report: Report, output: str, size: int) -> str:
+    """Where the page is, its title, its three figures and its summary."""
+    lines = [f"wrote {output} ({size / 1000:.0f} kB)", "", report.title, ""]
+    lines += [f"  {card.heading}: {card.value}" for card in report.cards]
+    lines += ["", *(f"  {sentence}" for sentence in report.summary)]
+    return "\n".join(lines) + "\n"
