@@ -131,10 +131,9 @@ def check_request(
         if not (math.isfinite(value) and value > 0):
             raise InputError(f"{label} = {value} must be finite and positive")
     _check_budget(dynamics, duration, rate)
-    limits = well(dynamics)
-    if v == 0 and (u in (0.0, *limits) or dynamics.force(u, 0.0) == 0):
+    check_inside(dynamics, u, 0.0, well(dynamics))
+    if v == 0 and (u == 0 or dynamics.force(u, 0.0) == 0):
         raise InputError(f"{dynamics.name}: (u, u') = ({u:g}, 0) is an equilibrium and stays there; start elsewhere")
-    check_inside(dynamics, u, 0.0, limits)
     return u, v
 
 
