@@ -1,0 +1,175 @@
+r"""Walks along a force from the bottom of its well, each step proved by balls: where it ends and where a level is met.
+
+The force is positive on a step [x, y] when its ball over the step is, when it is monotone there and positive at both
+ends, or, for the step that begins at 0, when its slope is positive.  A zero is found with a proof that it is the
+first one: the force is positive before it, and falls all through the step that holds it.  Refinement is the interval
+Newton method (R. E. Moore, Interval Analysis, Prentice-Hall, 1966, chapter 7).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Final, Literal, TypeAlias, TypeVar
+
+from flint import arb, ctx
+
+from symbolic.ball_functions import Function
+from symbolic.errors import InputError
+
+MAX_STEPS: Final = 4000
+SMALLEST_STEP: Final = 60
+"""A walk gives up when its step falls below 2**-60 of where it stands."""
+
+ATTEMPTS: Final = 4
+"""How often the working precision is doubled before balls are declared unable to decide."""
+
+End: TypeAlias = Literal["stopped", "zero", "singular", "undecided"]
+
+
+class UndecidedError(ArithmeticError):
+    """Balls of this precision are too wide to decide; more bits may do."""
+
+
+T = TypeVar("T")
+
+
+def decided(attempt: Callable[[int], T], name: str, working: int) -> T:
+    """The answer of ``attempt(bits)`` at the first precision, doubled a few times, at which balls can decide.
+
+    Raises InputError when none of them can.
+    """
+    for doubling in range(ATTEMPTS):
+        precision = working << doubling
+        try:
+            with ctx.workprec(precision):
+                return attempt(precision)
+        except UndecidedError:
+            continue
+    raise InputError(
+        f"{name}: balls of {working << (ATTEMPTS - 1)} bits cannot decide here (the force touches 0 without crossing "
+        "it, or the orbit all but meets a separatrix or singularity); use a smaller amplitude"
+    )
+
+
+@dataclass(frozen=True)
+class Walk:
+    """How a walk ended, and a ball around the place: the last step taken, or the zero of the force."""
+
+    end: End
+    place: arb
+
+
+def walk(force: Function, slope: Function, *, step: arb, stop: Callable[[arb, arb], bool], last: arb | None) -> Walk:
+    """Walk to the right from u = 0 while the force is provably positive, until ``stop(start, end)`` of a step.
+
+    No step passes ``last``; the walk is ``stopped`` on reaching it.
+
+    >>> walk(arb.sin, arb.cos, step=arb(1), stop=lambda x, y: False, last=arb(3)).end
+    'stopped'
+    >>> found = walk(arb.sin, arb.cos, step=arb(1), stop=lambda x, y: False, last=arb(100))
+    >>> found.end, found.place.overlaps(arb.pi())
+    ('zero', True)
+    """
+    x, tiny = arb(0), arb(2) ** -SMALLEST_STEP
+    for _ in range(MAX_STEPS):
+        y = (x + step).mid()
+        y = last if last is not None and not y < last else y
+        box = x.union(y)
+        if _positive(force, slope, x, y, box):
+            if y is last or stop(x, y):
+                return Walk("stopped", box)
+            x, step = y, 2 * step
+        elif not x.is_zero() and slope(box) < 0 and force(y) < 0:
+            return Walk("zero", root(force, slope, box))
+        elif step < tiny * (x if not x.is_zero() else arb(1)):
+            return Walk("undecided" if force(box).is_finite() else "singular", box)
+        else:
+            step = step / 2
+    return Walk("undecided", x)
+
+
+def _positive(force: Function, slope: Function, x: arb, y: arb, box: arb) -> bool:
+    if not x.is_zero() and force(box) > 0:
+        return True
+    rate = slope(box)
+    if x.is_zero():
+        return bool(rate > 0)
+    monotone = rate > 0 or rate < 0
+    return bool(monotone and force(x) > 0 and force(y) > 0)
+
+
+def level(value: Function, force: Function, slope: Function, energy: arb, *, step: arb, last: arb) -> arb | None:
+    """The first place to the right of 0 where the potential meets ``energy``; None when the force ends before.
+
+    None as well when the potential stays below it as far as ``last``.  Raises UndecidedError when balls cannot tell.
+
+    >>> place = level(lambda u: u**2 / 2, lambda u: u, lambda u: arb(1), arb(2), step=arb(1), last=arb(9))
+    >>> place.contains(2)
+    True
+    """
+    low = arb(0)
+
+    def above(_: arb, y: arb) -> bool:
+        nonlocal low
+        here = value(y) - energy
+        if here < 0:
+            low = y
+        return bool(here > 0)
+
+    found = walk(force, slope, step=step, stop=above, last=last)
+    if found.end == "stopped":
+        return _within(value, force, energy, low, found.place.upper())
+    if found.end == "zero":
+        return _before_zero(value, energy, found.place, low, force)
+    if found.end == "singular":
+        return None
+    raise UndecidedError
+
+
+def _within(value: Function, force: Function, energy: arb, low: arb, high: arb) -> arb | None:
+    top = value(high) - energy
+    if top < 0:
+        return None
+    if not top > 0:
+        raise UndecidedError
+    return root(lambda u: value(u) - energy, force, low.union(high))
+
+
+def _before_zero(value: Function, energy: arb, zero: arb, low: arb, force: Function) -> arb | None:
+    """The level between the last step and the zero of the force where the potential is highest."""
+    return _within(value, force, energy, low, zero.lower())
+
+
+def root(f: Function, slope: Function, box: arb) -> arb:
+    """A tight ball around the one zero of a monotone f in ``box``, at the present precision.
+
+    The box must hold a zero, and f be monotone on it.  Raises UndecidedError when it does not shrink.
+
+    >>> root(lambda x: x**2 - 2, lambda x: 2 * x, arb(1).union(2)).overlaps(arb(2).sqrt())
+    True
+    """
+    for _ in range(400):
+        rate, middle = slope(box), box.mid()
+        if not rate.is_finite() or rate.contains(0):
+            box = _halved(f, box)
+            continue
+        new = (middle - f(middle) / rate).intersection(box)
+        if 2 * new.rad() >= box.rad():
+            return arb(new)
+        box = new
+    raise UndecidedError
+
+
+def _halved(f: Function, box: arb) -> arb:
+    """About half of the box, with the sign change; the cut moves when it hits the zero itself."""
+    low, high = box.lower(), box.upper()
+    left = f(low)
+    for eighths in (4, 3):
+        cut = (low + (high - low) * eighths / 8).mid()
+        here = f(cut)
+        if (left < 0 and here > 0) or (left > 0 and here < 0):
+            return low.union(cut)
+        if (left < 0 and here < 0) or (left > 0 and here > 0):
+            return cut.union(high)
+    raise UndecidedError

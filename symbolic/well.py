@@ -1,0 +1,155 @@
+r"""The potential well of an oscillator, ready for enclosures: energy, force and inertia as exact expressions.
+
+In units with k = 1, u'' + a(u) + b(u) u'^2 = 0 keeps the energy
+
+    E = I(u)^2 u'^2 / 2 + V(u),      I = exp(integral of b),   V' = a I^2,
+
+since dE/dt = I^2 u' (u'' + b u'^2 + a).  A force without velocity terms has I = 1.  (Position-dependent mass: Mathews
+and Lakshmanan, Quarterly of Applied Mathematics 32 (1974) 215-218.)
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import sympy
+from flint import fmpq_poly
+
+from symbolic.ball_functions import Function, ball_function
+from symbolic.balls import rational
+from symbolic.errors import InputError
+from symbolic.oscillator import Oscillator, U, V
+from symbolic.potential import potential_of
+from symbolic.rings import free_names
+
+MAX_DEGREE = 128
+"""Largest degree of a polynomial potential; the certified roots take time like its cube."""
+
+
+@dataclass(frozen=True, eq=False)
+class Well:
+    """Energy E = inertia(u)^2 u'^2 / 2 + potential(u), in units with k = 1; potential(0) = 0."""
+
+    name: str
+    force: sympy.Expr
+    """V'(u)."""
+    potential: sympy.Expr
+    inertia: sympy.Expr
+    """I(u), 1 for a force that depends on u only."""
+    scale: sympy.Expr
+    """k, in rad per time unit."""
+    even: bool
+    """Whether V and I are known to be even, so that trough = -peak exactly."""
+    polynomial: fmpq_poly | None
+    """V when it is a polynomial with rational coefficients and I = 1."""
+
+    def mirrored(self) -> Well:
+        """The well seen from the other side: u -> -u."""
+        exact = self.polynomial
+        return replace(
+            self,
+            force=-self.force.subs(U, -U),
+            potential=self.potential.subs(U, -U),
+            inertia=self.inertia.subs(U, -U),
+            polynomial=None if exact is None else exact(fmpq_poly([0, -1])),
+        )
+
+
+@dataclass(frozen=True)
+class Curves:
+    """V, V', V'' and I as functions on balls."""
+
+    value: Function
+    force: Function
+    slope: Function
+    inertia: Function
+
+
+@lru_cache(maxsize=64)
+def well_of(oscillator: Oscillator, *, mirrored: bool = False) -> Well:
+    """The well of a conservative oscillator; ``mirrored`` turns u into -u.
+
+    Raises InputError, with the alternative, for self-excited and damped oscillators, symbolic parameters, velocity
+    terms other than b(u) u'^2, and where no rule integrates the potential.
+
+    >>> from symbolic.systems import find
+    >>> well_of(find("duffing")).polynomial
+    1/4*x^4 + 1/2*x^2
+    """
+    if mirrored:
+        return well_of(oscillator).mirrored()
+    _check_kind(oscillator)
+    force = oscillator.normalised().bound
+    if force.has(V):
+        potential, inertia = _with_velocity(oscillator, force)
+    else:
+        potential, inertia = oscillator.normalised().potential, sympy.S.One
+    if potential is None:
+        raise InputError(
+            f"{oscillator.name}: an enclosure needs the potential, and {oscillator.potential_note or 'there is none'}; "
+            "give the potential with the equation"
+        )
+    return Well(
+        name=oscillator.name,
+        force=potential.diff(U) if force.has(V) else force,
+        potential=potential,
+        inertia=inertia,
+        scale=oscillator.natural_frequency,
+        even=all(sympy.expand(e - e.subs(U, -U)) == 0 for e in (potential, inertia)),
+        polynomial=_exact_polynomial(potential) if inertia == 1 else None,
+    )
+
+
+@lru_cache(maxsize=256)
+def curves(well: Well, bits: int, *, complex_: bool = False) -> Curves:
+    """V, V', V'' and I on real or complex balls, constants held to ``bits`` bits."""
+    expressions = (well.potential, well.force, well.force.diff(U), well.inertia)
+    return Curves(*(ball_function(e, bits, complex_=complex_) for e in expressions))
+
+
+def _check_kind(oscillator: Oscillator) -> None:
+    name = oscillator.name
+    if oscillator.kind == "limit-cycle":
+        raise InputError(
+            f"{name} is self-excited and has no family of orbits, so omega0 is not a function of amplitude; "
+            "use --method lindstedt for its limit cycle"
+        )
+    if oscillator.kind == "damped":
+        raise InputError(
+            f"{name} loses energy, so no orbit has the exact frequency omega0(A) that an enclosure is of; "
+            "use --method multiple-scales, or set its damping to 0"
+        )
+    unset = free_names(oscillator.substituted_force)
+    if unset:
+        raise InputError(f"{name}: an enclosure needs numbers, and {', '.join(unset)} has none; set it, e.g. to 1")
+
+
+def _with_velocity(oscillator: Oscillator, force: sympy.Expr) -> tuple[sympy.Expr | None, sympy.Expr]:
+    """V and I for a force a(u) + b(u) u'^2."""
+    restoring = force.subs(V, 0)
+    drag = force.diff(V, 2) / 2
+    if drag.has(V) or sympy.expand(force - restoring - drag * V**2) != 0:
+        raise InputError(
+            f"{oscillator.name} has velocity terms other than b(u) u'^2, for which there is no energy to integrate; "
+            "use --method lindstedt"
+        )
+    exponent = potential_of(sympy.cancel(drag))
+    if exponent is None:
+        raise InputError(f"{oscillator.name}: no rule integrates {drag}, the factor of u'^2; use --method lindstedt")
+    inertia = sympy.exp(exponent)
+    return potential_of(sympy.factor(restoring * inertia**2)), inertia
+
+
+def _exact_polynomial(potential: sympy.Expr) -> fmpq_poly | None:
+    if not potential.is_polynomial(U):
+        return None
+    coefficients = sympy.Poly(potential, U).all_coeffs()[::-1]
+    if not all(isinstance(c, sympy.Rational) for c in coefficients):
+        return None
+    if len(coefficients) - 1 > MAX_DEGREE:
+        raise InputError(
+            f"the potential has degree {len(coefficients) - 1}, and certified roots are kept to {MAX_DEGREE}; "
+            "use a lower degree"
+        )
+    return fmpq_poly([rational(c) for c in coefficients])
