@@ -21,6 +21,8 @@ MAX_STEPS: Final = 4000
 SMALLEST_STEP: Final = 60
 """A walk gives up when its step falls below 2**-60 of where it stands."""
 
+MAX_REFINEMENTS: Final = 400
+
 ATTEMPTS: Final = 4
 """How often the working precision is doubled before balls are declared unable to decide."""
 
@@ -81,7 +83,7 @@ def walk(force: Function, slope: Function, *, step: arb, stop: Callable[[arb, ar
                 return Walk("stopped", box)
             x, step = y, 2 * step
         elif not x.is_zero() and slope(box) < 0 and force(y) < 0:
-            return Walk("zero", root(force, slope, box))
+            return Walk("zero", root(force, slope, x, y))
         elif step < tiny * (x if not x.is_zero() else arb(1)):
             return Walk("undecided" if force(box).is_finite() else "singular", box)
         else:
@@ -108,20 +110,22 @@ def level(value: Function, force: Function, slope: Function, energy: arb, *, ste
     >>> place.contains(2)
     True
     """
-    low = arb(0)
+    low, high = arb(0), last
 
     def above(_: arb, y: arb) -> bool:
-        nonlocal low
+        nonlocal low, high
         here = value(y) - energy
         if here < 0:
             low = y
-        return bool(here > 0)
+        elif here > 0:
+            high = y
+        return high is y
 
     found = walk(force, slope, step=step, stop=above, last=last)
     if found.end == "stopped":
-        return _within(value, force, energy, low, found.place.upper())
+        return _within(value, force, energy, low, high)
     if found.end == "zero":
-        return _before_zero(value, energy, found.place, low, force)
+        return _within(value, force, energy, low, found.place.lower())
     if found.end == "singular":
         return None
     raise UndecidedError
@@ -133,43 +137,44 @@ def _within(value: Function, force: Function, energy: arb, low: arb, high: arb) 
         return None
     if not top > 0:
         raise UndecidedError
-    return root(lambda u: value(u) - energy, force, low.union(high))
+    return root(lambda u: value(u) - energy, force, low, high)
 
 
-def _before_zero(value: Function, energy: arb, zero: arb, low: arb, force: Function) -> arb | None:
-    """The level between the last step and the zero of the force where the potential is highest."""
-    return _within(value, force, energy, low, zero.lower())
+def root(f: Function, slope: Function, low: arb, high: arb) -> arb:
+    """A tight ball around the one zero of f between the exact places low and high, at the present precision.
 
+    f must be monotone there and change its sign.  Raises UndecidedError when the ball does not shrink.
 
-def root(f: Function, slope: Function, box: arb) -> arb:
-    """A tight ball around the one zero of a monotone f in ``box``, at the present precision.
-
-    The box must hold a zero, and f be monotone on it.  Raises UndecidedError when it does not shrink.
-
-    >>> root(lambda x: x**2 - 2, lambda x: 2 * x, arb(1).union(2)).overlaps(arb(2).sqrt())
+    >>> root(lambda x: x**2 - 2, lambda x: 2 * x, arb(1), arb(2)).overlaps(arb(2).sqrt())
     True
     """
-    for _ in range(400):
-        rate, middle = slope(box), box.mid()
+    for _ in range(MAX_REFINEMENTS):
+        box = low.union(high)
+        rate, middle = slope(box), ((low + high) / 2).mid()
         if not rate.is_finite() or rate.contains(0):
-            box = _halved(f, box)
+            low, high = _halved(f, low, high)
             continue
-        new = (middle - f(middle) / rate).intersection(box)
-        if 2 * new.rad() >= box.rad():
-            return arb(new)
-        box = new
+        new = middle - f(middle) / rate
+        width, low, high = high - low, _larger(low, new.lower()), -_larger(-high, -new.upper())
+        if high < low:
+            raise UndecidedError
+        if not 2 * (high - low) < width:
+            return low.union(high)
     raise UndecidedError
 
 
-def _halved(f: Function, box: arb) -> arb:
-    """About half of the box, with the sign change; the cut moves when it hits the zero itself."""
-    low, high = box.lower(), box.upper()
+def _larger(a: arb, b: arb) -> arb:
+    return a if a > b else b
+
+
+def _halved(f: Function, low: arb, high: arb) -> tuple[arb, arb]:
+    """About half of the interval, with the sign change; the cut moves when it hits the zero itself."""
     left = f(low)
     for eighths in (4, 3):
         cut = (low + (high - low) * eighths / 8).mid()
         here = f(cut)
         if (left < 0 and here > 0) or (left > 0 and here < 0):
-            return low.union(cut)
+            return low, cut
         if (left < 0 and here < 0) or (left > 0 and here > 0):
-            return cut.union(high)
+            return cut, high
     raise UndecidedError
