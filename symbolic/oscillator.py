@@ -115,9 +115,10 @@ class Oscillator:
         (c*u' + 4*sin(u), None, 4 - 4*cos(u))
         """
         equation = parse_equation(text)
-        force = solved_for_acceleration(to_sympy(equation.left))
-        known = dict.fromkeys(names(equation.left))
-        values = merged(name, known, parameters or {})
+        values = merged(name, dict.fromkeys(names(equation.left)), parameters or {})
+        left = to_sympy(equation.left)
+        value_at_origin(left, values)  # before SymPy is asked for any value there, which it may never finish
+        force = solved_for_acceleration(left)
         integral, note = _potential(force, potential, equation.unknown)
         about.setdefault("title", name)
         about.setdefault("symbol", sympy.latex(sympy.Symbol(equation.unknown)))

@@ -8,7 +8,7 @@ from typing import Final
 import sympy
 
 from symbolic.errors import InputError
-from symbolic.origin import brief
+from symbolic.origin import brief, value_at_origin
 from symbolic.parse import U
 
 # Integral of g(x) dx for x = a*u + b; division by a is done by the caller.
@@ -44,6 +44,7 @@ def checked_potential(potential: sympy.Expr, restoring: sympy.Expr) -> sympy.Exp
     >>> checked_potential(sympy.cosh(U), sympy.sinh(U))
     cosh(u) - 1
     """
+    value_at_origin(potential, {})
     difference = potential.diff(U) - restoring
     if sympy.expand(difference) != 0 and sympy.cancel(sympy.together(difference)) != 0:
         raise InputError(
