@@ -38,7 +38,7 @@ _LOGARITHMS: Final = 10
 _ROUNDING: Final = 2.0**-50
 
 _LAST: Final = 4
-"""How many coefficients stand for the size of those left out."""
+"""How many coefficients, of the upper half, stand for the size of those left out."""
 
 
 @dataclass(frozen=True)
@@ -235,7 +235,7 @@ def _singularity(point: Point, estimate: Estimate, of: str, method: str) -> Sing
 def _usable(series: list[fmpq], modulus: float) -> float:
     """The largest x/modulus = r with size r^n / (1 - r) < TOLERANCE |sum|, n the first power left out, by bisection."""
     scaled = [float(arb(c) * arb(modulus) ** n) for n, c in enumerate(series)]
-    size = max(abs(c) for c in scaled[-_LAST:])
+    size = max(abs(c) for c in scaled[-min(_LAST, len(scaled) // 2) :])
     low, high = 0.0, 1.0
     for _ in range(50):
         r = (low + high) / 2
