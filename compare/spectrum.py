@@ -47,7 +47,8 @@ def orders(value_at: Callable[[Array], Array], crossings: Array) -> Orders:
     cycles = crossings.size - 1
     phase = np.arange(cycles * POINTS_PER_CYCLE) / POINTS_PER_CYCLE
     weighted = value_at(clock(phase)) * np.sin(np.pi * phase / cycles) ** 2
-    power = np.abs(np.fft.rfft(weighted)) ** 2
+    power = 2 * np.abs(np.fft.rfft(weighted)) ** 2
+    power[0] /= 2  # the mean has no mirror image at negative frequency
     nearest = np.rint(np.arange(power.size) / cycles).astype(int)
     energy = np.bincount(nearest, weights=power, minlength=MOST + 1)[: MOST + 1]
     return Orders(np.asarray(energy / energy.sum()))

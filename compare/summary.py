@@ -24,6 +24,26 @@ def study_title(study: Study, found: Range) -> str:
     return f"Order {found.order} stays within {target} {extent} {symbol} = {reach}"
 
 
+def study_sentences(study: Study, found: Sequence[Range]) -> tuple[str, ...]:
+    """What the accuracy-order study says, in plain words."""
+    return tuple(_study_sentences(study, found))
+
+
+def _study_sentences(study: Study, found: Sequence[Range]) -> Iterator[str]:
+    symbol = "eps" if study.variable == "eps" else "A"
+    reached = [item for item in found if item.up_to is not None]
+    target = relative(found[0].target)
+    listed = ", ".join(f"order {item.order} to {item.up_to:.3g}" for item in reached)
+    yield f"Relative error within {target}, counted up to the first violation: {listed or 'no order'} ({symbol})."
+    yield f"The exact frequency comes from: {study.reference_name}, known to {float(study.reference_error.max()):.0e}."
+    if study.convergence_radius is not None:
+        spread = study.convergence_uncertainty or 0.0
+        yield (
+            f"The coefficients point to a radius of convergence of {study.convergence_radius:.3g} ± {spread:.1g}; "
+            "beyond it more orders do not help."
+        )
+
+
 def cards(study: Study, found: Range, timings: Sequence[Timing]) -> tuple[Card, Card, Card]:
     """Range of use, worst error and where, cost."""
     return _range_card(study, found), _worst_card(study, found.order), _cost_card(timings)
