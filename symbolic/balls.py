@@ -44,6 +44,18 @@ def ball(value: Any) -> arb:
     raise InputError(f"{value!r} is a {type(value).__name__}, not a real number; give a float, a fraction or an arb")
 
 
+def whole_power(x: arb, n: int) -> arb:
+    """Return x^n by multiplication: FLINT's own power goes by the logarithm and has no answer on balls around 0.
+
+    >>> whole_power(arb(0, 1), 2).is_finite()
+    True
+    """
+    result = arb(1)
+    for _ in range(n):
+        result = result * x
+    return result
+
+
 def natural_frequency(scale: sympy.Expr) -> arb:
     """Return k, known exactly as the square root of a rational, as a ball.
 

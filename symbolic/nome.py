@@ -25,7 +25,7 @@ import sympy
 from flint import arb, fmpq
 
 from symbolic import truncated
-from symbolic.balls import ball
+from symbolic.balls import ball, whole_power
 from symbolic.errors import InputError
 from symbolic.expansion import check_order
 from symbolic.mapping import padded
@@ -99,11 +99,11 @@ class NomeForm(Resummation):
 
     def normalised(self, x: arb) -> arb:
         a, b = self.means.in_balls(x)
-        m = 1 - (b / a) ** 2
+        m = 1 - whole_power(b / a, 2)
         for _ in range(self.steps):
-            m = ((a - b) / (a + b)) ** 2  # DLMF 19.8.12, k_1 = (1 - k')/(1 + k'): no cancellation
+            m = whole_power((a - b) / (a + b), 2)  # DLMF 19.8.12, k_1 = (1 - k')/(1 + k'): no cancellation
             a, b = (a + b) / 2, (a * b).sqrt()
-        return a / at(self._theta_3, at(self.nome_series, m / 16)) ** 2
+        return a / whole_power(at(self._theta_3, at(self.nome_series, m / 16)), 2)
 
     def formula(self, x: sympy.Expr) -> sympy.Expr:
         a, b = self.means.expressions(x)

@@ -17,7 +17,7 @@ import sympy
 from flint import arb
 
 from symbolic import truncated
-from symbolic.balls import ball, natural_frequency
+from symbolic.balls import ball, natural_frequency, whole_power
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion
 from symbolic.mapping import CutPlane, Euler, Identity, Mapping, Pair, padded, power
@@ -49,7 +49,7 @@ class RationalForm(Resummation):
     """The first pole at a positive value of the printed variable, certified; None when there is none."""
 
     def normalised(self, x: arb) -> arb:
-        w = self.mapping.image(x**self.step)
+        w = self.mapping.image(whole_power(x, self.step))
         result = at(self.numerator, w) / at(self.denominator, w)
         if self.growth == 0:
             return result
