@@ -11,6 +11,8 @@ from symbolic.errors import InputError
 from symbolic.origin import brief, value_at_origin
 from symbolic.parse import U
 
+MAX_OPERATIONS: Final = 300
+
 # Integral of g(x) dx for x = a*u + b; division by a is done by the caller.
 _ELEMENTARY: Final[dict[type, Callable[[sympy.Expr], sympy.Expr]]] = {
     sympy.sin: lambda x: -sympy.cos(x),
@@ -31,9 +33,8 @@ def potential_of(restoring: sympy.Expr) -> sympy.Expr | None:
     >>> potential_of(U + sympy.sin(2 * U))
     u**2/2 - cos(2*u)/2 + 1/2
     """
-    integrals = [_term(term) for term in sympy.Add.make_args(_expanded(restoring))]
-    known = [integral for integral in integrals if integral is not None]
-    return _from_zero(sympy.Add(*known)) if len(known) == len(integrals) else None
+    integral = _sum(restoring, lambda term: _sum(_expanded(term), lambda _: None))
+    return None if integral is None else _from_zero(integral)
 
 
 def checked_potential(potential: sympy.Expr, restoring: sympy.Expr) -> sympy.Expr:
@@ -46,7 +47,7 @@ def checked_potential(potential: sympy.Expr, restoring: sympy.Expr) -> sympy.Exp
     """
     value_at_origin(potential, {})
     difference = potential.diff(U) - restoring
-    if sympy.expand(difference) != 0 and sympy.cancel(sympy.together(difference)) != 0:
+    if sympy.expand(difference) != 0 and not _vanishes(difference):
         raise InputError(
             f"the potential {brief(potential)} does not differentiate to the restoring force {brief(restoring)}; "
             "leave it out or correct it"
@@ -54,8 +55,26 @@ def checked_potential(potential: sympy.Expr, restoring: sympy.Expr) -> sympy.Exp
     return _from_zero(potential)
 
 
+def _vanishes(difference: sympy.Expr) -> bool:
+    """Whether the difference cancels over a common denominator; not tried where that could take long."""
+    return bool(difference.count_ops() <= MAX_OPERATIONS and sympy.cancel(sympy.together(difference)) == 0)
+
+
 def _from_zero(potential: sympy.Expr) -> sympy.Expr:
     return potential - potential.subs(U, 0)
+
+
+def _sum(restoring: sympy.Expr, otherwise: Callable[[sympy.Expr], sympy.Expr | None]) -> sympy.Expr | None:
+    """The integral term by term; what no rule takes goes ``otherwise``, and None from there is None for all."""
+    integrals: list[sympy.Expr] = []
+    for term in sympy.Add.make_args(restoring):
+        integral = _term(term)
+        if integral is None:
+            integral = otherwise(term)
+        if integral is None:
+            return None
+        integrals.append(integral)
+    return sympy.Add(*integrals)
 
 
 def _expanded(restoring: sympy.Expr) -> sympy.Expr:
@@ -89,7 +108,13 @@ def _chain(coefficient: sympy.Expr, rest: sympy.Expr) -> sympy.Expr | None:
         slope = base.diff(U)
         if isinstance(factor, sympy.exp) or not exponent.is_Rational or slope == 0:
             continue
-        ratio = sympy.cancel(rest / (factor * slope))
+        ratio = _cancelled(rest / factor, slope)
         if not ratio.has(U):
             return _power(coefficient * ratio, base, exponent)
     return None
+
+
+def _cancelled(above: sympy.Expr, below: sympy.Expr) -> sympy.Expr:
+    """The quotient, with common factors of polynomials removed; anything else is left to cancel by itself."""
+    ratio = above / below
+    return sympy.cancel(ratio) if ratio.has(U) and above.is_polynomial(U) and below.is_polynomial(U) else ratio

@@ -202,6 +202,8 @@ def test_damping_and_small_parameters_are_recognised_under_any_name():
         "u/(1 + u**2)**(3/2) + k*u",
         "log(1 + u)/(1 + u)",
         "(1 + u)**(1/3) - 1",
+        "(u + k*u**3)/(1 + 2*u**2 + k*u**4)**(1/2)",
+        "3*(u + u**2)/(2 + 3*u**2 + 2*u**3)**2 + u",
         "(1 + u)**-2 - 1/(1 + u)**3",
     ],
 )
