@@ -29,9 +29,10 @@ class Backbone:
     """omega0 and a'/a against the amplitude a; ``definition`` says which amplitude: that of the first harmonic.
 
     Along time: ``time, amplitude, omega, damping`` (a'/a per time unit, negative in a decay) with one-sigma ``_sd``.
-    The curve: ``curve_amplitude`` rising, ``curve_omega``, ``curve_damping`` with ``_sd``: weighted means over bins of
-    amplitude; their deviation joins the estimates' own with the scatter in the bin, counting one independent value per
-    window length.  ``offset`` is the mean that was removed; amplitudes are in the signal's unit.
+    The curve: ``curve_amplitude`` rising, ``curve_omega``, ``curve_damping`` with ``_sd``: means over bins of
+    amplitude, all weighted by the precision of omega; their deviation joins the estimates' own with the scatter in
+    the bin, counting one independent value per window length.  ``offset`` is the mean that was removed; amplitudes
+    are in the signal's unit.
     """
 
     time: Array
@@ -120,8 +121,10 @@ def assemble(fit: HarmonicFit, usable: Mask, omega: Array, omega_sd: Array, offs
     spacing = float(np.median(np.diff(fit.time)))
     crowding = max(1.0, fit.window_seconds / spacing)
     of = [np.flatnonzero(bin_of == b) for b in filled]
-    curve_omega = np.array([pooled(w[i], s[i], crowding) for i in of])
-    curve_damping = np.array([pooled(d[i], ds[i], crowding) for i in of])
+    weights = 1.0 / np.maximum(s, 1e-9 * w.max()) ** 2
+    curve_amplitude = np.array([np.average(a[i], weights=weights[i]) for i in of])
+    curve_omega = np.array([pooled(w[i], s[i], weights[i], crowding) for i in of])
+    curve_damping = np.array([pooled(d[i], ds[i], weights[i], crowding) for i in of])
     left_out = int(usable.size - a.size)
     notes = [f"the mean {offset:.6g} was removed"]
     if left_out:
@@ -136,7 +139,7 @@ def assemble(fit: HarmonicFit, usable: Mask, omega: Array, omega_sd: Array, offs
         omega_sd=s,
         damping=d,
         damping_sd=ds,
-        curve_amplitude=np.array([a[i].mean() for i in of]),
+        curve_amplitude=curve_amplitude,
         curve_omega=curve_omega[:, 0],
         curve_omega_sd=curve_omega[:, 1],
         curve_damping=curve_damping[:, 0],
@@ -147,15 +150,14 @@ def assemble(fit: HarmonicFit, usable: Mask, omega: Array, omega_sd: Array, offs
     )
 
 
-def pooled(values: Array, deviations: Array, crowding: float) -> tuple[float, float]:
+def pooled(values: Array, deviations: Array, weights: Array, crowding: float) -> tuple[float, float]:
     """Weighted mean and its standard deviation, when ``crowding`` neighbouring values share one window.
 
-    >>> pooled(np.array([1.0, 1.0]), np.array([0.1, 0.1]), 2.0)
+    >>> pooled(np.ones(2), np.array([0.1, 0.1]), np.ones(2), 2.0)
     (1.0, 0.1)
     """
-    weights = 1.0 / np.maximum(deviations, 1e-12 * np.abs(values).max() + 1e-300) ** 2
-    weights = weights / weights.sum()
-    mean = float((weights * values).sum())
+    share = weights / weights.sum()
+    mean = float((share * values).sum())
     independent = max(1.0, values.size / crowding)
-    variance = float((weights * (deviations**2 + (values - mean) ** 2)).sum())
+    variance = float((share * (deviations**2 + (values - mean) ** 2)).sum())
     return mean, float(np.sqrt(variance / independent))

@@ -98,7 +98,12 @@ def estimate(
     offset = float(samples.mean())
     real = samples - offset
     corridor = find_corridor(real, rate, band=band)
-    cycle = TWO_PI / corridor.centre
+    cycle, span = TWO_PI / corridor.centre, (real.size - 1) / rate
+    if lag_seconds is None and LAG_CYCLES * cycle > span:
+        raise InputError(
+            f"signal spans {span / cycle:.3g} cycles of its strongest component ({cycle:.4g} each); "
+            f"{LAG_CYCLES:g} are needed (give a longer record, a band, or lag_seconds)"
+        )
     request = Request(
         x=real,
         z=as_analytic(real),

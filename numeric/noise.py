@@ -42,5 +42,18 @@ def peak_deviation(level: Level, rate: float, half_window: Array, smoothing: Arr
     h = np.concatenate([half_window[:0:-1], half_window])
     g = np.ones(1) if smoothing is None else smoothing
     response = np.convolve(g, h * m) / (g.sum() * (h * m * m).sum())
+    return float(rate * np.sqrt((response**2).sum())) * phase_noise(level)
+
+
+def phase_noise(level: Level) -> Array:
+    """Standard deviation of eta per sample, with the factor for the product of the noise with itself."""
     variance = 2.0 * level.noise**2 / np.maximum(level.amplitude, np.finfo(float).tiny) ** 2
-    return np.asarray(rate * np.sqrt((response**2).sum() * variance * (1.0 + variance)), dtype=np.float64)
+    return np.asarray(np.sqrt(variance * (1.0 + variance)), dtype=np.float64)
+
+
+# The same with h = 1 on all lags that the record has, M = min(n, N - 1 - n): sum of m^2 = M (M + 1) (2 M + 1) / 3.
+def full_length_deviation(level: Level, rate: float) -> Array:
+    """Standard deviation of the peak of the full-length Wigner distribution in white noise, per sample."""
+    n = np.arange(level.amplitude.size)
+    M = np.maximum(np.minimum(n, n[::-1]), 1)
+    return np.asarray(rate * phase_noise(level) / np.sqrt(M * (M + 1) * (2 * M + 1) / 3.0), dtype=np.float64)

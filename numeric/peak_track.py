@@ -9,7 +9,7 @@ from scipy import fft
 
 from numeric.curvature import formula_bias, reestimated_bias
 from numeric.lag_kernel import LagKernel
-from numeric.noise import peak_deviation
+from numeric.noise import Level, full_length_deviation, peak_deviation
 from numeric.request import Request, need
 from numeric.ridge import Kernel, follow
 from numeric.samples import Array, ComplexArray, checked_work
@@ -25,8 +25,7 @@ def peak_estimate(
     make: Callable[[ComplexArray], Kernel],
     *,
     border: float,
-    half_window: Array,
-    smoothing: Array | None = None,
+    deviation: Callable[[Level], Array],
     formula: LagKernel | None = None,
     **settings: object,
 ) -> Track:
@@ -50,25 +49,21 @@ def peak_estimate(
         bias = formula_bias(time, ridge.omega, valid, kernel=formula)
     elif request.bias:
         bias = reestimated_bias(time, ridge.omega, valid, resolution=2.0 * border, estimator=again)
-    deviation = peak_deviation(level, request.rate, half_window, smoothing)
     how = {"bias_by": "formula" if formula is not None else "estimating again on the fitted chirp and amplitude"}
     return Track(
-        time, ridge.omega, valid, method, deviation, bias, request.settings(noise=level.noise, **how, **settings)
+        time, ridge.omega, valid, method, deviation(level), bias, request.settings(noise=level.noise, **how, **settings)
     )
 
 
 def by_wigner(request: Request) -> Track:
     """Peak of the full-length Wigner distribution; biased by the curvature of omega(t), to all orders."""
     n_fft = fft.next_fast_len(request.z.size, real=True)
-    kernel = wigner_kernel(request.z, request.rate, n_fft=n_fft)
-    # The number of lags changes from column to column; the deviation is that of the mean available window.
-    quarter = np.ones(kernel.half_lags // 2 + 1)
     return peak_estimate(
         request,
         "wigner",
         lambda z: wigner_kernel(z, request.rate, n_fft=n_fft),
         border=request.cycle,
-        half_window=quarter,
+        deviation=lambda level: full_length_deviation(level, request.rate),
     )
 
 
@@ -84,7 +79,7 @@ def by_pseudo_wigner(request: Request) -> Track:
         "pseudo-wigner",
         make,
         border=0.5 * request.lag_seconds,
-        half_window=kernel.lag_window,
+        deviation=lambda level: peak_deviation(level, request.rate, kernel.lag_window),
         formula=kernel,
         lag_seconds=2.0 * kernel.half_lags / request.rate,
         lag_window=request.lag_window,
@@ -109,8 +104,7 @@ def by_smoothed_pseudo_wigner(request: Request) -> Track:
         "smoothed-pseudo-wigner",
         make,
         border=0.5 * (request.lag_seconds + request.smoothing_seconds),
-        half_window=kernel.lag_window,
-        smoothing=kernel.smoothing,
+        deviation=lambda level: peak_deviation(level, request.rate, kernel.lag_window, kernel.smoothing),
         lag_seconds=2.0 * kernel.half_lags / request.rate,
         lag_window=request.lag_window,
         smoothing_seconds=2.0 * kernel.half_smoothing / request.rate,
@@ -126,7 +120,7 @@ def by_spectrogram(request: Request) -> Track:
         "spectrogram",
         lambda z: ShortTimeKernel(z, request.rate, w, n_fft),
         border=0.5 * request.lag_seconds,
-        half_window=w[request.half :],
+        deviation=lambda level: peak_deviation(level, request.rate, w[request.half :]),
         lag_seconds=2.0 * request.half / request.rate,
         lag_window=request.lag_window,
     )

@@ -36,7 +36,8 @@ def by_zero_crossing(request: Request) -> Track:
     """Full cycles between zero crossings; one value per half cycle, at the middle of its cycle."""
     everywhere = np.ones(request.x.size, dtype=np.bool_)
     level = request.level(request.corridor.guide, everywhere)
-    hysteresis = max(3.0 * level.noise, 0.02 * float(level.amplitude.min()))
+    smallest = float(level.amplitude.min())
+    hysteresis = min(max(3.0 * level.noise, 0.02 * smallest), 0.5 * smallest)
     since, omega, deviation = full_cycles(request.x, request.rate, hysteresis=hysteresis, noise=level.noise)
     time, valid = request.start + since, np.ones(since.size, dtype=np.bool_)
     bias = None

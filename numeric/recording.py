@@ -59,10 +59,11 @@ def read_recording(
     Raises OSError when the file cannot be read, and InputError for everything in it that is not a uniformly sampled
     signal of finite numbers: the message names the line, the column and the value.
 
-    >>> import tempfile
-    >>> path = Path(tempfile.mkdtemp()) / "run.csv"
-    >>> _ = path.write_text("t_s,u [mm]\n" + "".join(f"{i / 10},{i % 3}\n" for i in range(20)))
-    >>> recording = read_recording(path)
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "run.csv"
+    ...     _ = path.write_text("t_s,u [mm]\n" + "".join(f"{i / 10},{i % 3}\n" for i in range(20)))
+    ...     recording = read_recording(path)
     >>> recording.name, recording.units, round(recording.rate, 9), recording.values[:4].tolist()
     ('u', 'mm', 10.0, [0.0, 1.0, 2.0, 0.0])
     """

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import median_filter
 
 from numeric.errors import InputError
 from numeric.samples import TWO_PI, Array, Mask
 
-INVERSE_STEPS = 30
+BISECTIONS = 60
 STENCIL = np.arange(-2, 4)
 
 
@@ -50,7 +51,7 @@ def interpolate(x: Array, index: NDArray[np.intp]) -> Crossings:
     orders = np.arange(STENCIL.size)
     low, high = np.zeros(usable.size), np.ones(usable.size)
     sign = np.sign(x[usable + 1] - x[usable])
-    for _ in range(INVERSE_STEPS * 2):
+    for _ in range(BISECTIONS):
         middle = 0.5 * (low + high)
         above = sign * (polynomials * middle[:, None] ** orders).sum(axis=1) > 0.0
         low, high = np.where(above, low, middle), np.where(above, middle, high)
@@ -76,5 +77,7 @@ def full_cycles(x: Array, rate: float, *, hysteresis: float, noise: float) -> tu
         raise InputError(f"signal has {crossings.at.size} zero crossings; a full cycle needs 3 (give a longer record)")
     begin, end = crossings.at[:-2], crossings.at[2:]
     period = (end - begin) / rate
-    spread = np.hypot(noise / crossings.slope[:-2], noise / crossings.slope[2:]) / rate
+    # Noise makes a single slope uncertain, and a small one would count for too much: the median of its neighbours.
+    error = noise / median_filter(crossings.slope, size=9, mode="nearest")
+    spread = np.hypot(error[:-2], error[2:]) / rate
     return 0.5 * (begin + end) / rate, TWO_PI / period, TWO_PI / period**2 * spread

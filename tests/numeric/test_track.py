@@ -1,0 +1,150 @@
+"""The Track value, the ridge that feeds it, and the curvature bias."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from numeric.curvature import chirp, curvature_coefficient, formula_bias, reestimated_bias, smooth_fit
+from numeric.errors import InputError
+from numeric.lag_moments import lag_moments
+from numeric.ridge import follow
+from numeric.search_band import continuous_path, find_corridor
+from numeric.short_time import ShortTimeKernel
+from numeric.track import Track
+from numeric.wigner import wigner_kernel
+from numeric.windows import WINDOWS, window
+
+
+def test_track_is_frozen_and_its_parts_agree_in_length() -> None:
+    track = Track(
+        np.arange(4.0), np.full(4, 2 * np.pi), np.array([0, 1, 1, 0], bool), "test", np.ones(4), None, {"a": 1}
+    )
+    assert track.inside().time.tolist() == [1.0, 2.0]
+    assert track.between(2.0, 9.0).omega.size == 2
+    assert track.frequency_hz.tolist() == [1.0] * 4
+    assert track.rows()[0] == {
+        "time_s": 0.0,
+        "omega_rad_s": 2 * np.pi,
+        "frequency_hz": 1.0,
+        "standard_deviation_rad_s": 1.0,
+        "valid": False,
+    }
+    with pytest.raises(ValueError, match="read-only"):
+        track.omega[0] = 0.0
+    with pytest.raises(InputError, match="omega has 3 values for 4 times"):
+        Track(np.arange(4.0), np.ones(3), np.ones(4, bool), "test")
+    with pytest.raises(InputError, match="valid has 1 values for 4 times"):
+        Track(np.arange(4.0), np.ones(4), np.ones(1, bool), "test")
+
+
+@given(st.integers(1, 60), st.floats(0.0, 3.0))
+@settings(deadline=None, max_examples=40)
+def test_lag_moments_are_the_sums_written_out(lags: int, theta: float) -> None:
+    rng = np.random.default_rng(lags)
+    columns = rng.normal(size=(3, lags)) + 1j * rng.normal(size=(3, lags))
+    m = np.arange(lags)
+    expected = np.stack([(columns * m**j * np.exp(-1j * theta * m)).sum(axis=1) for j in range(3)], axis=1)
+    assert np.abs(lag_moments(columns, np.full(3, theta)) - expected).max() <= 1e-11 * lags**3
+
+
+def test_refinement_finds_the_maximum_between_the_bins() -> None:
+    rate = 16.0
+    t = np.arange(101) / rate
+    z = np.exp(2j * np.pi * (3.0 * t + 0.2 * np.sin(t)))
+    kernel = wigner_kernel(z, rate, lag_seconds=2.0)
+    ones = np.ones(t.size)
+    ridge = follow(kernel, 10.0 * ones, 30.0 * ones)
+    column = kernel.columns(50, 51)[0]
+    m = np.arange(column.size)
+    fine = ridge.omega[50] + np.linspace(-0.5, 0.5, 4001)
+    height = 2 * (column * np.exp(-2j * np.outer(fine, m) / rate)).real.sum(axis=1)
+    assert fine[height.argmax()] == pytest.approx(ridge.omega[50], abs=2.6e-4)
+    slope, bend = kernel.derivatives(column[None], ridge.omega[50:51])
+    assert abs(slope[0] / bend[0]) < 1e-10
+
+
+def test_spectrogram_ridge_of_a_tone_is_exact_between_the_bins() -> None:
+    rate, f = 16.0, 3.123456
+    z = np.exp(2j * np.pi * f * np.arange(200) / rate)
+    kernel = ShortTimeKernel(z, rate, window("hann", 20), 48)
+    ones = np.ones(200)
+    ridge = follow(kernel, 10.0 * ones, 30.0 * ones)
+    assert np.abs(ridge.omega[20:-20] / (2 * np.pi) - f).max() < 1e-10
+
+
+def test_band_edge_is_not_taken_for_a_peak() -> None:
+    rate = 16.0
+    z = np.exp(2j * np.pi * 3.0 * np.arange(200) / rate)
+    ones = np.ones(200)
+    ridge = follow(wigner_kernel(z, rate, lag_seconds=4.0), 20.0 * ones, 30.0 * ones)  # 3 Hz is 18.8 rad/s
+    assert not ridge.inside[40:-40].any()
+
+
+@pytest.mark.parametrize("name", list(WINDOWS))
+def test_curvature_bias_follows_the_formula_to_leading_order(name: str) -> None:
+    # phi = w t + c t^3 / 6, so phi''' = c: the measured bias over the formula tends to 1 with order c^2.
+    rate = 40.0
+    t = (np.arange(801) - 400) / rate
+    ones = np.ones(t.size)
+    departures = []
+    for c in (0.4, 0.2):
+        z = np.exp(1j * (40.0 * t + c * t**3 / 6.0))
+        kernel = wigner_kernel(z, rate, lag_seconds=3.0, lag_window=name)
+        omega = follow(kernel, 20.0 * ones, 60.0 * ones).omega[400]
+        departures.append((omega - 40.0) / (curvature_coefficient(kernel) * c) - 1.0)
+    assert abs(departures[1]) < 0.02
+    assert departures[0] / departures[1] == pytest.approx(4.0, rel=0.3)
+
+
+@pytest.mark.parametrize("way", ["formula", "again"])
+def test_curvature_bias_is_found_from_the_track_itself(way: str) -> None:
+    rate = 32.0
+    t = np.arange(641) / rate
+    true = 8.0 + 1.5 * np.sin(0.5 * t)
+    z = np.exp(1j * (8.0 * t - 3.0 * np.cos(0.5 * t)))
+    low, high, keep = 4.0 * np.ones(t.size), 16.0 * np.ones(t.size), (t >= 1.5) & (t <= 18.5)
+
+    def track(signal: np.ndarray) -> np.ndarray:
+        return follow(wigner_kernel(signal, rate, lag_seconds=3.0), low, high).omega
+
+    omega = track(z)
+    raw = np.abs(omega - true)[keep].max()
+    if way == "formula":
+        bias = formula_bias(t, omega, keep, kernel=wigner_kernel(z, rate, lag_seconds=3.0))
+    else:
+        bias = reestimated_bias(t, omega, keep, resolution=3.0, estimator=track)
+    assert raw > 0.02
+    left = np.abs(omega - bias - true)
+    assert left[(t >= 3.0) & (t <= 17.0)].max() < 0.05 * raw
+    assert left[keep].max() < 0.2 * raw  # the ends of the fit are its weakest part
+    assert bias[0] == bias[np.flatnonzero(keep)[0]]
+
+
+def test_smooth_fit_does_not_follow_noise() -> None:
+    t = np.linspace(0.0, 10.0, 200)
+    rng = np.random.default_rng(5)
+    fit = smooth_fit(t, 3.0 + 0.1 * t + 0.01 * rng.normal(size=200), np.ones(200, bool), 1.0)
+    assert fit.degree() <= 2
+    assert smooth_fit(t, t**5, np.ones(200, bool), 1.0).degree() == 5
+    z = chirp(fit, t)
+    assert np.abs(np.abs(z) - 1.0).max() < 1e-14
+
+
+def test_path_prefers_continuity_to_a_lone_peak() -> None:
+    level = np.zeros((9, 30))
+    level[2] = 1.0
+    level[8, 15] = 5.0
+    assert set(continuous_path(level, reach=1).tolist()) == {2}
+
+
+def test_corridor_keeps_harmonics_out_while_the_fundamental_moves_past_them() -> None:
+    t = np.arange(1281) / 32.0
+    phase = 2 * np.pi * (1.0 * t + 0.03 * t**2)  # 1.0 to 3.4 Hz: more than the third harmonic's distance
+    x = np.cos(phase) + 0.5 * np.cos(2 * phase) + 0.5 * np.cos(3 * phase)
+    corridor = find_corridor(x, 32.0)
+    true = 2 * np.pi * (1.0 + 0.06 * t)
+    assert np.all((corridor.low < true) & (true < corridor.high))
+    assert np.all(corridor.high[64:-64] < 2 * true[64:-64])
