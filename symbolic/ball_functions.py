@@ -142,12 +142,20 @@ def _whole_power(inner: Function, exponent: int) -> Function:
     if exponent < 0:
         positive = inner if exponent == -1 else _whole_power(inner, -exponent)
         return lambda x: 1 / positive(x)
-    return lambda x: inner(x) ** exponent
+    return lambda x: _raised(inner(x), exponent)
+
+
+def _raised(y: Ball, exponent: int) -> Ball:
+    """y**exponent by squaring; arb's own power is not-a-number on a tiny ball around 0."""
+    if exponent == 1:
+        return y
+    square = _squared(_raised(y, exponent // 2))
+    return square * y if exponent % 2 else square
 
 
 def _squared(y: Ball) -> Ball:
     """y**2, never negative for a real ball (y*y would forget that both factors are one number)."""
-    return y**2 if isinstance(y, arb) and y.contains(0) else y * y
+    return (y * y).nonnegative_part() if isinstance(y, arb) and y.contains(0) else y * y
 
 
 def _root_power(inner: Function, exponent: sympy.Rational, complex_: bool) -> Function:

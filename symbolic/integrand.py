@@ -1,9 +1,10 @@
 r"""The period's integrand F = I(u) / sqrt(q(u)), where V(A) - V(u) = (A - u)(u - B) q(u), and where it is analytic.
 
-Everything is in w = cos(theta), u = middle + half w, so that A - u = half (1 - w) and u - B = half (1 + w) are never
-formed by cancellation.  A polynomial q is an exact quotient.  Otherwise q is the quotient itself away from the ends,
-and near an end the divided difference in the form of Hermite and Genocchi (C. de Boor, Divided differences, Surveys in
-Approximation Theory 1 (2005) 46-69, section 9): with V[A, u] = (V(A) - V(u)) / (A - u),
+With u = middle + half w and w = cos(theta), A - u = 2 half sin(theta/2)^2 and u - B = 2 half cos(theta/2)^2 are not
+formed by cancellation, and stay sharp for a ball of theta near an end.  A polynomial q is an exact quotient.  Otherwise
+q is the plain quotient away from the ends, and near an end the divided difference in the form of Hermite and Genocchi
+(C. de Boor, Divided differences, Surveys in Approximation Theory 1 (2005) 46-69, section 9): with
+V[A, u] = (V(A) - V(u)) / (A - u),
 
     V[A, u] = V'(A) + (u - A) V[A, A, u],     2 V[A, A, u] in the convex hull of V'' over the hull of A and u,
 
@@ -23,7 +24,7 @@ from symbolic.well import Curves, Well, curves
 
 
 class Integrand(Protocol):
-    """F as a function of w in [-1, 1] and around it."""
+    """F as a function of w in [-1, 1] or of theta with w = cos(theta)."""
 
     @property
     def even(self) -> bool:
@@ -32,8 +33,8 @@ class Integrand(Protocol):
     def values(self, w: list[arb]) -> list[arb]:
         """Balls of F at real points."""
 
-    def on_ball(self, w: acb, *, analytic: bool) -> acb:
-        """A ball of F over w; not finite when F may fail to be analytic there and ``analytic`` is asked for."""
+    def on_ball(self, theta: acb, *, analytic: bool) -> acb:
+        """A ball of F over theta; not finite when F may fail to be analytic there and ``analytic`` is asked for."""
 
     def typical(self) -> arb:
         """F at the middle of the orbit, the scale that errors are measured by."""
@@ -58,9 +59,9 @@ class PolynomialIntegrand:
         """Balls of F at real points."""
         return [value.rsqrt() for value in self.q.evaluate(w, algorithm="iter")]
 
-    def on_ball(self, w: acb, *, analytic: bool) -> acb:
-        """A ball of F over w."""
-        return self._complex(w).rsqrt(analytic=analytic)
+    def on_ball(self, theta: acb, *, analytic: bool) -> acb:
+        """A ball of F over theta."""
+        return self._complex(theta.cos()).rsqrt(analytic=analytic)
 
     def typical(self) -> arb:
         """F at w = 0."""
@@ -98,18 +99,18 @@ class GeneralIntegrand:
         q = (self.energy - self._real.value(u)) / (self.half**2 * ((1 - w) * (1 + w)))
         return arb(self._real.inertia(u) * q.rsqrt())
 
-    def on_ball(self, w: acb, *, analytic: bool) -> acb:
-        """A ball of F over w."""
-        ball = self._ball(w)
+    def on_ball(self, theta: acb, *, analytic: bool) -> acb:
+        """A ball of F over theta."""
+        ball = self._ball(theta)
         for q in ball.small(self.energy):
             root = q.rsqrt(analytic=analytic)
             if root.is_finite():
                 return acb(ball.curves.inertia(ball.u) * root)
         return acb("nan")
 
-    def size(self, w: acb) -> arb | None:
-        """An upper bound of |F| over w, or None when q may vanish or V, I be singular there."""
-        ball = self._ball(w)
+    def size(self, theta: acb) -> arb | None:
+        """An upper bound of |F| over theta, or None when q may vanish or V, I be singular there."""
+        ball = self._ball(theta)
         inertia = ball.curves.inertia(ball.u)
         if not ball.curves.value(ball.u).is_finite() or not inertia.is_finite():
             return None
@@ -118,9 +119,12 @@ class GeneralIntegrand:
                 return arb(inertia.abs_upper() / q.abs_lower().sqrt())
         return None
 
-    def _ball(self, w: acb) -> _Ball:
-        complex_ = curves(self.well, ctx.prec, complex_=True)
-        return _Ball(complex_, self.orbit, self.middle + self.half * w, self.half * (1 - w), self.half * (1 + w))
+    def _ball(self, theta: acb) -> _Ball:
+        sine, cosine = (theta / 2).sin_cos()
+        fall, rise = 2 * self.half * sine * sine, 2 * self.half * cosine * cosine
+        near_peak = theta.real.mid() < arb.pi() / 2
+        u = self.orbit.peak - fall if near_peak else self.orbit.trough + rise
+        return _Ball(curves(self.well, ctx.prec, complex_=True), self.orbit, u, fall, rise, near_peak)
 
     def typical(self) -> arb:
         """F at w = 0."""
@@ -139,22 +143,28 @@ class _Ball:
     u: acb
     fall: acb
     rise: acb
+    near_peak: bool
 
     def small(self, energy: arb) -> Iterator[acb]:
         """Enclosures of q, the sharpest for a small ball first."""
-        yield from self._plain(energy)
+        area = self.fall * self.rise
+        if not area.contains(0):
+            yield (energy - self.curves.value(self.u)) / area
+            yield (energy - self._centred()) / area
         yield self._from_end()
 
     def wide(self, energy: arb) -> Iterator[acb]:
         """Enclosures of q, the sharpest for a wide ball first."""
         yield self._flat()
         yield self._from_end()
-        yield from self._plain(energy)
-
-    def _plain(self, energy: arb) -> Iterator[acb]:
         area = self.fall * self.rise
         if not area.contains(0):
-            yield (energy - self.curves.value(self.u)) / area
+            yield (energy - self._centred()) / area
+
+    def _centred(self) -> acb:
+        """V in mean-value form, which is sharp where V' is small, as it is close to a saddle."""
+        centre = acb(self.u.mid())
+        return acb(self.curves.value(centre) + self.curves.force(self.u) * (self.u - centre))
 
     def _flat(self) -> acb:
         """V[A, B, u], in half of V'' over the hull of the three."""
@@ -163,7 +173,7 @@ class _Ball:
 
     def _from_end(self) -> acb:
         """V[A, B, u] from V[A, u] or V[B, u] of the nearer end, since V[A, B] = 0."""
-        if self.u.real.mid() > self.orbit.middle:
+        if self.near_peak:
             return self._divided(self.orbit.peak) / self.rise
         return -self._divided(self.orbit.trough) / self.fall
 

@@ -91,21 +91,20 @@ def midpoints(nodes: int, bits: int) -> tuple[arb, ...]:
 
 
 def adaptive_mean(integrand: Integrand, bits: int) -> arb:
-    """The same mean by FLINT's adaptive integration over w = sin(phi), |phi| < pi/2.
+    """The same mean by FLINT's adaptive integration.
 
     Raises UndecidedError when it does not get there within its limit of evaluations.
     """
-    end, goal = arb.pi() / 2, arb(2) ** -bits
-    start = arb(0) if integrand.even else -end
+    end, goal = arb.pi() / 2 if integrand.even else arb.pi(), arb(2) ** -bits
     total = acb.integral(
-        lambda phi, analytic: integrand.on_ball(phi.sin(), analytic=analytic),
-        start,
+        lambda theta, analytic: integrand.on_ball(theta, analytic=analytic),
+        0,
         end,
         rel_tol=goal,
         abs_tol=goal * integrand.typical(),
         eval_limit=MAX_EVALUATIONS,
     )
-    mean = total.real / (end - start)
+    mean = total.real / end
     if not mean.is_finite() or mean.rel_accuracy_bits() < bits - 8:
         raise UndecidedError
     return mean

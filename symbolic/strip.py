@@ -125,7 +125,7 @@ def _cover(integrand: GeneralIntegrand, width: arb, limit: int) -> tuple[arb, in
         if not boxes:
             return largest, used
         left, right, low, high = boxes.pop()
-        size = integrand.size(acb(left.union(right), low.union(high)).cos())
+        size = integrand.size(acb(left.union(right), low.union(high)))
         if size is not None:
             largest = largest.max(size)
         elif right - left < finest and high - low < finest:
