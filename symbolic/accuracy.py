@@ -1,0 +1,102 @@
+"""How good each formula for omega0 is at an amplitude: its error against the enclosure of the exact frequency."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TypeAlias
+
+from flint import arb, ctx
+
+from symbolic.balls import rational
+from symbolic.enclosure import Amplitude, enclose
+from symbolic.energy_integral import energy_integral
+from symbolic.errors import InputError
+from symbolic.expansion import Expansion
+from symbolic.nome import nome
+from symbolic.oscillator import Oscillator
+from symbolic.pade import mapped, mapping_for, pade
+from symbolic.resummation import Resummation
+from symbolic.singularity import limits
+
+Formula: TypeAlias = Expansion | Resummation
+
+_LONGER = 40
+"""Order of the expansion that settles the singularity when the one asked for is shorter."""
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """The relative errors of one formula, one ball per amplitude; None where it does not hold."""
+
+    formula: Formula
+    errors: tuple[arb | None, ...]
+
+
+def certified_error(oscillator: Oscillator, formula: Formula, amplitude: Amplitude, *, bits: int = 128) -> arb:
+    """Return a ball around formula/omega0 - 1 at an amplitude, in the formula's own definition of it.
+
+    Raises InputError where the formula does not hold, for another oscillator's formula, for definitions that have no
+    enclosure, and as ``enclose`` does.
+
+    >>> from symbolic.systems import find
+    >>> error = certified_error(find("pendulum"), nome(find("pendulum"), 16), 1)
+    >>> bool(abs(error) < 1e-18)
+    True
+    """
+    if formula.system != oscillator.name or formula.scale != oscillator.natural_frequency or formula.variable != "A":
+        raise InputError(
+            f"the {formula.method} formula of {formula.system} in {formula.variable} has no certified error against "
+            f"{oscillator.name}; derive it in the amplitude from the same parameters"
+        )
+    exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
+    with ctx.workprec(bits + 40):
+        return formula.in_balls(arb(rational(exact.amplitude))) / exact.omega - 1
+
+
+def resummations(oscillator: Oscillator, order: int) -> tuple[Formula, ...]:
+    """Return the truncated series of a conservative oscillator and every resummation of it that exists at this order.
+
+    Left out are those that do not apply: a Padé approximant with a pole in its range, a map without a known
+    singularity, the nome of a force that has none.
+
+    >>> from symbolic.systems import find
+    >>> [formula.method for formula in resummations(find("duffing"), 8)]
+    ['energy-integral', 'Pade [2/2]', 'Euler transformation', 'elliptic nome after 2 Landen steps']
+    """
+    series = energy_integral(oscillator, order)
+    found = limits(energy_integral(oscillator, max(order, _LONGER)))
+    builders = (
+        lambda: pade(series),
+        lambda: mapped(series, mapping_for(found)),
+        lambda: nome(oscillator, order),
+    )
+    result: list[Formula] = [series]
+    for build in builders:
+        try:
+            result.append(build())
+        except InputError:
+            continue  # a refusal is an answer here: this formula does not exist for this oscillator
+    return tuple(result)
+
+
+def accuracy(oscillator: Oscillator, order: int, amplitudes: Sequence[Fraction]) -> tuple[Accuracy, ...]:
+    """Return the certified relative errors of the series and its resummations at the amplitudes.
+
+    >>> from symbolic.systems import find
+    >>> rows = accuracy(find("duffing"), 16, [Fraction(3)])
+    >>> [f"{float(abs(row.errors[0]).mid()):.0e}" for row in rows]
+    ['1e+05', '5e-03', '2e-01', '2e-15']
+    """
+    return tuple(
+        Accuracy(formula, tuple(_error(oscillator, formula, amplitude) for amplitude in amplitudes))
+        for formula in resummations(oscillator, order)
+    )
+
+
+def _error(oscillator: Oscillator, formula: Formula, amplitude: Fraction) -> arb | None:
+    try:
+        return certified_error(oscillator, formula, amplitude)
+    except InputError:
+        return None
