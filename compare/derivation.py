@@ -12,9 +12,8 @@ from dataclasses import dataclass
 import sympy
 
 from compare.results import Derivation, Formula
+from symbolic.certificate import Check, certify
 from symbolic.codegen import generate
-from symbolic.energy_integral import energy_integral
-from symbolic.errors import InputError
 from symbolic.expansion import Expansion
 from symbolic.lindstedt import lindstedt
 from symbolic.multiple_scales import multiple_scales
@@ -182,53 +181,16 @@ def _in_natural_units(flow: SlowFlow, terms: Iterable[Term]) -> list[sympy.Expr]
 
 def certificate(exact: Exact) -> tuple[str, ...]:
     """Independent checks, each done now and in exact arithmetic; a failed one says so."""
-    lines = [_residual_line(exact.expansion)]
-    if exact.expansion.variable == "A":
-        lines.append(_energy_line(exact))
+    checks = [("", check) for check in certify(undamped(exact.oscillator), exact.expansion)]
     if exact.flow is not None:
-        lines.append(_flow_residual_line(exact.flow))
-        if exact.expansion.variable == "A":
-            lines.append(_agreement_line(exact.expansion, exact.flow))
-    return tuple(lines)
+        checks += [("slow flow, ", check) for check in certify(exact.oscillator, exact.flow)]
+    return tuple(_line(prefix, check) for prefix, check in checks)
 
 
-def _residual_line(expansion: Expansion) -> str:
-    left = expansion.residual()
-    if left:
-        return f"FAILED: substituted into the equation, orders {left} do not cancel."
-    return f"Residual: u and omega_0 put back into the equation cancel identically through order {expansion.order}."
-
-
-def _energy_line(exact: Exact) -> str:
-    expansion = exact.expansion
-    try:
-        other = energy_integral(undamped(exact.oscillator), expansion.order, amplitude=expansion.amplitude)
-    except InputError as error:
-        return f"Energy integral: not available ({error})."
-    if tuple(other.frequency) != tuple(expansion.frequency):
-        return "FAILED: the energy integral gives other coefficients than the Lindstedt-Poincaré expansion."
-    return (
-        f"Energy integral: the same {expansion.order + 1} coefficients by series reversion, without oscillator theory."
-    )
-
-
-def _flow_residual_line(flow: SlowFlow) -> str:
-    left = flow.residual()
-    if left:
-        return f"FAILED: the slow flow substituted into the equation leaves grades {left}."
-    return f"Multiple scales: the slow flow and its harmonics cancel identically through weighted degree {flow.order}."
-
-
-def _agreement_line(expansion: Expansion, flow: SlowFlow) -> str:
-    order = min(expansion.order, flow.order)
-    converted = expansion.truncated(order).convert("fundamental").frequency
-    by_power = {term.powers[0]: term.coefficient for term in flow.frequency if term.powers[1] == 0}
-    if any(by_power.get(n, 0) != c for n, c in enumerate(converted)):
-        return "FAILED: multiple scales without damping differs from the Lindstedt-Poincaré expansion."
-    return (
-        "Agreement: converted to the fundamental amplitude, Lindstedt-Poincaré equals multiple scales "
-        f"through order {order}."
-    )
+def _line(prefix: str, check: Check) -> str:
+    failed = "FAILED: " if check.passed is False else ""
+    name = f"{prefix}{check.name}"
+    return f"{failed}{name[0].upper()}{name[1:]}: {check.statement}."
 
 
 def _code(exact: Exact) -> dict[str, str]:

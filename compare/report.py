@@ -17,7 +17,6 @@ from compare.derivation import Exact, derivation, derive, undamped
 from compare.models import LOW_ORDERS
 from compare.motion import Setting, setting
 from compare.provenance import provenance
-from compare.radius import convergence_radius
 from compare.recording import compare_recording
 from compare.results import Array, DecayComparison, Range, RecordingComparison, Report, Study, Timing
 from compare.study import ranges, study
@@ -28,11 +27,12 @@ from numeric.potential import peak_limit
 from numeric.recording import Recording
 from symbolic.errors import InputError
 from symbolic.oscillator import Oscillator
+from symbolic.singularity import limits
 from symbolic.systems import find
 
 Progress = Callable[[float, str], None]
 ORDERS = (2, 4, 6, 8, 10, 12, 16, 20, 30, 40)
-CYCLE_ORDERS = (2, 4, 6, 8, 12, 16, 20)
+CYCLE_ORDERS = (2, 4, 6, 8, 12, 16, 20, 30, 48)
 """Orders in eps for limit cycles, whose series cost more per order."""
 AMPLITUDES = 49
 CYCLE_STRENGTHS = np.linspace(0.2, 2.6, 13)
@@ -144,11 +144,11 @@ def _amplitudes(case: Setting, exact: Exact) -> Array:
     """Up to 98 % of the separatrix; without one, beyond the radius of convergence or the initial amplitude."""
     if exact.expansion.variable == "eps":
         return CYCLE_STRENGTHS
-    limit = peak_limit(bind(undamped(case.oscillator)))
-    if np.isfinite(limit):
-        return np.linspace(0.02, 0.98, AMPLITUDES) * limit
-    radius = convergence_radius([float(c) for c in exact.expansion.frequency])
-    top = 1.5 * (radius.value if radius is not None else max(abs(case.initial[0]), 0.1))
+    separatrix = peak_limit(bind(undamped(case.oscillator)))
+    if np.isfinite(separatrix):
+        return np.linspace(0.02, 0.98, AMPLITUDES) * separatrix
+    radius = limits(exact.expansion).radius
+    top = 1.5 * (max(abs(case.initial[0]), 0.1) if radius is None else radius)
     return np.linspace(0.02, 1.0, AMPLITUDES) * top
 
 

@@ -57,6 +57,8 @@ class Study:
     """The natural frequency k that omega is printed with."""
     convergence_uncertainty: float | None = None
     """Uncertainty of ``convergence_radius``, in the same variable."""
+    convergence_note: str = ""
+    """Where the radius comes from, or why none is known."""
 
     def rows(self) -> list[dict[str, float | int | str]]:
         """One row per cell: order, amplitude (or eps), method, omega, omega_reference, relative_error."""

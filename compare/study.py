@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike
 
 from compare.bind import bind
 from compare.derivation import undamped
-from compare.radius import convergence_radius
 from compare.reference import Exact, conservative_reference, limit_cycle_reference
 from compare.results import Array, Range, Study
 from numeric.dynamics import Dynamics
@@ -26,6 +25,7 @@ from symbolic.errors import InputError
 from symbolic.expansion import Expansion
 from symbolic.lindstedt import lindstedt
 from symbolic.oscillator import Oscillator, Value
+from symbolic.singularity import limits
 
 METHODS: Mapping[str, Callable[[Oscillator, int], Expansion]] = {
     "lindstedt": lindstedt,
@@ -71,7 +71,7 @@ def study(
     limit, exact = _reference(bound, grid)
     expansion = derive(bound, max(kept))
     omega = np.stack([np.asarray(expansion.truncated(order)(grid), dtype=float) for order in kept])
-    radius = convergence_radius([float(c) for c in expansion.frequency])
+    converges = limits(expansion)
     return Study(
         system=bound.name,
         title=bound.title,
@@ -87,8 +87,9 @@ def study(
         reference_name=exact.name,
         relative_error=_frozen(omega / exact.omega - 1),
         limit=limit,
-        convergence_radius=None if radius is None else radius.value,
-        convergence_uncertainty=None if radius is None else radius.uncertainty,
+        convergence_radius=converges.radius,
+        convergence_uncertainty=converges.uncertainty,
+        convergence_note=converges.sentence(),
         scale=float(expansion.scale),
     )
 

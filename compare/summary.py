@@ -36,12 +36,8 @@ def _study_sentences(study: Study, found: Sequence[Range]) -> Iterator[str]:
     listed = ", ".join(f"order {item.order} to {item.up_to:.3g}" for item in reached)
     yield f"Relative error within {target}, counted up to the first violation: {listed or 'no order'} ({symbol})."
     yield f"The exact frequency comes from: {study.reference_name}, known to {float(study.reference_error.max()):.0e}."
-    if study.convergence_radius is not None:
-        spread = study.convergence_uncertainty or 0.0
-        yield (
-            f"The coefficients point to a radius of convergence of {study.convergence_radius:.3g} ± {spread:.1g}; "
-            "beyond it more orders do not help."
-        )
+    if study.convergence_note:
+        yield study.convergence_note
 
 
 def cards(study: Study, found: Range, timings: Sequence[Timing]) -> tuple[Card, Card, Card]:

@@ -44,8 +44,8 @@ def decay_table(decay: DecayComparison) -> str:
     """The trajectory, its amplitude and every curve, one row per sample (rad per time unit)."""
     columns: dict[str, Sequence[object]] = {
         "time": decay.time.tolist(),
-        "u": decay.u.tolist(),
-        "velocity": decay.velocity.tolist(),
+        "u": [_short(x, digits=12) for x in decay.u.tolist()],
+        "velocity": [_short(x, digits=12) for x in decay.velocity.tolist()],
         "amplitude_energy": _on(decay.time, decay.amplitudes.time, decay.amplitudes.energy),
     }
     if decay.amplitudes.averaged is not None:
@@ -72,13 +72,13 @@ def _curve_columns(time: Array, curves: Sequence[Curve]) -> dict[str, Sequence[o
     return columns
 
 
-def _short(value: float) -> str:
-    """Nine significant digits: a hundred times finer than the best estimate here, and half the size of the file.
+def _short(value: float, *, digits: int = 7) -> str:
+    """Significant digits: a hundred times finer than the best estimate here, and half the size of the file.
 
     >>> _short(1.0 / 3.0), _short(math.nan)
-    ('0.333333333', '')
+    ('0.3333333', '')
     """
-    return "" if math.isnan(value) else f"{value:.9g}"
+    return "" if math.isnan(value) else f"{value:.{digits}g}"
 
 
 def _columns_table(columns: Mapping[str, Sequence[object]]) -> str:
