@@ -222,6 +222,12 @@ def _check_cycles(chosen: Setting, trajectory: Trajectory) -> None:
             f"{chosen.oscillator.name}: {rising} zero crossings in a duration of {chosen.duration:g} leave fewer than "
             f"{MIN_CYCLES} whole cycles; use a longer duration"
         )
+    fastest = 1 / float(np.diff(trajectory.crossings.time[trajectory.crossings.rising]).min())
+    if chosen.rate <= 2 * fastest:
+        raise InputError(
+            f"rate {chosen.rate:g} aliases the fundamental, which reaches {fastest:.4g} cycles per time unit; "
+            f"use a rate above {2 * fastest:.4g}, or {SAMPLES_PER_CYCLE * fastest:.3g} to see its harmonics"
+        )
 
 
 def _energy_peak(dynamics: Dynamics, trajectory: Trajectory) -> Array:
