@@ -228,7 +228,7 @@ def _beyond(well: Well, size: Fraction, definition: str) -> str:
         return f"{what} is at or beyond the separatrix at {float(limit):.10g}; use less"
     return (
         f"{what} has no closed orbit: the force vanishes or is not analytic on the way, or the potential does not rise "
-        "as high on the other side; use less"
+        "as high on the other side as far as it was followed; use less"
     )
 
 
@@ -278,14 +278,14 @@ def check_belongs(oscillator: Oscillator, expansion: Expansion) -> None:
             f"a certified error needs an expansion in the amplitude defined by {' or '.join(DEFINITIONS)}, not "
             f"{expansion.amplitude} in {expansion.variable}; derive it so"
         )
-    own = _first_terms(oscillator, min(expansion.order, FIRST_TERMS), expansion.amplitude)
-    given = expansion.coefficients[: len(own)]
-    if expansion.scale != oscillator.natural_frequency or any(a != b for a, b in zip(own, given, strict=True)):
+    own = _first_terms(oscillator, expansion.amplitude)
+    differ = any(a != b for a, b in zip(own, expansion.coefficients, strict=False))
+    if differ or expansion.scale != oscillator.natural_frequency:
         raise InputError(
             f"the expansion of {expansion.system} is not one of {oscillator.name}; derive it from the same parameters"
         )
 
 
 @lru_cache(maxsize=64)
-def _first_terms(oscillator: Oscillator, order: int, definition: str) -> tuple[Scalar, ...]:
-    return energy_integral(oscillator, order, amplitude=definition).coefficients
+def _first_terms(oscillator: Oscillator, definition: str) -> tuple[Scalar, ...]:
+    return energy_integral(oscillator, FIRST_TERMS, amplitude=definition).coefficients

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 from flint import arb
 
@@ -42,6 +43,10 @@ def separatrix(oscillator: Oscillator, *, bits: int = 64) -> Separatrix:
     return limits(well_of(oscillator), bits)
 
 
+SEARCHED: Final = 1024
+"""How far saddles of a force that is not a polynomial are looked for, in the unit of u."""
+
+
 def limits(well: Well, bits: int) -> Separatrix:
     """The separatrix of a well; see ``separatrix``."""
     return decided(lambda working: _limits(well, working), well.name, bits)
@@ -50,7 +55,7 @@ def limits(well: Well, bits: int) -> Separatrix:
 def _limits(well: Well, bits: int) -> Separatrix:
     forward = curves(well, bits)
     left, right = _barriers(well, forward, bits)
-    reach = None if well.polynomial is not None else REACH
+    reach = None if well.polynomial is not None else SEARCHED
     if right is not None and well.even:
         return Separatrix(right, -right, right, reach)
     if right is not None and (left is None or _lower(forward, right, left)):
@@ -70,8 +75,8 @@ def _barriers(well: Well, forward: Curves, bits: int) -> tuple[arb | None, arb |
 
 
 def _first_zero(side: Curves) -> arb | None:
-    found = walk(side.force, side.slope, step=arb(1), stop=_never, last=arb(REACH))
-    if found.end == "undecided":
+    found = walk(side.force, side.slope, step=arb(1), stop=_never, last=arb(SEARCHED))
+    if found.end in ("undecided", "exhausted"):
         raise UndecidedError
     return found.place if found.end == "zero" else None
 

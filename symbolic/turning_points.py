@@ -133,7 +133,7 @@ def _meets(quotient: fmpq_poly, force: fmpq_poly, equilibrium: arb) -> bool:
 def _general_orbit(well: Well, forward: Curves, peak: fmpq) -> Orbit | None:
     A = arb(peak)
     found = walk(forward.force, forward.slope, step=A / 2, stop=_never, last=A)
-    if found.end == "undecided":
+    if found.end in ("undecided", "exhausted"):
         raise UndecidedError
     if found.end != "stopped":
         return None

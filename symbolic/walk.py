@@ -26,7 +26,7 @@ MAX_REFINEMENTS: Final = 400
 ATTEMPTS: Final = 4
 """How often the working precision is doubled before balls are declared unable to decide."""
 
-End: TypeAlias = Literal["stopped", "zero", "singular", "undecided"]
+End: TypeAlias = Literal["stopped", "zero", "singular", "exhausted", "undecided"]
 
 
 class UndecidedError(ArithmeticError):
@@ -88,7 +88,7 @@ def walk(force: Function, slope: Function, *, step: arb, stop: Callable[[arb, ar
             return Walk("undecided" if force(box).is_finite() else "singular", box)
         else:
             step = step / 2
-    return Walk("undecided", x)
+    return Walk("exhausted", x)
 
 
 def _positive(force: Function, slope: Function, x: arb, y: arb, box: arb) -> bool:
@@ -104,7 +104,8 @@ def _positive(force: Function, slope: Function, x: arb, y: arb, box: arb) -> boo
 def level(value: Function, force: Function, slope: Function, energy: arb, *, step: arb, last: arb) -> arb | None:
     """The first place to the right of 0 where the potential meets ``energy``; None when the force ends before.
 
-    None as well when the potential stays below it as far as ``last``.  Raises UndecidedError when balls cannot tell.
+    None as well when the potential stays below it as far as it is followed.  Raises UndecidedError when balls cannot
+    tell.
 
     >>> place = level(lambda u: u**2 / 2, lambda u: u, lambda u: arb(1), arb(2), step=arb(1), last=arb(9))
     >>> place.contains(2)
@@ -126,9 +127,9 @@ def level(value: Function, force: Function, slope: Function, energy: arb, *, ste
         return _within(value, force, energy, low, high)
     if found.end == "zero":
         return _within(value, force, energy, low, found.place.lower())
-    if found.end == "singular":
-        return None
-    raise UndecidedError
+    if found.end == "undecided":
+        raise UndecidedError
+    return None
 
 
 def _within(value: Function, force: Function, energy: arb, low: arb, high: arb) -> arb | None:

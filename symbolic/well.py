@@ -129,16 +129,28 @@ def _with_velocity(oscillator: Oscillator, force: sympy.Expr) -> tuple[sympy.Exp
     """V and I for a force a(u) + b(u) u'^2."""
     restoring = force.subs(V, 0)
     drag = force.diff(V, 2) / 2
-    if drag.has(V) or sympy.expand(force - restoring - drag * V**2) != 0:
+    if drag.has(V):  # the force is even in u', so nothing but a(u) + b(u) u'^2 is left
         raise InputError(
             f"{oscillator.name} has velocity terms other than b(u) u'^2, for which there is no energy to integrate; "
             "use --method lindstedt"
         )
-    exponent = potential_of(sympy.cancel(drag))
+    exponent = _integral(drag)
     if exponent is None:
         raise InputError(f"{oscillator.name}: no rule integrates {drag}, the factor of u'^2; use --method lindstedt")
-    inertia = sympy.exp(exponent)
-    return potential_of(sympy.factor(restoring * inertia**2)), inertia
+    exponent = exponent.replace(sympy.log, _log_from_origin)
+    inertia = sympy.exp(exponent - exponent.subs(U, 0))
+    return _integral(restoring * inertia**2), inertia
+
+
+def _integral(integrand: sympy.Expr) -> sympy.Expr | None:
+    """By the rules of ``potential_of``, as it stands or brought to a common denominator."""
+    as_it_stands = potential_of(integrand)
+    return potential_of(sympy.factor(integrand)) if as_it_stands is None else as_it_stands
+
+
+def _log_from_origin(argument: sympy.Expr) -> sympy.Expr:
+    """log(x / x(0)), which differs by a constant and is 0 at the origin, also where x is negative there."""
+    return sympy.log(sympy.expand(argument / argument.subs(U, 0)))
 
 
 def _exact_polynomial(potential: sympy.Expr) -> fmpq_poly | None:
