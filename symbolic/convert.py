@@ -19,10 +19,10 @@ from symbolic.nodes import (
     Sum,
     Unknown,
     children,
-    measure,
     to_text,
 )
 from symbolic.origin import value_at_origin
+from symbolic.size import measure
 from symbolic.tokens import quoted
 
 U: Final = sympy.Symbol("u", real=True)

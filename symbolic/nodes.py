@@ -1,18 +1,10 @@
-"""The expression tree: frozen nodes, their text, and a prediction of how large they become in a computer algebra."""
+"""The expression tree: frozen nodes, their text and their constants."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
-from math import comb
-from typing import Final, Literal, TypeAlias
-
-from symbolic.errors import InputError
-
-MAX_EXPONENT: Final = 200
-MAX_TERMS: Final = 1000
-MAX_DEGREE: Final = 400
-MAX_BITS: Final = 10_000
+from typing import Literal, TypeAlias
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,92 +193,3 @@ def _product(values: list[Fraction]) -> Fraction:
     for value in values:
         result *= value
     return result
-
-
-@dataclass(frozen=True, slots=True)
-class Size:
-    """An upper bound on what an expression becomes: terms once expanded, degree, bits of its coefficients' sum."""
-
-    terms: int
-    degree: int
-    bits: int
-
-
-def measure(node: Node) -> Size:
-    """Predict the size of the expanded expression without building it.
-
-    Raises InputError, with the column, where an exponent is not a rational constant or is too large, where
-    something is divided by zero, and where a bound on terms, degree or digits is passed.
-
-    >>> measure(Power(Sum((Number(Fraction(1)), Unknown(0))), Number(Fraction(10)))).terms
-    11
-    """
-    size = _power_size(node) if isinstance(node, Power) else _size(node, [measure(n) for n in children(node)])
-    if isinstance(node, Quotient) and constant(node.denominator) == 0:
-        raise InputError(f"division by zero at column {node.column}; the denominator is identically 0")
-    for what, value, most in (
-        ("terms", size.terms, MAX_TERMS),
-        ("degree", size.degree, MAX_DEGREE),
-        ("bits", size.bits, MAX_BITS),
-    ):
-        if value > most:
-            raise InputError(
-                f"the expression at column {node.column} would grow to {what} {_rounded(value)}, at most {most} "
-                "are allowed; use smaller exponents or fewer factors"
-            )
-    return size
-
-
-def _rounded(value: int) -> str:
-    return str(value) if value < 10**9 else f"about 2**{value.bit_length()}"
-
-
-def _size(node: Node, below: list[Size]) -> Size:
-    match node:
-        case Number(value=value):
-            return Size(1, 0, value.numerator.bit_length() + value.denominator.bit_length())
-        case Name() | Unknown():
-            return Size(1, 1, 1)
-        case Sum():
-            return Size(sum(s.terms for s in below), max(s.degree for s in below), sum(s.bits for s in below))
-        case Product() | Quotient():
-            terms = 1
-            for size in below:
-                terms *= size.terms
-            return Size(terms, sum(s.degree for s in below), sum(s.bits for s in below))
-        case Call():
-            return Size(1, below[0].degree, below[0].bits)
-        case _:
-            return below[0]
-
-
-def _power_size(node: Power) -> Size:
-    base, exponent = measure(node.base), _exponent(node)
-    n = abs(exponent.numerator)
-    whole = exponent.denominator == 1
-    terms = comb(n + base.terms - 1, base.terms - 1) if whole else base.terms
-    return Size(terms, max(n * base.degree, base.degree), max(n * base.bits, base.bits))
-
-
-def _exponent(node: Power) -> Fraction:
-    measure(node.exponent)
-    exponent = constant(node.exponent)
-    if exponent is None:
-        raise InputError(
-            f"the exponent at column {node.exponent.column or node.column} is not a rational number; "
-            "write other powers with exp and log, as in exp(p*log(1 + u))"
-        )
-    if max(abs(exponent.numerator), exponent.denominator) > MAX_EXPONENT:
-        raise InputError(
-            f"the exponent {_shown(exponent)} at column {node.exponent.column or node.column} is too large; "
-            f"numerator and denominator may be at most {MAX_EXPONENT}"
-        )
-    value = constant(node.base)
-    if value is not None and ((value == 0 and exponent < 0) or (value < 0 and exponent.denominator != 1)):
-        raise InputError(f"the power at column {node.column} of the number {_shown(value)} is not a real number")
-    return exponent
-
-
-def _shown(value: Fraction) -> str:
-    text = str(value) if value.numerator.bit_length() + value.denominator.bit_length() < 200 else ""
-    return text if text and len(text) <= 40 else f"with {value.numerator.bit_length()} bits"

@@ -30,10 +30,10 @@ from symbolic.nodes import (
     Sum,
     Unknown,
     children,
-    measure,
     names,
     to_text,
 )
+from symbolic.size import measure
 from symbolic.tokens import Token, number_value, parse_number, quoted, tokenize
 
 __all__ = [

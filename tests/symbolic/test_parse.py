@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from symbolic.errors import InputError
-from symbolic.nodes import MAX_EXPONENT, constant, measure
+from symbolic.nodes import constant
 from symbolic.parse import (
     FUNCTIONS,
     MAX_NESTING,
@@ -33,6 +33,7 @@ from symbolic.parse import (
     to_sympy,
     to_text,
 )
+from symbolic.size import MAX_EXPONENT, MAX_FUNCTIONS, measure
 from symbolic.tokens import MAX_LENGTH
 
 QUICK = settings(deadline=None, max_examples=150)
@@ -345,10 +346,14 @@ def _frames():
     return found
 
 
-def test_thirty_nested_functions_are_still_read_and_differentiated():
-    text = "u'' + " + "sin(" * MAX_NESTING + "u" + ")" * MAX_NESTING
-    force = to_sympy(parse_equation(text).left)
+def test_functions_nest_as_deep_as_allowed_and_no_deeper():
+    def nested(times):
+        return "u'' + " + "sin(" * times + "u" + ")" * times
+
+    force = to_sympy(parse_equation(nested(MAX_FUNCTIONS)).left)
     assert force.diff(U).subs(U, 0) == 1
+    with pytest.raises(InputError, match="functions are nested 7 deep at column 7; at most 6"):
+        parse_equation(nested(MAX_FUNCTIONS + 1))
 
 
 WORDS = "u u' u'' k sin exp sqrt log pi ( ) + - * / ** ^ = 2 0 1.5 1e9 200 ' . , é"
