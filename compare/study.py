@@ -8,7 +8,7 @@ cross zero and look small by accident.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,19 +18,12 @@ from compare.bind import bind
 from compare.derivation import undamped
 from compare.reference import Exact, conservative_reference, limit_cycle_reference
 from compare.results import Array, Range, Study
+from compare.truncations import METHODS, Method
 from numeric.dynamics import Dynamics
 from numeric.potential import peak_limit
-from symbolic.energy_integral import energy_integral
 from symbolic.errors import InputError
-from symbolic.expansion import Expansion
-from symbolic.lindstedt import lindstedt
 from symbolic.oscillator import Oscillator, Value
-from symbolic.singularity import limits
 
-METHODS: Mapping[str, Callable[[Oscillator, int], Expansion]] = {
-    "lindstedt": lindstedt,
-    "energy-integral": energy_integral,
-}
 MAX_CELLS = 200_000
 MAX_ORBITS = 100
 """Limit cycles: each value of eps costs one shooting, about half a second."""
@@ -67,30 +60,28 @@ def study(
     bound = undamped(oscillator.with_parameters(values) if values else oscillator)
     kept, grid = _checked_orders(orders), _checked_amplitudes(amplitudes)
     _check_size(len(kept), grid.size, limit_cycle=bound.kind == "limit-cycle")
-    derive = _method(method)
+    truncate = _method(method)
     limit, exact = _reference(bound, grid)
-    expansion = derive(bound, max(kept))
-    omega = np.stack([np.asarray(expansion.truncated(order)(grid), dtype=float) for order in kept])
-    converges = limits(expansion)
+    series = truncate(bound, kept, grid)
     return Study(
         system=bound.name,
         title=bound.title,
         method=method,
-        variable=expansion.variable,
-        amplitude_definition=expansion.amplitude,
-        amplitude_unit=bound.unit if expansion.variable == "A" else "",
+        variable=series.variable,
+        amplitude_definition=series.amplitude,
+        amplitude_unit=bound.unit if series.variable == "A" else "",
         orders=kept,
         amplitudes=_frozen(grid),
-        omega=_frozen(omega),
+        omega=_frozen(series.omega),
         reference=_frozen(exact.omega),
         reference_error=_frozen(exact.relative_error),
         reference_name=exact.name,
-        relative_error=_frozen(omega / exact.omega - 1),
+        relative_error=_frozen(series.omega / exact.omega - 1),
         limit=limit,
-        convergence_radius=converges.radius,
-        convergence_uncertainty=converges.uncertainty,
-        convergence_note=converges.sentence(),
-        scale=float(expansion.scale),
+        convergence_radius=series.radius,
+        convergence_uncertainty=series.uncertainty,
+        convergence_note=series.note,
+        scale=series.scale,
     )
 
 
@@ -155,7 +146,7 @@ def _check_size(orders: int, amplitudes: int, *, limit_cycle: bool) -> None:
         raise InputError(f"{amplitudes} values of eps exceed {MAX_ORBITS} orbits to be found; use at most {MAX_ORBITS}")
 
 
-def _method(method: str) -> Callable[[Oscillator, int], Expansion]:
+def _method(method: str) -> Method:
     if method not in METHODS:
         raise InputError(f"method {method!r} is not known to the study; use {' or '.join(METHODS)}")
     return METHODS[method]

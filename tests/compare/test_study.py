@@ -40,6 +40,15 @@ def test_two_derivations_give_one_study(name):
     assert np.abs(first.relative_error[1, 0]) < 1e-6
 
 
+@pytest.mark.parametrize("name", ["pendulum", "helmholtz-duffing"])
+def test_multiple_scales_is_studied_on_the_same_orbits(name):
+    """At order n both routes err by the first neglected power, and the exact frequency is the same one."""
+    result = study(find(name), (2, 4), [0.1, 0.2], method="multiple-scales")
+    np.testing.assert_array_equal(result.reference, study(find(name), (2,), [0.1, 0.2]).reference)
+    observed = np.log2(np.abs(result.relative_error[:, 1] / result.relative_error[:, 0]))
+    np.testing.assert_allclose(observed, [4, 6], atol=0.6)
+
+
 def test_a_limit_cycle_is_studied_in_eps_against_its_orbit():
     result = study(find("van-der-pol"), (2, 4, 12), [0.2, 0.6])
     assert result.variable == "eps"
@@ -106,6 +115,8 @@ def test_other_bad_input():
         study(find("duffing-softening"), (2,), [1.0])
     with pytest.raises(InputError, match="method 'guess'"):
         study(find("pendulum"), (2,), [1.0], method="guess")
+    with pytest.raises(InputError, match="method lindstedt"):
+        study(find("van-der-pol"), (2,), [0.1], method="multiple-scales")
     with pytest.raises(InputError, match="target"):
         ranges(PENDULUM, 0.0)
 
