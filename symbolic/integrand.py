@@ -101,7 +101,7 @@ class GeneralIntegrand:
 
     def on_ball(self, theta: acb, *, analytic: bool) -> acb:
         """A ball of F over theta."""
-        ball = self._ball(theta)
+        ball = self.ball(theta)
         for q in ball.small(self.energy):
             root = q.rsqrt(analytic=analytic)
             if root.is_finite():
@@ -110,7 +110,7 @@ class GeneralIntegrand:
 
     def size(self, theta: acb) -> arb | None:
         """An upper bound of |F| over theta, or None when q may vanish or V, I be singular there."""
-        ball = self._ball(theta)
+        ball = self.ball(theta)
         inertia = ball.curves.inertia(ball.u)
         if not ball.curves.value(ball.u).is_finite() or not inertia.is_finite():
             return None
@@ -119,12 +119,13 @@ class GeneralIntegrand:
                 return arb(inertia.abs_upper() / q.abs_lower().sqrt())
         return None
 
-    def _ball(self, theta: acb) -> _Ball:
+    def ball(self, theta: acb) -> OrbitBall:
+        """The ball of u over theta, with what encloses q there."""
         sine, cosine = (theta / 2).sin_cos()
         fall, rise = 2 * self.half * sine * sine, 2 * self.half * cosine * cosine
         near_peak = theta.real.mid() < arb.pi() / 2
         u = self.orbit.peak - fall if near_peak else self.orbit.trough + rise
-        return _Ball(curves(self.well, ctx.prec, complex_=True), self.orbit, u, fall, rise, near_peak)
+        return OrbitBall(curves(self.well, ctx.prec, complex_=True), self.orbit, u, fall, rise, near_peak)
 
     def typical(self) -> arb:
         """F at w = 0."""
@@ -132,7 +133,7 @@ class GeneralIntegrand:
 
 
 @dataclass(frozen=True)
-class _Ball:
+class OrbitBall:
     """A complex ball of u with its distances from peak and trough, and the ways to enclose q over it.
 
     Each is finite only if V is analytic on the convex hull that it uses.

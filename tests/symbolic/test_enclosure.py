@@ -301,6 +301,53 @@ def test_the_error_bound_is_one() -> None:
             assert claimed.rad() < abs(bare - truth) * 10**4  # not vacuous either
 
 
+@given(
+    st.sampled_from(["sin(u)", "exp(u) - 1", "tanh(u) + u**2/9", "u/sqrt(1 + u**2)"]),
+    st.floats(0, 3.1),
+    st.floats(0, 0.5),
+    st.floats(1e-6, 0.2),
+    st.floats(-1, 1),
+    st.floats(-1, 1),
+)
+@settings(max_examples=150, deadline=None)
+def test_every_enclosure_of_the_quotient_holds_every_point(
+    force: str, real: float, imaginary: float, size: float, right: float, up: float
+) -> None:
+    """The divided differences over a box of theta, against the plain quotient at points inside it."""
+    well = well_of(own(f"u'' + {force}"))
+    with ctx.workprec(300):
+        integrand = GeneralIntegrand(well, orbit(well, fmpq(1), 300))
+        box = integrand.ball(acb(arb(real, size), arb(imaginary, size)))
+        inside = integrand.ball(acb(arb(real) + arb(right) * arb(size), arb(imaginary) + arb(up) * arb(size)))
+        assume(not (inside.fall * inside.rise).contains(0))
+        value = next(inside.small(integrand.energy))
+        assume(value.rel_accuracy_bits() > 60)
+        enclosures = [*box.small(integrand.energy), *box.wide(integrand.energy)]
+        assert all(q.overlaps(value) for q in enclosures if q.is_finite())
+
+
+@pytest.mark.parametrize(
+    ("text", "amplitude"),
+    [("u'' + u - u**3", "9/10"), ("u'' + u + u**2 + u**5", "1"), ("u'' + sin(u)", "3"), ("u'' + exp(u) - 1", "2")],
+)
+def test_the_bound_in_the_strip_is_one(text: str, amplitude: str) -> None:
+    """|F| on a grid over the strip, its corners above the turning points included, stays below the claim."""
+    well = well_of(own(text))
+    with ctx.workprec(200):
+        path = orbit(well, fmpq(Fraction(amplitude).numerator, Fraction(amplitude).denominator), 200)
+        integrand, strip = integrand_of(well, path), strip_of(well, path)
+        heights = [strip.width * k / 4 for k in range(5)]
+        sizes = [
+            abs(integrand.on_ball(acb(arb.pi() * j / 16, height), analytic=False))
+            for j in range(17)
+            for height in heights
+            if height > 0 or 0 < j < 16
+        ]
+        finite = [size for size in sizes if size.is_finite()]
+        assert len(finite) > 60
+        assert all(size < strip.bound for size in finite)
+
+
 def test_trough_is_the_peak_of_the_mirrored_oscillator() -> None:
     system = own("u'' + u + u**2 + u**3")
     first = enclose(system, "0.9", definition="trough")
