@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from numeric.errors import InputError
@@ -14,14 +13,9 @@ from numeric.harmonic_fit import Shape
 from numeric.harmonics import harmonic_track
 from numeric.peak_track import by_pseudo_wigner, by_smoothed_pseudo_wigner, by_spectrogram, by_wigner
 from numeric.phase_track import by_harmonic_least_squares, by_hilbert, by_zero_crossing
-from numeric.request import Request
-from numeric.samples import TWO_PI, checked_rate, checked_real_samples
-from numeric.search_band import find_corridor
+from numeric.polynomial_track import by_polynomial_wigner
+from numeric.request import Request, prepared
 from numeric.track import Track
-from numeric.wigner import as_analytic
-
-LAG_CYCLES = 4.0
-"""Default window, in cycles of the strongest component: 3 s for the paper's pendulum."""
 
 
 def finish(track: Track, remove_bias: bool) -> Track:
@@ -48,6 +42,7 @@ ESTIMATORS: Mapping[str, Callable[[Request], Track]] = MappingProxyType(
         "wigner": by_wigner,
         "pseudo-wigner": by_pseudo_wigner,
         "smoothed-pseudo-wigner": by_smoothed_pseudo_wigner,
+        "polynomial-wigner": by_polynomial_wigner,
         "spectrogram": by_spectrogram,
         "hilbert": by_hilbert,
         "zero-crossing": by_zero_crossing,
@@ -69,6 +64,7 @@ def estimate(
     smoothing_seconds: float | None = None,
     harmonics: int | None = None,
     harmonic: int = 1,
+    order: int = 6,
     bias: bool = True,
     remove_bias: bool = False,
 ) -> Track:
@@ -78,12 +74,14 @@ def estimate(
     around the strongest component is found from the data.  ``lag_seconds`` is the stretch of signal under the window
     of the windowed methods (default four cycles), ``smoothing_seconds`` the time smoothing (default one cycle).
     ``harmonics`` is the highest multiple that harmonic least squares fits (default: those the data show).
+    ``order`` is that of the polynomial Wigner distribution, 4 or 6.
     ``harmonic`` above 1 asks for the track of that harmonic, phase-locked to the fundamental found by ``method``.
     ``bias=False`` leaves the bias estimate out; ``remove_bias=True`` takes it off.  The mean is removed.
 
     Raises InputError for an unknown method, values that are not finite, a constant signal, a record too short for the
     window, or a band beyond the Nyquist frequency.
 
+    >>> import numpy as np
     >>> t = np.arange(640) / 32.0
     >>> track = estimate(np.cos(2 * np.pi * (1.0 * t + 0.01 * t**2)), 32.0, method="pseudo-wigner")
     >>> inside = track.inside()
@@ -92,32 +90,17 @@ def estimate(
     """
     if method not in ESTIMATORS:
         raise InputError(f"method {method!r} is unknown; use one of {', '.join(METHODS)}")
-    samples, rate = checked_real_samples(x, what="estimate", at_least=16), checked_rate(rate)
-    if not np.ptp(samples) > 0.0:
-        raise InputError(f"signal is constant at {samples[0]:g}; there is no oscillation to follow")
-    offset = float(samples.mean())
-    real = samples - offset
-    corridor = find_corridor(real, rate, band=band)
-    cycle, span = TWO_PI / corridor.centre, (real.size - 1) / rate
-    if lag_seconds is None and LAG_CYCLES * cycle > span:
-        raise InputError(
-            f"signal spans {span / cycle:.3g} cycles of its strongest component ({cycle:.4g} each); "
-            f"{LAG_CYCLES:g} are needed (give a longer record, a band, or lag_seconds)"
-        )
-    request = Request(
-        x=real,
-        z=as_analytic(real),
-        rate=rate,
-        start=float(start),
-        corridor=corridor,
-        lag_seconds=LAG_CYCLES * cycle if lag_seconds is None else lag_seconds,
+    request = prepared(
+        x,
+        rate,
+        band=band,
+        start=start,
+        lag_seconds=lag_seconds,
+        smoothing_seconds=smoothing_seconds,
         lag_window=lag_window,
-        smoothing_seconds=cycle if smoothing_seconds is None else smoothing_seconds,
         harmonics=harmonics,
-        remove_bias=remove_bias,
+        order=order,
         bias=bias or remove_bias,
     )
     track = finish(ESTIMATORS[method](request), remove_bias)
-    if harmonic != 1:
-        track = harmonic_track(real, rate, track, multiple=harmonic, start=start)
-    return replace(track, settings={"offset_removed": offset, **track.settings})
+    return track if harmonic == 1 else harmonic_track(request.x, request.rate, track, multiple=harmonic)

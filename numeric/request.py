@@ -5,15 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from numeric.curvature import held
 from numeric.errors import InputError
 from numeric.noise import Level, measure_level
-from numeric.samples import TWO_PI, Array, ComplexArray, Mask
-from numeric.search_band import Corridor
+from numeric.samples import TWO_PI, Array, ComplexArray, Mask, checked_rate, checked_real_samples
+from numeric.search_band import Corridor, find_corridor
+from numeric.wigner import as_analytic
 from numeric.windows import half_width
 
+FEWEST_SAMPLES = 16
 FEWEST_VALID = 8
+LAG_CYCLES = 4.0
+"""Default window, in cycles of the strongest component: 3 s for the paper's pendulum."""
 
 
 @dataclass(frozen=True)
@@ -29,8 +34,9 @@ class Request:
     lag_window: str
     smoothing_seconds: float
     harmonics: int | None
-    remove_bias: bool
+    order: int
     bias: bool
+    offset: float
 
     @property
     def time(self) -> Array:
@@ -60,7 +66,56 @@ class Request:
     def settings(self, **more: object) -> dict[str, object]:
         """What every track reports, and more."""
         low, high = self.corridor.limits
-        return {"rate": self.rate, "start": self.start, "band_rad": (low, high), "band_why": self.corridor.why, **more}
+        return {
+            "offset_removed": self.offset,
+            "rate": self.rate,
+            "start": self.start,
+            "band_rad": (low, high),
+            "band_why": self.corridor.why,
+            **more,
+        }
+
+
+def prepared(
+    x: ArrayLike,
+    rate: float,
+    *,
+    band: tuple[float, float] | None,
+    start: float,
+    lag_seconds: float | None,
+    smoothing_seconds: float | None,
+    lag_window: str,
+    harmonics: int | None,
+    order: int,
+    bias: bool,
+) -> Request:
+    """Check a signal, take its mean off, find its corridor and set the default windows."""
+    samples, rate = checked_real_samples(x, what="estimate", at_least=FEWEST_SAMPLES), checked_rate(rate)
+    if not np.ptp(samples) > 0.0:
+        raise InputError(f"signal is constant at {samples[0]:g}; there is no oscillation to follow")
+    offset = float(samples.mean())
+    real = samples - offset
+    corridor = find_corridor(real, rate, band=band)
+    cycle, span = TWO_PI / corridor.centre, (real.size - 1) / rate
+    if lag_seconds is None and LAG_CYCLES * cycle > span:
+        raise InputError(
+            f"signal spans {span / cycle:.3g} cycles of its strongest component ({cycle:.4g} each); "
+            f"{LAG_CYCLES:g} are needed (give a longer record, a band, or lag_seconds)"
+        )
+    return Request(
+        x=real,
+        z=as_analytic(real),
+        rate=rate,
+        start=float(start),
+        corridor=corridor,
+        lag_seconds=LAG_CYCLES * cycle if lag_seconds is None else lag_seconds,
+        lag_window=lag_window,
+        smoothing_seconds=cycle if smoothing_seconds is None else smoothing_seconds,
+        harmonics=harmonics,
+        order=order,
+        bias=bias,
+        offset=offset,
+    )
 
 
 def need(valid: Mask, method: str, border: float) -> None:

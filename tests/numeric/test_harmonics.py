@@ -27,7 +27,7 @@ def test_harmonics_of_the_pendulum_are_multiples(pendulum_decay: Source, multipl
     decay = pendulum_decay()
     x = getattr(decay, quantity)
     track = harmonic_track(x, 32.0, fundamental(x.tobytes()), multiple=multiple).inside()
-    assert decay.error(track.time, track.omega, multiple=multiple) < 1.5e-4
+    assert decay.error(track.time, track.omega, multiple=multiple) < 1e-4
 
 
 def test_raw_wigner_peak_near_the_third_harmonic_is_wrong(pendulum_decay: Source) -> None:

@@ -152,6 +152,12 @@ def test_stamps_rounded_to_decimals_are_accepted_but_a_slow_drift_is_not(tmp_pat
         read_recording(drifting)
 
 
+def test_a_gap_is_named_at_its_own_line(tmp_path: Path) -> None:
+    rows = [f"{0.1 * (i + (i >= 40)):.1f},{np.sin(i)}" for i in range(60)]
+    with pytest.raises(InputError, match=r"line 42: time 4\.1 comes 0\.2 after the one above, the usual step is 0\.1;"):
+        read_recording(table(tmp_path / "gap.csv", "t,u", rows))
+
+
 def test_missing_file_is_an_operating_system_error_and_suffix_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError):
         read_recording(tmp_path / "none.csv")
