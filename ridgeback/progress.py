@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sys
 import time
 from contextlib import suppress
@@ -28,10 +29,11 @@ class Progress:
         self.show(f"{time.monotonic() - self.started:5.1f} s {share:4.0%}  {step}")
 
     def show(self, text: str) -> None:
-        """Put the text in the place of the line before."""
+        """Put the text in the place of the line before, cut to the width of the terminal."""
         if self.stream is not None:
+            width = shutil.get_terminal_size().columns - 1
             with suppress(OSError, ValueError):
-                self.stream.write(f"\r\x1b[2K{text}")
+                self.stream.write(f"\r\x1b[2K{text[:width]}")
                 self.stream.flush()
 
     def __enter__(self) -> Progress:
