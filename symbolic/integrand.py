@@ -151,7 +151,7 @@ class OrbitBall:
         area = self.fall * self.rise
         if not area.contains(0):
             yield (energy - self.curves.value(self.u)) / area
-            yield (energy - self._centred()) / area
+            yield (energy - self.centred()) / area
         yield self._from_end()
 
     def wide(self, energy: arb) -> Iterator[acb]:
@@ -160,9 +160,9 @@ class OrbitBall:
         yield self._from_end()
         area = self.fall * self.rise
         if not area.contains(0):
-            yield (energy - self._centred()) / area
+            yield (energy - self.centred()) / area
 
-    def _centred(self) -> acb:
+    def centred(self) -> acb:
         """V in mean-value form, which is sharp where V' is small, as it is close to a saddle."""
         centre = acb(self.u.mid())
         return acb(self.curves.value(centre) + self.curves.force(self.u) * (self.u - centre))

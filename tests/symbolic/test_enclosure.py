@@ -13,14 +13,14 @@ from hypothesis import strategies as st
 from symbolic.enclosure import certified_error, enclose, rounded_down, separatrix
 from symbolic.energy_integral import energy_integral
 from symbolic.errors import InputError
-from symbolic.integrand import GeneralIntegrand, integrand_of
+from symbolic.integrand import GeneralIntegrand, OrbitBall, integrand_of
 from symbolic.lindstedt import lindstedt
 from symbolic.oscillator import Oscillator
 from symbolic.period_quadrature import adaptive_mean, midpoint_mean, midpoints, nodes_needed
 from symbolic.strip import Strip, covered_strip, polynomial_strip, strip_of
 from symbolic.systems import find
 from symbolic.turning_points import orbit
-from symbolic.well import Well, well_of
+from symbolic.well import Well, curves, well_of
 
 ISOTONIC = "u'' + (1 + u - 1/(1 + u)**3)/4 = 0"
 """V = s^2/8 with s = x - 1/x, x = 1 + u > 0.  dx/ds = 1/2 + s/(2 sqrt(s^2 + 4)), whose odd part drops out of
@@ -305,25 +305,34 @@ def test_the_error_bound_is_one() -> None:
     st.sampled_from(["sin(u)", "exp(u) - 1", "tanh(u) + u**2/9", "u/sqrt(1 + u**2)"]),
     st.floats(0, 3.1),
     st.floats(0, 0.5),
-    st.floats(1e-6, 0.2),
-    st.floats(-1, 1),
-    st.floats(-1, 1),
+    st.tuples(st.floats(1e-6, 0.2), st.sampled_from([0, 1e-6, 0.2])),
+    st.tuples(st.sampled_from([-1, -0.4, 0, 1]), st.sampled_from([-1, 0.7, 1])),
 )
 @settings(max_examples=150, deadline=None)
 def test_every_enclosure_of_the_quotient_holds_every_point(
-    force: str, real: float, imaginary: float, size: float, right: float, up: float
+    force: str, real: float, imaginary: float, size: tuple[float, float], place: tuple[float, float]
 ) -> None:
-    """The divided differences over a box of theta, against the plain quotient at points inside it."""
+    """The divided differences over a box of theta, against the plain quotient at its corners and inside."""
     well = well_of(own(f"u'' + {force}"))
     with ctx.workprec(300):
         integrand = GeneralIntegrand(well, orbit(well, fmpq(1), 300))
-        box = integrand.ball(acb(arb(real, size), arb(imaginary, size)))
-        inside = integrand.ball(acb(arb(real) + arb(right) * arb(size), arb(imaginary) + arb(up) * arb(size)))
+        box = integrand.ball(acb(arb(real, size[0]), arb(imaginary, size[1])))
+        right, up = (arb(share) * arb(radius) for share, radius in zip(place, size, strict=True))
+        inside = integrand.ball(acb(arb(real) + right, arb(imaginary) + up))
         assume(not (inside.fall * inside.rise).contains(0))
         value = next(inside.small(integrand.energy))
         assume(value.rel_accuracy_bits() > 60)
         enclosures = [*box.small(integrand.energy), *box.wide(integrand.energy)]
         assert all(q.overlaps(value) for q in enclosures if q.is_finite())
+
+
+def test_the_mean_value_form_holds_its_ends() -> None:
+    well = well_of(find("pendulum"))
+    with ctx.workprec(200):
+        box = arb(fmpq(1, 2), fmpq(1, 4))
+        ball = OrbitBall(curves(well, 200, complex_=True), orbit(well, fmpq(1), 200), acb(box), acb(1), acb(1), True)
+        for end in (fmpq(1, 4), fmpq(1, 2), fmpq(3, 4)):
+            assert ball.centred().overlaps(acb(1 - arb(end).cos()))
 
 
 @pytest.mark.parametrize(
