@@ -51,7 +51,7 @@ def to_sympy(node: Node) -> sympy.Expr:
 
     Only trees accepted by ``measure`` are built, so no number or power explodes.  Raises InputError for a parameter
     called ``u`` beside another unknown (it is the name of ``U``) or ``t`` (time does not occur in an autonomous
-    equation), and for constants that are not finite and real.
+    equation), and for what is not finite, real and analytic at the origin.
 
     >>> to_sympy(Call("sin", Negate(Unknown(0))))
     -sin(u)
@@ -98,14 +98,20 @@ def _symbol(node: Name) -> sympy.Expr:
 def _bounded(expression: sympy.Expr, node: Node) -> sympy.Expr:
     """Refuse constants like exp(exp(exp(100))) before SymPy tries to evaluate a function of them."""
     if not expression.free_symbols:
-        try:
-            value_at_origin(expression, {})
-        except InputError as error:
-            raise InputError(f"{error} (column {node.column})") from None
+        _check_at_origin(expression, node)
     return expression
 
 
 def _finite(expression: sympy.Expr, node: Node) -> sympy.Expr:
+    """Refuse what is infinite or complex at the origin, roots of u included: SymPy labours over their sign later."""
     if expression.has(sympy.zoo, sympy.nan, sympy.oo, -sympy.oo, sympy.I):
         raise InputError(f"{quoted(to_text(node))} at column {node.column} is not a finite real number; change it")
+    _check_at_origin(expression, node)
     return expression
+
+
+def _check_at_origin(expression: sympy.Expr, node: Node) -> None:
+    try:
+        value_at_origin(expression, {})
+    except InputError as error:
+        raise InputError(f"{error} (column {node.column})") from None

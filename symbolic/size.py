@@ -14,7 +14,7 @@ MAX_EXPONENT: Final = 200
 MAX_TERMS: Final = 1000
 MAX_DEGREE: Final = 400
 MAX_BITS: Final = 10_000
-MAX_FUNCTIONS: Final = 6
+MAX_FUNCTIONS: Final = 4
 """SymPy's questions about the sign of a nested function take time exponential in the nesting."""
 
 

@@ -303,7 +303,7 @@ def test_a_square_that_cancels_leaves_a_linear_acceleration():
     assert make("(1 + u'')**2 - u''**2 - 1 + 2*sin(u)").force == sympy.sin(U)
 
 
-@pytest.mark.parametrize("term", ["tan(exp(exp(exp(exp(exp(u**2)))))**2)", "exp(20000 + u)", "sin(10**9 + u)"])
+@pytest.mark.parametrize("term", ["tan(exp(exp(5 + u**2))**2)", "exp(20000 + u)", "sin(10**9 + u)"])
 def test_towers_of_functions_are_refused_before_they_are_evaluated(term):
     with pytest.raises(InputError, match="beyond 10000 in magnitude"):
         make(f"u'' + u + u*{term}")

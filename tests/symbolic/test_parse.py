@@ -152,7 +152,7 @@ def _python_value(node, values):
 
 
 pieces = st.recursive(
-    st.sampled_from(["u", "k", "mu", "1", "2", "7", "u**2**3", "-k**2", "2**-2", "k**-2**2"]),
+    st.sampled_from(["w", "k", "mu", "1", "2", "7", "w**2**3", "-k**2", "2**-2", "k**-2**2"]),
     lambda below: (
         st.tuples(below, st.sampled_from(["+", "-", "*", "/", " - ", "*-", "/-", "-+"]), below).map("".join)
         | below.map(lambda t: f"({t})")
@@ -166,13 +166,13 @@ pieces = st.recursive(
 @QUICK
 @given(pieces)
 def test_values_agree_with_pythons_own_reading_of_the_text(text):
-    values = {"u": Fraction(5, 3), "k": Fraction(-7, 11), "mu": Fraction(13, 2)}
+    values = {"w": Fraction(5, 3), "k": Fraction(-7, 11), "mu": Fraction(13, 2)}
     try:
         expected = _python_value(ast.parse(text, mode="eval"), values)
     except ZeroDivisionError:
         assume(False)
     try:
-        expression = to_sympy(parse_expression(text, unknown="u"))
+        expression = to_sympy(parse_expression(text))
     except InputError as error:
         assert "would grow" in str(error)  # noqa: PT017
         return
@@ -191,7 +191,9 @@ def test_the_constant_of_a_tree_is_its_sympy_value(tree):
 
 @pytest.mark.parametrize("function", sorted(FUNCTIONS))
 def test_every_function_is_the_one_of_that_name(function):
-    assert to_sympy(parse_expression(f"{function}(u/2)", unknown="u")) == getattr(sympy, function)(U / 2)
+    assert to_sympy(parse_expression(f"{function}(u/2 + 1/3)", unknown="u")) == getattr(sympy, function)(
+        U / 2 + sympy.Rational(1, 3)
+    )
 
 
 polynomials = st.recursive(
@@ -314,7 +316,7 @@ def test_look_alike_and_control_characters_are_named(text, said):
         ("u'' + sqrt(-1)*u", "is not a finite real number"),
         ("u'' + log(0)*u", "is not a finite real number"),
         ("u'' + u/(u-u)", "is not a finite real number"),
-        ("u'' + asin(sin(exp(exp(exp(100)))))*u", "is beyond 10000 in magnitude"),
+        ("u'' + asin(sin(exp(exp(100))))*u", "is beyond 10000 in magnitude"),
         ("u'' + u*log(cos(1) - 2)", "is not a finite real number"),
     ],
 )
@@ -352,7 +354,7 @@ def test_functions_nest_as_deep_as_allowed_and_no_deeper():
 
     force = to_sympy(parse_equation(nested(MAX_FUNCTIONS)).left)
     assert force.diff(U).subs(U, 0) == 1
-    with pytest.raises(InputError, match="functions are nested 7 deep at column 7; at most 6"):
+    with pytest.raises(InputError, match="functions are nested 5 deep at column 7; at most 4"):
         parse_equation(nested(MAX_FUNCTIONS + 1))
 
 
