@@ -17,6 +17,8 @@ from numeric.windows import half_width
 
 FEWEST_SAMPLES = 16
 FEWEST_VALID = 8
+SWING = (1e-40, 1e40)
+"""Magnitudes whose sixth powers (the polynomial kernel) and their squares stay within float64."""
 LAG_CYCLES = 4.0
 """Default window, in cycles of the strongest component: 3 s for the paper's pendulum."""
 
@@ -95,6 +97,9 @@ def prepared(
         raise InputError(f"signal is constant at {samples[0]:g}; there is no oscillation to follow")
     offset = float(samples.mean())
     real = samples - offset
+    largest = float(np.abs(real).max())
+    if not SWING[0] <= largest <= SWING[1]:
+        raise InputError(f"signal swings by {largest:.3g}, outside {SWING[0]:g} .. {SWING[1]:g}; scale it to order 1")
     corridor = find_corridor(real, rate, band=band)
     cycle, span = TWO_PI / corridor.centre, (real.size - 1) / rate
     if lag_seconds is None and LAG_CYCLES * cycle > span:

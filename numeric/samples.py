@@ -18,6 +18,8 @@ ComplexArray = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
 
 TWO_PI = 2.0 * math.pi
+LARGEST = 1e140
+"""Magnitude that a sample may have: products of two still fit into float64."""
 WORK_BUDGET = 1e12
 """Floating-point operations that one estimate may take: about ten minutes on one core."""
 
@@ -26,7 +28,7 @@ def checked_samples(x: ArrayLike, *, name: str = "signal", at_least: int = 1) ->
     """Return ``x`` as a one-dimensional float64 or complex128 array of finite values.
 
     Raises InputError naming the first offending index when a value is not finite, when the shape is not
-    one-dimensional, or when there are fewer than ``at_least`` samples.
+    one-dimensional, when there are fewer than ``at_least`` samples, or when one is too large to be squared.
 
     >>> checked_samples([0, 1, 2])
     array([0., 1., 2.])
@@ -50,6 +52,9 @@ def checked_samples(x: ArrayLike, *, name: str = "signal", at_least: int = 1) ->
         raise InputError(
             f"{name}[{index}] is {samples[index]}; every sample must be finite (cut or fill the gap first)"
         )
+    largest = float(np.abs(samples).max())
+    if largest > LARGEST:
+        raise InputError(f"{name} reaches {largest:.3g}; its square would overflow, scale it below {LARGEST:g}")
     return samples
 
 
