@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from sympy import Expr, Rational, Symbol
 
+from symbolic.amplitude import MEANINGS
 from symbolic.codegen.form import Argument, Form, Function, Powers, derivative, function, nearest_double
 from symbolic.errors import InputError
 from symbolic.rendering import as_sympy
@@ -16,11 +17,6 @@ if TYPE_CHECKING:
     from symbolic.slow_flow import SlowFlow, Term
 
 K = Symbol("k")
-
-DEFINITIONS = {
-    "peak": "the positive turning point of u (rad for an angle), where u' = 0",
-    "fundamental": "the magnitude of the first harmonic of u",
-}
 
 SCALING = "The coefficients hold in units where k = 1: another k rescales time, and all parameters with it."
 
@@ -76,7 +72,7 @@ def rational_terms(expansion: Expansion, values: Sequence[object]) -> dict[Power
 def slow_flow_form(flow: SlowFlow, *, equation: str = "", limit: float | None = None) -> Form:
     """Build the functions omega0 and damping of a multiple-scales slow flow."""
     arguments = (
-        Argument("a", DEFINITIONS["fundamental"]),
+        Argument("a", MEANINGS["fundamental"]),
         Argument(flow.small, "coefficient of the damping 2*mu*u'" if flow.small == "mu" else SMALL),
         frequency_argument(flow.scale),
     )
@@ -87,7 +83,7 @@ def slow_flow_form(flow: SlowFlow, *, equation: str = "", limit: float | None = 
     )
     facts = (
         *common_facts(flow.method, equation),
-        f"Amplitude a: {DEFINITIONS['fundamental']}.",
+        f"Amplitude a: {MEANINGS['fundamental']}.",
         f"Order: terms a^p {flow.small}^q with p + {flow.weight} q up to {flow.order}.",
         SCALING,
         *limit_fact("a", limit),
@@ -119,7 +115,7 @@ def variable_meaning(expansion: Expansion) -> str:
     """What the variable of an expansion stands for."""
     if expansion.variable == "eps":
         return SMALL
-    return f"{expansion.amplitude} amplitude, " + DEFINITIONS.get(expansion.amplitude, expansion.amplitude)
+    return f"{expansion.amplitude} amplitude, " + MEANINGS[expansion.amplitude]
 
 
 def common_facts(method: str, equation: str) -> tuple[str, ...]:

@@ -26,6 +26,7 @@ from symbolic.errors import InputError
 from symbolic.expansion import Expansion
 from symbolic.lindstedt import lindstedt
 from symbolic.multiple_scales import multiple_scales
+from symbolic.oscillator import Oscillator
 from symbolic.systems import find
 
 COMPILER = shutil.which("cc") or shutil.which("gcc")
@@ -230,6 +231,9 @@ def test_bad_requests_are_refused() -> None:
         nearest_double(Rational(10**400))
     with pytest.raises(InputError, match="lower order"):
         nearest_double(Rational(1, 10**400))
+    free = lindstedt(Oscillator.from_equation("u'' + u + alpha*u**3 = 0"), 2)
+    with pytest.raises(InputError, match="alpha"):
+        generate(free)
     assert set(LANGUAGES) == {"python", "c", "c-header"}
 
 
