@@ -87,6 +87,8 @@ def compose(outer: Sequence[Scalar], inner: Sequence[Scalar]) -> Coefficients:
     [0, 0, 1]
     """
     n = min(len(outer), len(inner))
+    if not any(value != 0 for value in inner[:n]):  # FLINT takes a zero series for one with a constant term
+        return [outer[0], *[fmpq(0)] * (n - 1)] if n else []
     if _rational(outer, inner):
         return _by_flint(n, lambda: fmpq_series(list(outer[:n]), prec=n)(fmpq_series(list(inner[:n]), prec=n)))
     result: Coefficients = [fmpq(0)] * n

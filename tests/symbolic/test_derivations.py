@@ -120,6 +120,16 @@ def test_energy_integral_certifies_lindstedt(name: str) -> None:
     assert energy_integral(find(name), 14).frequency == lindstedt(find(name), 14).frequency
 
 
+@pytest.mark.parametrize("order", [0, 1])
+@pytest.mark.parametrize("name", CONSERVATIVE)
+def test_the_lowest_orders_are_the_natural_frequency(name: str, order: int) -> None:
+    expected = (1, *[0] * order)
+    for definition in ("peak", "trough", "action", "energy"):
+        assert energy_integral(find(name), order, amplitude=definition).frequency == expected
+        assert lindstedt(find(name), order, amplitude=definition).frequency == expected
+    assert multiple_scales(find(name), order).frequency_expression() == 1
+
+
 @pytest.mark.parametrize("name", CONSERVATIVE)
 def test_multiple_scales_without_damping_is_lindstedt_in_the_fundamental_amplitude(name: str) -> None:
     flow = multiple_scales(find(name), 10)
