@@ -158,7 +158,8 @@ def _harmonic_name(multiple: int, part: str) -> str:
 
 
 def _flow_formulas(flow: SlowFlow) -> Iterator[Formula]:
-    note = f"Terms a^p {flow.small}^q with p + {flow.weight} q up to {flow.order}; a is the fundamental amplitude."
+    note = f"Weighted degree up to {flow.order}; a is the fundamental amplitude and counts 1"
+    note += "".join(f", {name} counts {weight}" for name, weight in flow.weights.items()) + "."
     k = "" if flow.scale == 1 else r"/k"
     for title, left, terms in (
         ("Slow flow: phase", rf"\dot{{\varphi}}{k}", flow.frequency),
@@ -168,13 +169,17 @@ def _flow_formulas(flow: SlowFlow) -> Iterator[Formula]:
 
 
 def _in_natural_units(flow: SlowFlow, terms: Iterable[Term]) -> list[sympy.Expr]:
-    """Terms of phi'/k and a'/(a k), with the small parameter over k."""
-    a = sympy.Symbol("a", real=True)
-    small = sympy.Symbol(flow.small, real=True)
-    if flow.scale != 1:
-        small = small / sympy.Symbol("k", real=True)
+    """Terms of phi'/k and a'/(a k), with the small parameters over their powers of k."""
+    a, k = (sympy.Symbol(name, real=True) for name in ("a", "k"))
+    units = [
+        sympy.Symbol(name, real=True) / (1 if flow.scale == 1 else k ** flow.dimensions[name]) for name in flow.weights
+    ]
     return [
-        term.coefficient * flow.scale ** (term.powers[1] - 1) * a ** term.powers[0] * small ** term.powers[1]
+        sympy.Mul(
+            term.coefficient / flow.unit(term.powers[1:]),
+            a ** term.powers[0],
+            *(unit**power for unit, power in zip(units, term.powers[1:], strict=True)),
+        )
         for term in terms
     ]
 

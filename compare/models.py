@@ -107,17 +107,17 @@ def slow_flow_curve(motion: Motion, flow: SlowFlow) -> Curve:
     """
     if motion.averaged is None:
         raise ValueError("the slow flow of a motion without a potential has no starting amplitude")
-    mu = motion.dynamics.damping
+    small = [float(value) for value in flow.values(motion.setting.oscillator.parameters)]
     start = float(orbit_harmonics(motion.dynamics, motion.averaged.peak[:1], count=1).cosine[1, 0])
     solution = solve_ivp(
-        lambda _, a: a * flow.damping_at(a, mu),
+        lambda _, a: a * flow.damping_at(a, *small),
         (float(motion.time[0]), float(motion.time[-1])),
         [start],
         t_eval=motion.time,
         rtol=1e-10,
         atol=1e-12 * start,
     )
-    omega = np.asarray(flow.frequency_at(solution.y[0], mu), dtype=float)
+    omega = np.asarray(flow.frequency_at(solution.y[0], *small), dtype=float)
     return Curve(
         f"multiple-scales-{flow.order}",
         f"multiple scales, weighted order {flow.order}",
@@ -126,5 +126,5 @@ def slow_flow_curve(motion: Motion, flow: SlowFlow) -> Curve:
         omega,
         np.isfinite(omega),
         note="Slow flow in the fundamental amplitude, integrated; no energy and no trajectory enter.",
-        settings={"order": flow.order, "weight": flow.weight},
+        settings={"order": flow.order, **({"weight": flow.weight} if len(flow.weights) == 1 else {})},
     )

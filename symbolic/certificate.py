@@ -119,7 +119,7 @@ def _against_flow(oscillator: Oscillator, expansion: Expansion) -> Check:
 def _flow_against_lindstedt(oscillator: Oscillator, flow: SlowFlow) -> Check:
     if oscillator.kind == "limit-cycle":
         raise InputError("the slow flow of a limit cycle holds for every amplitude, the expansion on the cycle only")
-    undamped = oscillator.with_parameters({oscillator.damping: 0}) if oscillator.damping else oscillator
+    undamped = oscillator.with_parameters(dict.fromkeys(flow.small_parameters, 0))
     return _agreement("lindstedt", lindstedt(undamped, flow.order, amplitude="fundamental"), flow)
 
 

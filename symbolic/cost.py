@@ -42,20 +42,30 @@ class Cost:
         return self.seconds <= budget.seconds and self.gigabytes <= budget.gigabytes
 
 
-def predict(method: str, order: int, *, parameters: int = 0, weight: int = 0) -> Cost:
-    """Predict the cost of a derivation; ``weight`` is that of the small parameter, 0 when there is none.
+def predict(method: str, order: int, *, parameters: int = 0, weights: tuple[int, ...] = ()) -> Cost:
+    """Predict the cost of a derivation; ``weights`` are those of the small parameters.
 
     >>> predict("lindstedt", 50).seconds < 1 < predict("lindstedt", 1000).seconds
     True
     """
     factor, power = _SECONDS[method]
     monomials = math.comb(order // 2 + parameters, parameters)
-    if weight:
-        monomials *= order // (2 * weight) + 1
+    monomials *= lattice_points(order // 2, weights)
     return Cost(factor * order**power * monomials, _BYTES * order**3 * monomials / 1e9)
 
 
-def check(method: str, order: int, budget: Budget, *, parameters: int = 0, weight: int = 0) -> None:
+def lattice_points(degree: int, weights: tuple[int, ...]) -> int:
+    """The number of monomials in variables of these weights up to a weighted degree.
+
+    >>> lattice_points(4, (2,)), lattice_points(2, (1, 1)), lattice_points(3, ())
+    (3, 6, 1)
+    """
+    if not weights:
+        return 1
+    return sum(lattice_points(degree - r * weights[0], weights[1:]) for r in range(degree // weights[0] + 1))
+
+
+def check(method: str, order: int, budget: Budget, *, parameters: int = 0, weights: tuple[int, ...] = ()) -> None:
     """Refuse a derivation that is predicted to exceed the budget.
 
     Raises InputError with the prediction and the highest order that fits.
@@ -65,13 +75,13 @@ def check(method: str, order: int, budget: Budget, *, parameters: int = 0, weigh
         ...
     symbolic.errors.InputError: order 100000 by lindstedt would take about ... order ... fits
     """
-    cost = predict(method, order, parameters=parameters, weight=weight)
+    cost = predict(method, order, parameters=parameters, weights=weights)
     if cost.within(budget):
         return
     low, high = 0, order
     while high - low > 1:
         middle = (low + high) // 2
-        fits = predict(method, middle, parameters=parameters, weight=weight).within(budget)
+        fits = predict(method, middle, parameters=parameters, weights=weights).within(budget)
         low, high = (middle, high) if fits else (low, middle)
     raise InputError(
         f"order {order} by {method} would take about {duration(cost.seconds)} and {cost.gigabytes:.2g} GB, over the "

@@ -70,7 +70,12 @@ def rational_terms(expansion: Expansion, values: Sequence[object]) -> dict[Power
 
 
 def slow_flow_form(flow: SlowFlow, *, equation: str = "", limit: float | None = None) -> Form:
-    """Build the functions omega0 and damping of a multiple-scales slow flow."""
+    """Build the functions omega0 and damping of a multiple-scales slow flow with one small parameter.
+
+    Raises InputError when it has another number of them, or one that does not scale like a rate.
+    """
+    if flow.dimensions[flow.small] != 1:
+        raise InputError(f"{flow.small} of '{flow.system}' does not scale like a rate, as mu of 2*mu*u' does; no code")
     arguments = (
         Argument("a", MEANINGS["fundamental"]),
         Argument(flow.small, "coefficient of the damping 2*mu*u'" if flow.small == "mu" else SMALL),
@@ -96,7 +101,7 @@ def slow_function(
 ) -> Function:
     """One side of the slow flow; a term a^p m^q carries k^(1 - q), which is taken out of it here."""
     units: dict[Powers, Rational] = {
-        term.powers: term.coefficient * flow.scale ** (term.powers[1] - 1) for term in terms
+        term.powers: term.coefficient / flow.unit(term.powers[1:]) for term in terms
     }
     if any(not c.is_Rational for c in units.values()):
         raise InputError(NO_NUMBER.format(system=flow.system, names=", ".join(flow.names)))
