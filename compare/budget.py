@@ -93,8 +93,17 @@ def _estimate_row(
         reference=reference_uncertainty(motion),
         total=whole,
         closure=whole if part is None else (rms(total - part) or 0.0),
-        note="" if part is not None else "No synthetic motion with known frequency for this oscillator.",
+        note=_estimate_note(whole, reference_uncertainty(motion), known is not None),
     )
+
+
+def _estimate_note(total: float, reference: float, known: bool) -> str:
+    """Say when the distance cannot be told from the reference's own uncertainty, and when the bias is not known."""
+    below = "Below the reference's own uncertainty, which is how well omega0(t) of a decay is defined." * (
+        total < reference
+    )
+    missing = "No synthetic motion with known frequency for this oscillator." * (not known)
+    return f"{below} {missing}".strip()
 
 
 def estimator_error(motion: Motion, outcome: Outcome, known: KnownMotion) -> Array | None:
