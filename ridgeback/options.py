@@ -12,12 +12,12 @@ from ridgeback.arguments import ASSIGNMENT
 from ridgeback.output import STDOUT, output_path
 
 if TYPE_CHECKING:
-    from symbolic.oscillator import Oscillator
+    pass
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 METHODS = ("lindstedt", "multiple-scales", "energy-integral")
-AMPLITUDES = ("peak", "fundamental")
+AMPLITUDES = ("peak", "trough", "fundamental", "action", "energy")
 
 
 def set_option(command: Decorated) -> Decorated:
@@ -75,7 +75,7 @@ def expansion_options(command: Decorated) -> Decorated:
             "--amplitude",
             type=click.Choice(AMPLITUDES),
             default=None,
-            help="What the amplitude is: the turning point (peak) or the first harmonic (fundamental).",
+            help="A turning point (peak, trough), the first harmonic (fundamental), sqrt(2J/k) or sqrt(2E)/k.",
         ),
         click.option(
             "--method",
@@ -86,18 +86,6 @@ def expansion_options(command: Decorated) -> Decorated:
     ):
         command = option(command)
     return command
-
-
-def chosen(system: str, assignments: tuple[tuple[str, Fraction], ...]) -> Oscillator:
-    """The catalogue's oscillator with the parameters that were set.
-
-    Raises click.UsageError when a parameter is set twice, InputError for an unknown system or parameter.
-    """
-    from symbolic.systems import find
-
-    values = unique(assignments)
-    oscillator = find(system)
-    return oscillator.with_parameters(values) if values else oscillator
 
 
 def unique(assignments: tuple[tuple[str, Fraction], ...]) -> dict[str, Fraction]:

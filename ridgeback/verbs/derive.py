@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ridgeback.arguments import ORDER
+from ridgeback.choice import Choice, choosing
 from ridgeback.derivation import derived
-from ridgeback.options import chosen, expansion_options, format_option, output_option, set_option
+from ridgeback.failure import PartialError
+from ridgeback.options import expansion_options, format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.tables import aligned
 
 if TYPE_CHECKING:
+    from symbolic.certificate import Check
     from symbolic.expansion import Expansion
     from symbolic.oscillator import Oscillator
     from symbolic.slow_flow import SlowFlow
@@ -22,19 +25,20 @@ if TYPE_CHECKING:
 
 
 @click.command("derive", short_help="Derive the frequency as an exact series.")
-@click.argument("system")
+@choosing
 @click.option("--order", type=ORDER, default="8", show_default=True, metavar="N", help="Highest power kept.")
 @expansion_options
-@set_option
+@click.option("--verify", is_flag=True, help="Check the result by independent routes and print the certificate.")
 @format_option("text", "json", "latex", "mathml", "python", default="text")
 @output_option
 def command(
-    system: str,
+    *,
+    choice: Choice,
     order: int,
     method: str | None,
     amplitude: str | None,
     weight: int | None,
-    assignments: tuple[tuple[str, Fraction], ...],
+    verify: bool,
     style: str,
     output: str,
 ) -> None:
@@ -47,24 +51,46 @@ def command(
     ridgeback derive pendulum --order 8
     ridgeback derive damped-pendulum --method multiple-scales --order 6 --format latex
     ridgeback derive van-der-pol --order 12 --format json
+    ridgeback derive --equation "u'' + u + alpha2*u**2 + alpha3*u**3 = 0" --order 4 --verify
+    ridgeback derive --equation "u'' - u + u**3 = 0" --about 1
     """
-    oscillator = chosen(system, assignments)
+    oscillator = choice.oscillator()
     result = derived(oscillator, order, method=method, amplitude=amplitude, weight=weight)
-    write_text(output, printed(oscillator, result, style))
+    checks = certificate(oscillator, result) if verify else None
+    write_text(output, printed(oscillator, result, style, checks))
+    if checks and not all(check.passed for check in checks if check.passed is not None):
+        raise PartialError("the certificate does not hold; the output says which check failed")
 
 
-def printed(oscillator: Oscillator, result: Result, style: str) -> str:
-    """The result in the form asked for, with a line end."""
+def certificate(oscillator: Oscillator, result: Result) -> tuple[Check, ...]:
+    """Every independent check that applies."""
+    from symbolic.certificate import certify
+
+    return certify(oscillator, result)
+
+
+def printed(oscillator: Oscillator, result: Result, style: str, checks: tuple[Check, ...] | None) -> str:
+    """The result in the form asked for, with a line end; the certificate goes with text and JSON."""
     match style:
         case "json":
-            return json_text(result.to_dict())
+            lines = {} if checks is None else {"certificate": [check.to_dict() for check in checks]}
+            return json_text({**result.to_dict(), **lines})
         case "latex":
             return joined(result.latex())
         case "mathml":
             return joined(result.mathml())
         case "python":
             return joined(tuple(map(str, expressions(result))))
-    return as_text(oscillator, result.to_dict())
+    return as_text(oscillator, result.to_dict()) + certified(checks)
+
+
+def certified(checks: tuple[Check, ...] | None) -> str:
+    """The certificate, a line a check."""
+    if checks is None:
+        return ""
+    words = {True: "holds", False: "FAILS", None: "-"}
+    rows = [{"check": c.name, "": words[c.passed], "statement": c.statement} for c in checks]
+    return "\ncertificate\n" + aligned(["check", "", "statement"], rows) + "\n"
 
 
 def joined(parts: str | tuple[str, ...]) -> str:
@@ -83,7 +109,7 @@ def expressions(result: Result) -> tuple[Any, ...]:
 
 def as_text(oscillator: Oscillator, public: dict[str, Any]) -> str:
     """The equation, what the amplitude is, and every coefficient, exactly and as a decimal."""
-    values = ", ".join(f"{name} = {value}" for name, value in oscillator.parameters.items())
+    values = ", ".join(f"{n} = {v}" if v is not None else f"{n} symbolic" for n, v in oscillator.parameters.items())
     heading = [
         f"{oscillator.title}: {oscillator.equation}" + (f"   ({values})" if values else ""),
         f"{public['method']}, order {public['order']}, variables {', '.join(public['variables'])}"

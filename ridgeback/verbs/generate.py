@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import click
 
 from ridgeback.arguments import ORDER
+from ridgeback.choice import Choice, choosing
 from ridgeback.derivation import derived
-from ridgeback.options import chosen, expansion_options, output_option, set_option
+from ridgeback.options import expansion_options, output_option
 from ridgeback.output import write_text
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @click.command("generate", short_help="Write an expansion as Python or C.")
-@click.argument("system")
+@choosing
 @click.option(
     "--language",
     type=click.Choice(["python", "c", "c-header"]),
@@ -27,16 +27,15 @@ if TYPE_CHECKING:
 )
 @click.option("--order", type=ORDER, default="8", show_default=True, metavar="N", help="Highest power kept.")
 @expansion_options
-@set_option
 @output_option
 def command(
-    system: str,
+    *,
+    choice: Choice,
     language: str,
     order: int,
     method: str | None,
     amplitude: str | None,
     weight: int | None,
-    assignments: tuple[tuple[str, Fraction], ...],
     output: str,
 ) -> None:
     """Write the frequency of SYSTEM as source text: a Python module, or C99 functions.
@@ -50,7 +49,7 @@ def command(
     """
     from symbolic.codegen import generate
 
-    oscillator = chosen(system, assignments)
+    oscillator = choice.oscillator()
     result = derived(oscillator, order, method=method, amplitude=amplitude, weight=weight)
     limit = peak_limit_of(oscillator) if result.amplitude == "peak" else None
     write_text(output, generate(result, language, equation=described(oscillator), limit=limit))

@@ -5,14 +5,14 @@ from __future__ import annotations
 import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import click
 
 from ridgeback.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
+from ridgeback.choice import Choice, choosing
 from ridgeback.failure import PartialError, say
-from ridgeback.options import chosen, set_option, unique
+from ridgeback.options import unique
 from ridgeback.output import STDOUT, output_path, write_text
 from ridgeback.progress import Progress
 
@@ -27,8 +27,7 @@ DEFAULT_NAME = "ridgeback-report.html"
 class Motion:
     """What is to be simulated, as far as it was said."""
 
-    system: str | None
-    assignments: tuple[tuple[str, Fraction], ...]
+    choice: Choice
     initial: tuple[float, float] | None
     duration: float | None
     rate: float | None
@@ -54,8 +53,7 @@ class Source:
 
 
 @click.command("report", short_help="Write the comparison as one HTML page.")
-@click.argument("system", required=False)
-@set_option
+@choosing
 @click.option("--initial", type=PAIR, default=None, metavar="U,V", help="State at time 0.")
 @click.option("--duration", type=POSITIVE, default=None, metavar="T", help="Time to integrate over.")
 @click.option("--rate", type=POSITIVE, default=None, metavar="R", help="Samples per time unit, also of a recording.")
@@ -80,8 +78,8 @@ class Source:
 @click.pass_context
 def command(
     context: click.Context,
-    system: str | None,
-    assignments: tuple[tuple[str, Fraction], ...],
+    *,
+    choice: Choice,
     initial: tuple[float, float] | None,
     duration: float | None,
     rate: float | None,
@@ -104,7 +102,7 @@ def command(
     ridgeback report damped-duffing --set mu=0.02 --initial 1.5,0 --duration 60 -o duffing.html
     ridgeback report --recording decay.csv --column displacement -o decay.html
     """
-    motion = Motion(system, assignments, initial, duration, rate)
+    motion = Motion(choice, initial, duration, rate)
     scope = Scope(order, orders, amplitudes, target)
     shown = as_typed(context.find_root().obj or ("report",))
     with Progress() as progress:
@@ -144,12 +142,11 @@ def setting_of(motion: Motion) -> Setting:
     from compare.motion import setting
     from compare.report import paper_case
 
-    if motion.system is not None:
-        oscillator = chosen(motion.system, motion.assignments)
-        return setting(oscillator, initial=motion.initial, duration=motion.duration, rate=motion.rate)
+    if motion.choice.made:
+        return setting(motion.choice.oscillator(), initial=motion.initial, duration=motion.duration, rate=motion.rate)
     paper = paper_case()
     return setting(
-        paper.oscillator.with_parameters(unique(motion.assignments)),
+        paper.oscillator.with_parameters(unique(motion.choice.assignments)),
         initial=motion.initial or paper.initial,
         duration=motion.duration or paper.duration,
         rate=motion.rate or paper.rate,
@@ -164,14 +161,14 @@ def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progr
     refuse({"--initial": motion.initial, "--duration": motion.duration}, "belongs to a simulation, not to a recording")
     studied = {"--order": scope.order, "--orders": scope.orders, "--amplitudes": scope.amplitudes}
     refuse({**studied, "--target": scope.target}, "belongs to the study of a system, not to a recording")
-    if motion.system is None and motion.assignments:
+    if not motion.choice.made and motion.choice.assignments:
         raise click.UsageError("--set needs a SYSTEM whose parameters it sets; name one, or leave it out")
     return assemble_recording(
         source.file,
         column=source.column,
         time_column=source.time_column,
         rate=motion.rate,
-        oscillator=None if motion.system is None else chosen(motion.system, motion.assignments),
+        oscillator=motion.choice.oscillator() if motion.choice.made else None,
         command=shown,
         progress=progress,
     )

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from ridgeback.arguments import PAIR, POSITIVE
-from ridgeback.options import chosen, format_option, output_option, set_option
+from ridgeback.choice import Choice, choosing
+from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.tables import csv_text
 
@@ -20,7 +20,7 @@ COLUMNS = ("time_s", "u", "velocity")
 
 
 @click.command("simulate", short_help="Integrate the equation of motion.")
-@click.argument("system")
+@choosing
 @click.option("--initial", type=PAIR, default=None, metavar="U,V", help="State at time 0.  Default: the catalogue's.")
 @click.option("--duration", type=POSITIVE, default="20", show_default=True, metavar="T", help="Time to integrate over.")
 @click.option("--rate", type=POSITIVE, default="64", show_default=True, metavar="R", help="Samples per time unit.")
@@ -28,17 +28,16 @@ COLUMNS = ("time_s", "u", "velocity")
 @click.option(
     "--digits", type=click.IntRange(15, 200), default=None, help="Digits that taylor works with.  Default: 30."
 )
-@set_option
 @format_option("csv", "json", default="csv")
 @output_option
 def command(
-    system: str,
+    *,
+    choice: Choice,
     initial: tuple[float, float] | None,
     duration: float,
     rate: float,
     method: str,
     digits: int | None,
-    assignments: tuple[tuple[str, Fraction], ...],
     style: str,
     output: str,
 ) -> None:
@@ -52,7 +51,7 @@ def command(
     """
     from compare.bind import bind
 
-    oscillator = chosen(system, assignments)
+    oscillator = choice.oscillator()
     start = oscillator.initial if initial is None else initial
     run = trajectory(bind(oscillator), start, duration=duration, rate=rate, method=method, digits=digits)
     write_text(output, printed(oscillator.name, run, style))

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import click
 
 from ridgeback.arguments import GRID, ORDERS
+from ridgeback.choice import Choice, choosing
 from ridgeback.failure import PartialError
-from ridgeback.options import chosen, format_option, output_option, set_option
+from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.tables import Row, aligned, csv_text
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @click.command("study", short_help="Error of expansions over order and amplitude.")
-@click.argument("system")
+@choosing
 @click.option(
     "--orders", type=ORDERS, default="2,4,8,16", show_default=True, metavar="N,N,...", help="Orders to compare."
 )
@@ -37,15 +37,14 @@ if TYPE_CHECKING:
     show_default=True,
     help="How the expansion is derived.",
 )
-@set_option
 @format_option("text", "json", "csv", default="text")
 @output_option
 def command(
-    system: str,
+    *,
+    choice: Choice,
     orders: tuple[int, ...],
     amplitudes: tuple[float, ...],
     method: str,
-    assignments: tuple[tuple[str, Fraction], ...],
     style: str,
     output: str,
 ) -> None:
@@ -57,7 +56,7 @@ def command(
     """
     from compare.study import study
 
-    result = study(chosen(system, assignments), orders, amplitudes, method=method)
+    result = study(choice.oscillator(), orders, amplitudes, method=method)
     rows = result.rows()
     write_text(output, printed(result, rows, style))
     unknown = sum(not math.isfinite(float(row["omega_reference"])) for row in rows)

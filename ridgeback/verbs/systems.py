@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ridgeback.choice import Choice
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.tables import aligned, csv_text
@@ -27,10 +28,10 @@ def command(system: str | None, style: str, output: str) -> None:
     ridgeback systems
     ridgeback systems pendulum --format json
     """
-    from symbolic.systems import catalogue, find
+    from symbolic.systems import catalogue
 
-    chosen = catalogue() if system is None else (find(system),)
-    records = [record(oscillator) for oscillator in chosen]
+    listed = catalogue() if system is None else (Choice(system, None, None, ()).oscillator(),)
+    records = [record(oscillator) for oscillator in listed]
     write_text(output, printed(records, style, detailed=system is not None))
 
 

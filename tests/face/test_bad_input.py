@@ -57,7 +57,7 @@ REFUSALS = [
     Refusal("derive van-der-pol --order 100000", 2, ("100000", "order")),
     Refusal("derive damped-pendulum --order 100000", 2, ("100000", "order")),
     Refusal("derive pendulum --method energy-integral --order 10000000", 2, ("10000000", "order")),
-    Refusal("derive pendulum --amplitude energy", 2, ("energy", "peak")),
+    Refusal("derive pendulum --amplitude rms", 2, ("rms", "peak")),
     Refusal("derive pendulum --weight 3", 2, ("weight", "multiple-scales")),
     Refusal("derive pendulum --method multiple-scales --amplitude peak", 2, ("peak", "fundamental")),
     Refusal("derive damped-pendulum --method lindstedt", 2, ("damped-pendulum", "multiple-scales")),

@@ -11,11 +11,13 @@ from typing import Any
 import pytest
 
 from compare.report import paper_case
+from ridgeback.choice import Choice
 from ridgeback.failure import PartialError
 from ridgeback.verbs import report
 
 Ridgeback = Callable[..., Any]  # the fixture of conftest.py
 
+NONE = Choice(None, None, None, ())
 SMALL = ["--duration", "40", "--rate", "6", "--order", "2", "--orders", "2,4", "--amplitudes", "0.2,0.5"]
 
 
@@ -55,7 +57,7 @@ def test_the_page_alone_on_standard_output(ridgeback: Ridgeback) -> None:
 
 
 def test_without_an_argument_it_is_the_papers_case() -> None:
-    nothing = report.Motion(None, (), None, None, None)
+    nothing = report.Motion(NONE, None, None, None)
     paper = paper_case()
     assert report.setting_of(nothing) == paper
     assert paper.initial == (0.95 * math.pi, 0.0)
@@ -63,7 +65,7 @@ def test_without_an_argument_it_is_the_papers_case() -> None:
 
 
 def test_the_papers_case_can_be_varied() -> None:
-    varied = report.setting_of(report.Motion(None, (), (1.0, 0.0), None, 32.0))
+    varied = report.setting_of(report.Motion(NONE, (1.0, 0.0), None, 32.0))
     assert (varied.initial, varied.duration, varied.rate) == ((1.0, 0.0), 20.0, 32.0)
 
 
