@@ -128,8 +128,8 @@ def _assembled(
 def _notes(recording: Recording, curves: tuple[Curve, ...], measured: Backbone, failed: list[str]) -> Iterable[str]:
     yield from recording.notes
     yield (
-        f"The backbone is made from {curves[0].label}: the first of the estimators, in order of their accuracy on the "
-        "paper's pendulum, that succeeded on this recording."
+        f"The backbone is made from {curves[0].label}: the first that succeeded, in an order of preference that puts "
+        "efficiency in noise and freedom from curvature bias first."
     )
     for other in curves[1:]:
         apart = distance(curves[0], other)
