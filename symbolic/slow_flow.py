@@ -225,15 +225,21 @@ class SlowFlow:
             "order": self.order,
             **ordering,
             "variables": list(self.variables),
-            "frequency": self._json(self.frequency),
-            "damping": self._json(self.damping),
+            "frequency": json_rows(self.variables, self.frequency),
+            "damping": json_rows(self.variables, self.damping),
         }
 
-    def _json(self, terms: tuple[Term, ...]) -> list[dict[str, object]]:
-        return [
-            {"powers": dict(zip(self.variables, t.powers, strict=True)), "coefficient": str(t.coefficient)}
-            for t in terms
-        ]
+
+def json_rows(variables: tuple[str, ...], terms: tuple[Term, ...]) -> list[dict[str, object]]:
+    """Terms in the public JSON form.
+
+    >>> json_rows(("a",), (Term((3,), sympy.Rational(1, 32)),))
+    [{'powers': {'a': 3}, 'coefficient': '1/32'}]
+    """
+    return [
+        {"powers": dict(zip(variables, term.powers, strict=True)), "coefficient": str(term.coefficient)}
+        for term in terms
+    ]
 
 
 def _monomial(names: tuple[str, ...], powers: tuple[int, ...]) -> sympy.Expr:
