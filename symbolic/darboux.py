@@ -29,8 +29,9 @@ from flint import acb, arb, arb_mat, ctx, fmpq
 HIGHEST_DEGREE: Final = 14
 """Most unknowns fitted; beyond this the next singularities, not the powers of 1/n, limit the estimate (empirical)."""
 
-_SCATTER: Final = 2
-"""Weight of the change over the last rows, about which further singularities make the estimate swing (empirical)."""
+_SCATTER: Final = 5
+_SCATTERED_ROWS: Final = range(1, 7)
+"""Weight of the changes over the last rows, about which further singularities make the estimate swing (empirical)."""
 
 _TAIL: Final = 3
 """Weight of the change since 3/4 of the terms: an error that falls only like 1/n is three times that change."""
@@ -76,16 +77,13 @@ def nearest_singularities(coefficients: Sequence[fmpq], count: int) -> Estimate 
 def _estimate(fit: Callable[[int, int], tuple[Point, ...]], degree: int, last: int) -> Estimate | None:
     """Fit with K = degree to the last terms, and judge it by K - 1, by earlier last terms and by 3/4 of the terms."""
     best = fit(degree, last)
-    rows = [
-        (degree - 1, last, 1),
-        *((degree, last - i, _SCATTER) for i in (1, 2, 3)),
-        (degree, last - last // 4, _TAIL),
-    ]
+    scattered = [(degree, last - i, _SCATTER) for i in _SCATTERED_ROWS]
+    rows = [(degree - 1, last, 1), *scattered, (degree, last - last // 4, _TAIL)]
     others = [(fit(k, row), weight) for k, row, weight in rows]
     if not best or not all(points for points, _ in others):
         return None
-    changes = [(weight * e for e in _change(best, points)) for points, weight in others]
-    place, exponent = (max(errors) for errors in zip(*changes, strict=True))
+    changes = [[weight * change for change in _change(best, points)] for points, weight in others]
+    place, exponent = (max(column) for column in zip(*changes, strict=True))
     return Estimate(best, place, exponent, degree)
 
 

@@ -16,8 +16,8 @@ from symbolic.darboux import Estimate, Point
 from symbolic.errors import InputError
 from symbolic.rational_function import approximant, zeros
 
-MOST_TERMS: Final = 41
-"""Enough for some ten digits; Euclid's algorithm costs more than the fits of ``darboux`` beyond it."""
+MOST_TERMS: Final = 25
+"""Beyond it exact arithmetic costs more than the whole of ``darboux``, for a second opinion of three digits."""
 
 
 def dlog_singularities(series: Sequence[fmpq], first: Estimate) -> Estimate | None:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Final
 
 import sympy
 from flint import arb
@@ -25,7 +26,7 @@ from symbolic.rational_function import Coefficients, approximant, as_expression,
 from symbolic.resummation import Resummation
 from symbolic.singularity import Limits, limits, stripped
 
-_DENOMINATOR = 1000
+_DENOMINATOR: Final = 1000
 """Places of singularities are rounded to fractions with denominators up to this before an exact re-expansion."""
 
 
@@ -139,7 +140,8 @@ def mapping_for(found: Limits, *, cut: bool = False) -> Mapping:
     """Choose the change of variable that moves the nearest singularity: Euler, cut plane or Andersen-Geer.
 
     ``cut`` prefers the cut-plane map for a negative singularity, where Euler's transformation would do; a positive one
-    has only the cut plane.  Places are rounded to simple fractions.  Raises InputError when the limits are not known.
+    has only the cut plane.  Places are rounded to the simplest fractions within their uncertainty.  Raises InputError
+    when the limits are not known.
 
     >>> from symbolic.energy_integral import energy_integral
     >>> from symbolic.systems import find
@@ -149,13 +151,26 @@ def mapping_for(found: Limits, *, cut: bool = False) -> Mapping:
     if not found.singularities:
         raise InputError(f"no change of variable can be chosen: {found.why}; give one, such as Euler(Fraction(1))")
     first = found.singularities[0]
-    modulus = Fraction(first.modulus).limit_denominator(_DENOMINATOR)
+    modulus = simplest(first.modulus, first.modulus_uncertainty)
     if first.argument == 0:
         return CutPlane(modulus)
     if first.argument == math.pi:
         return CutPlane(-modulus) if cut else Euler(modulus)
-    real_part = Fraction(first.modulus * math.cos(first.argument)).limit_denominator(_DENOMINATOR)
-    return Pair(modulus, real_part)
+    blur = first.modulus_uncertainty + first.modulus * first.argument_uncertainty
+    return Pair(modulus, simplest(first.modulus * math.cos(first.argument), blur))
+
+
+def simplest(value: float, uncertainty: float) -> Fraction:
+    """Return the fraction of smallest denominator within the uncertainty, or the nearest of a moderate denominator.
+
+    >>> simplest(3.4203, 0.018)
+    Fraction(24, 7)
+    """
+    for denominator in range(1, _DENOMINATOR):
+        found = Fraction(round(value * denominator), denominator)
+        if found != 0 and abs(found - Fraction(value)) <= Fraction(uncertainty):
+            return found
+    return Fraction(value).limit_denominator(_DENOMINATOR)
 
 
 def _half(expansion: Expansion) -> int:

@@ -119,7 +119,7 @@ def limits(expansion: Expansion, *, longer: Expansion | None = None) -> Limits:
     >>> from symbolic.energy_integral import energy_integral
     >>> from symbolic.systems import find
     >>> limits(energy_integral(find("pendulum"), 40)).sentence()
-    'The series converges for |A| < 3.1416... (estimated: logarithm of the period at A^2 = 9.869...'
+    'The series converges for |A| < 3.142 +- 0.002 (estimated: logarithm of the period at A^2 = 9.87 +- 0.02); ...'
     >>> limits(energy_integral(find("linear"), 40)).sentence()
     'The range of convergence is not known: every coefficient beyond the first is zero.'
     """
