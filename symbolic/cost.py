@@ -16,7 +16,7 @@ from symbolic.errors import InputError
 _SECONDS = {
     "lindstedt": (3e-9, 4.0),
     "limit-cycle": (5e-8, 4.0),
-    "multiple-scales": (1e-8, 4.0),
+    "multiple-scales": (4e-9, 4.0),
     "energy-integral": (1e-8, 3.0),
 }
 _BYTES = 60.0

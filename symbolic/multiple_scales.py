@@ -22,6 +22,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Final
 
 import sympy
 from flint import fmpq
@@ -35,6 +36,9 @@ from symbolic.rings import TrigRing
 from symbolic.series import Program
 from symbolic.slow_flow import SlowFlow
 from symbolic.spaces import Parametric, Scalar
+
+COEFFICIENT: Final = 2
+"""What a symbolic coefficient counts when the cost is predicted: that of u^3 comes with a^2 each time."""
 
 
 def multiple_scales(
@@ -61,13 +65,8 @@ def multiple_scales(
     """
     order = check_order(order)
     natural = ordered(oscillator, weight=weight, weights=weights)
-    check(
-        "multiple-scales",
-        order,
-        budget or Budget(),
-        parameters=len(natural.names) - len(natural.weights),
-        weights=tuple(natural.weights.values()),
-    )
+    counted = tuple(natural.weights.get(name, COEFFICIENT) for name in natural.names)
+    check("multiple-scales", order, budget or Budget(), weights=counted)
     frame = _Frame(natural, Parametric(natural.names))
     march = _March(frame)
     for n in range(2, order + 2):

@@ -11,16 +11,20 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Final, NamedTuple, TypeAlias
 
 import sympy
 
-from symbolic.expansion import series_latex
+from symbolic.errors import InputError
+from symbolic.expansion import nearest, series_latex
 from symbolic.fourier import degree, harmonic
 from symbolic.rendering import mathml
 from symbolic.slow_flow import SlowFlow, Term, evaluate, json_rows, rounded
 
-PHI = sympy.Symbol("phi", real=True)
+MOST_ITERATIONS: Final = 200
+Wave: TypeAlias = Callable[[Any], Any]
+Rows: TypeAlias = "tuple[tuple[float, tuple[int, ...]], ...]"
+PHI: Final = sympy.Symbol("phi", real=True)
 """The phase in expressions."""
 
 
@@ -31,6 +35,19 @@ class FlowHarmonic:
     multiple: int
     cosine: tuple[Term, ...]
     sine: tuple[Term, ...]
+
+
+class _Rounded(NamedTuple):
+    """A harmonic with its coefficients rounded to floats."""
+
+    multiple: int
+    cosine: Rows
+    sine: Rows
+
+
+def _by_amplitude(rows: Rows) -> Rows:
+    """a d/da."""
+    return tuple((coefficient * powers[0], powers) for coefficient, powers in rows)
 
 
 @dataclass(frozen=True)
@@ -60,28 +77,57 @@ class Reconstruction:
                 found.append(FlowHarmonic(multiple, cosine, sine))
         return tuple(found)
 
-    def __call__(
-        self,
-        a: Any,
-        phi: Any,
-        *small: float,
-        cos: Callable[[Any], Any] = math.cos,
-        sin: Callable[[Any], Any] = math.sin,
-    ) -> Any:
+    def __call__(self, a: Any, phi: Any, *small: float, cos: Wave = math.cos, sin: Wave = math.sin) -> Any:
         """Evaluate u at an amplitude and a phase; for arrays give their own ``cos`` and ``sin``, such as NumPy's.
 
         Raises InputError when there is not one value for each small parameter.
         """
         values, total = self.flow.checked(small), a * 0.0
-        for multiple, cosine, sine in self._rounded:
-            total = total + evaluate(cosine, a, values) * cos(multiple * phi)
-            if sine:
-                total = total + evaluate(sine, a, values) * sin(multiple * phi)
+        for h in self._rounded:
+            total = total + evaluate(h.cosine, a, values) * cos(h.multiple * phi)
+            total = total + evaluate(h.sine, a, values) * sin(h.multiple * phi)
         return total
 
+    def velocity(self, a: Any, phi: Any, *small: float, cos: Wave = math.cos, sin: Wave = math.sin) -> Any:
+        """Evaluate u' = omega du/dphi + a delta du/da along the flow; errors and arrays as for u itself."""
+        omega, delta = self.flow.frequency_at(a, *small), self.flow.damping_at(a, *small)
+        total = a * 0.0
+        for h in self._rounded:
+            wave, slope = cos(h.multiple * phi), sin(h.multiple * phi)
+            c, s = evaluate(h.cosine, a, small), evaluate(h.sine, a, small)
+            total = total + omega * h.multiple * (s * wave - c * slope)
+            total = total + delta * evaluate(_by_amplitude(h.cosine), a, small) * wave
+            total = total + delta * evaluate(_by_amplitude(h.sine), a, small) * slope
+        return total
+
+    def start(self, u: float, v: float, *small: float) -> tuple[float, float]:
+        """The amplitude and phase of the state (u, u') = (u, v), by fixed-point iteration from the linear motion.
+
+        Raises InputError when the iteration does not settle: the state is too large for this order.
+
+        >>> from symbolic.multiple_scales import multiple_scales
+        >>> from symbolic.systems import find
+        >>> wave = Reconstruction(multiple_scales(find("duffing"), 2))
+        >>> wave.start(0.50390625, 0.0, 0.0)
+        (0.5, 0.0)
+        """
+        k = nearest(self.flow.scale)
+        x, y = u, v / k
+        for _ in range(MOST_ITERATIONS):
+            a, phi = math.hypot(x, y), math.atan2(-y, x)
+            change = (u - self(a, phi, *small), (v - self.velocity(a, phi, *small)) / k)
+            x, y = x + change[0], y + change[1]
+            if not math.hypot(*change) < 1e6:
+                break
+            if math.hypot(*change) <= 4e-16 * (abs(u) + abs(v) / k):
+                return math.hypot(x, y), math.atan2(-y, x) + 0.0
+        raise InputError(
+            f"{self.flow.system}: no amplitude and phase of this order give u = {u:g}, u' = {v:g}; start closer to rest"
+        )
+
     @cached_property
-    def _rounded(self) -> tuple[tuple[int, Any, Any], ...]:
-        return tuple((h.multiple, rounded(h.cosine), rounded(h.sine)) for h in self.harmonics)
+    def _rounded(self) -> tuple[_Rounded, ...]:
+        return tuple(_Rounded(h.multiple, rounded(h.cosine), rounded(h.sine)) for h in self.harmonics)
 
     def expression(self) -> sympy.Expr:
         """u as one SymPy expression in ``a``, ``phi`` and the small parameters."""
