@@ -24,8 +24,7 @@ def curvature_coefficient(kernel: LagKernel) -> float:
     >>> round(curvature_coefficient(kernel), 4)  # 0.6 * tau_max^2 / 24 with tau_max = 4, and a little for sampling
     0.4197
     """
-    tau = 2.0 * np.arange(kernel.lag_window.size) / kernel.rate
-    w = kernel.lag_window
+    tau, w = kernel.lags, kernel.lag_window
     return float((w * tau**4).sum() / (24.0 * (w * tau**2).sum()))
 
 
@@ -79,7 +78,7 @@ def formula_bias(time: Array, omega: Array, keep: Mask, *, kernel: LagKernel) ->
 
     Outside ``keep`` the nearest kept value is held.
     """
-    fit = smooth_fit(time, omega, keep, 2.0 * kernel.half_lags / kernel.rate)
+    fit = smooth_fit(time, omega, keep, float(kernel.lags[-1]))
     return held(time, curvature_coefficient(kernel) * fit.deriv(2)(time), keep)
 
 

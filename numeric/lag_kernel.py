@@ -1,14 +1,16 @@
 """The lag kernel: the one core of the Wigner family.
 
-    K[n, m] = z[n + m] conj(z[n - m]),   m = 0 .. M,   z = 0 outside the record.
+    K[n, m] = z[n + D m] conj(z[n - D m]),   m = 0 .. M,   z = 0 outside the record,   D = 1 unless lags are decimated.
 
 Only m >= 0 is formed, because K[n, -m] = conj K[n, m]; a Hermitian FFT over m then gives a real column
 
-    W[n, k] = (2 / rate) * sum over m = -M .. M of  h[m] K[n, m] exp(-2 pi i m k / n_fft),
+    W[n, k] = (2 D / rate) * sum over m = -M .. M of  h[m] K[n, m] exp(-2 pi i m k / n_fft),
 
 which samples  W(t, omega) = integral of z(t + tau/2) conj z(t - tau/2) h exp(-i omega tau) d tau  at the lags
-tau = 2 m / rate, hence at omega_k = pi rate k / n_fft: *half* the spacing of an ordinary DFT, and a period of
-pi rate, not 2 pi rate.  (Claasen and Mecklenbräuker, Philips J. Res. 35 (1980) 217, 276, 372.)
+tau = 2 D m / rate, hence at omega_k = pi rate k / (D n_fft): for D = 1 *half* the spacing of an ordinary DFT, and a
+period of pi rate, not 2 pi rate.  (Claasen and Mecklenbräuker, Philips J. Res. 35 (1980) 217, 276, 372.)
+
+A complex64 signal makes everything single precision.
 """
 
 from __future__ import annotations
@@ -16,27 +18,37 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import fft
 
+from numeric.bin_interpolation import OVERSAMPLING
 from numeric.errors import InputError
-from numeric.lag_moments import lag_moments
-from numeric.samples import Array, ComplexArray
+from numeric.samples import Array
 
-BLOCK_BYTES = 4_000_000
-"""Working memory that one block of columns may take."""
+Floats = NDArray[np.floating]
+Complexes = NDArray[np.complexfloating]
+
+BLOCK_BYTES = 2_000_000
+"""Working memory of one block of columns with its spectra: about what a core's own cache holds (measured best)."""
+SMOOTHING_BYTES = 4_000_000
+"""The same where columns are smoothed along time: a block must be long against the smoothing window."""
+REACHES = 16
+"""Steps in which the number of lags grows from the border inwards: each is one length of transform."""
 
 
 @dataclass(frozen=True)
 class LagKernel:
     """A complex signal with its lag window ``h[0..M]`` (h[0] = 1) and its time smoothing ``g[-G..G]``."""
 
-    signal: ComplexArray
+    signal: Complexes
     rate: float
     lag_window: Array
     smoothing: Array
     n_fft: int
+    decimation: int = 1
 
     def __post_init__(self) -> None:
         if self.n_fft < 2 * self.half_lags + 1:
@@ -56,63 +68,90 @@ class LagKernel:
         return self.smoothing.size // 2
 
     @property
-    def omega(self) -> Array:
-        """The bins pi rate k / n_fft, k = 0 .. n_fft - 1, in rad per time unit."""
-        return math.pi * self.rate * np.arange(self.n_fft) / self.n_fft
+    def lags(self) -> Array:
+        """The lags tau = 2 D m / rate, m = 0 .. M, in time units."""
+        return np.asarray(2.0 * self.decimation / self.rate * np.arange(self.lag_window.size), dtype=np.float64)
 
     @property
-    def block(self) -> int:
-        """How many columns fit into the working memory (lag columns three times, bins twice)."""
-        per_column = 48 * (self.half_lags + 1) + 16 * self.n_fft
-        return max(1, BLOCK_BYTES // per_column)
+    def period(self) -> float:
+        """pi rate / D: one period of the frequency axis."""
+        return math.pi * self.rate / self.decimation
 
-    def products(self, start: int, stop: int) -> ComplexArray:
-        """K[n, m] for n = start .. stop - 1 and m = 0 .. M, by two strided views and one multiplication.
+    @property
+    def omega(self) -> Array:
+        """The bins of a plane, k = 0 .. n_fft - 1, in rad per time unit."""
+        return self.period * np.arange(self.n_fft) / self.n_fft
 
-        Indices n outside the record are allowed; there, as at every lag that reaches outside, K is zero.
-        """
-        M = self.half_lags
-        first, last = start - M, stop + M
-        inside = self.signal[max(0, first) : max(0, last)]
-        lead = min(max(0, -first), last - first)
-        z = np.concatenate([np.zeros(lead), inside, np.zeros(last - first - lead - inside.size)])
-        windows = np.lib.stride_tricks.sliding_window_view(z, M + 1)
-        count = stop - start
-        return np.asarray(windows[M : M + count] * windows[:count, ::-1].conj(), dtype=np.complex128)
+    @cached_property
+    def _factors(self) -> tuple[Complexes, Complexes]:
+        """Views of (2 D / rate) z[n + D m] and conj z[n - D m], row n + G, column m; both run forwards in memory."""
+        reach, scale = self.decimation * self.half_lags, 2.0 * self.decimation / self.rate
+        z = np.pad(self.signal, reach + self.half_smoothing)
+        ahead = np.lib.stride_tricks.sliding_window_view(z * z.real.dtype.type(scale), reach + 1)
+        behind = np.lib.stride_tricks.sliding_window_view(z[::-1].conj(), reach + 1)[::-1]
+        return ahead[reach:, :: self.decimation], behind[:, :: self.decimation]
 
-    def columns(self, start: int, stop: int) -> ComplexArray:
-        """h[m] * (sum over l of g[l] K[n + l, m]) for n = start .. stop - 1; shape ``(stop - start, M + 1)``.
+    def reach(self, start: int, stop: int) -> int:
+        """The largest lag index at which a column from ``start`` to ``stop`` is not zero, or a little above it."""
+        size, G, M = self.signal.size, self.half_smoothing, self.half_lags
+        samples = min(stop - 1 + G, size - 1 - start + G, (size - 1) // 2)
+        step = -(-M // REACHES)
+        return min(M, -(-samples // max(1, step * self.decimation)) * step)
+
+    def columns(self, start: int, stop: int, *, width: int | None = None) -> Complexes:
+        """(2 D / rate) h[m] * (sum over l of g[l] K[n + l, m]), n = start .. stop - 1; zeros fill up to ``width``.
 
         The smoothing is the plain convolution of the zero-extended record's kernel: nothing is wrapped round and
         nothing is renormalised near the border, so that every lag is treated alike and no bias is brought in.
         """
-        G = self.half_smoothing
-        kernel = self.products(start - G, stop + G)
-        if G:
-            # The convolution as one banded matrix product; float64 pairs, since g is real.
-            count = stop - start
-            banded = np.zeros((count, count + 2 * G))
-            for row in range(count):
-                banded[row, row : row + 2 * G + 1] = self.smoothing[::-1]
-            kernel = (banded @ kernel.view(np.float64)).view(np.complex128)
+        count = self.reach(start, stop) + 1
+        out = np.empty((stop - start, self.half_lags + 1 if width is None else width), dtype=self.signal.dtype)
+        out[:, count:] = 0.0
+        kernel = out[:, :count]
+        if self.smoothing.size > 1:
+            kernel[:] = self._smoothed(start, stop, count).T
         else:
-            kernel = kernel * self.smoothing[0]
-        return np.asarray(kernel * self.lag_window, dtype=np.complex128)
+            ahead, behind = self._factors
+            np.multiply(ahead[start:stop, :count], behind[start:stop, :count], out=kernel)
+        weights = self.lag_window[:count]
+        if weights.min() < 1.0:
+            kernel *= weights.astype(kernel.real.dtype)
+        return out
 
-    def blocks(self) -> Iterator[tuple[int, int, ComplexArray]]:
-        """All columns, a few at a time: (start, stop, columns)."""
-        size, block = self.signal.size, self.block
+    # Convolution along time by the FFT, one lag after the other: K[m, n] with n contiguous, its own 2 G columns to
+    # spare on both sides, so that what wraps round is dropped (overlap-save).
+    def _smoothed(self, start: int, stop: int, count: int) -> Complexes:
+        G = self.half_smoothing
+        length = fft.next_fast_len(stop - start + 2 * G)
+        ahead, behind = (factor[start : stop + 2 * G, :count].T for factor in self._factors)
+        kernel = np.multiply(ahead, behind, order="C")
+        g = np.zeros(length)
+        g[: 2 * G + 1] = self.smoothing[::-1]
+        response = fft.fft(g).astype(kernel.dtype)
+        spectrum = fft.fft(kernel, n=length, axis=1)
+        spectrum *= response
+        smooth = fft.ifft(spectrum, axis=1, overwrite_x=True)
+        return np.asarray(smooth[:, 2 * G : 2 * G + stop - start])
+
+    def spans(self, n_fft: int) -> Iterator[tuple[int, int]]:
+        """Consecutive (start, stop) that cover the record, in blocks that fit into the working memory."""
+        column, size = self.signal.dtype.itemsize * n_fft, self.signal.size
+        block = max(4, BLOCK_BYTES // column)
+        if self.half_smoothing:
+            block = max(2 * self.half_smoothing, min(8 * self.half_smoothing, SMOOTHING_BYTES // column))
         for start in range(0, size, block):
-            stop = min(start + block, size)
-            yield start, stop, self.columns(start, stop)
+            yield start, min(start + block, size)
 
-    def spectra(self, columns: ComplexArray) -> Array:
-        """The real spectra of lag columns, shape ``(columns, n_fft)``, scaled as W above."""
-        return np.asarray(fft.hfft(columns, n=self.n_fft, axis=1) * (2.0 / self.rate), dtype=np.float64)
+    def spectra(self, start: int, stop: int, n_fft: int) -> Floats:
+        """W of the columns from ``start`` to ``stop`` on ``n_fft`` bins, shape ``(columns, n_fft)``."""
+        return np.asarray(fft.hfft(self.columns(start, stop, width=n_fft // 2 + 1), n=n_fft, axis=1))
 
-    # P(theta) = K0 + 2 Re sum K_m e^{-i theta m}, theta = 2 omega / rate:  P' = 2 Im sum m K_m e^{..},
-    # P'' = -2 Re sum m^2 K_m e^{..}.
-    def derivatives(self, columns: ComplexArray, omega: Array) -> tuple[Array, Array]:
-        """First and second derivative of each column's exact transform at its own omega (scaled by rate / 2)."""
-        moments = lag_moments(columns, 2.0 / self.rate * omega)
-        return 2.0 * moments[:, 1].imag, -4.0 / self.rate * moments[:, 2].real
+    def searched(self) -> Iterator[tuple[int, int, Floats]]:
+        """All spectra on OVERSAMPLING bins per lag or a few more; near the border, where lags are few, bins are few."""
+        for start, stop in self.spans(self.search_length(self.half_lags)):
+            yield start, stop, self.spectra(start, stop, self.search_length(self.reach(start, stop)))
+
+    @staticmethod
+    def search_length(lags: int) -> int:
+        """Bins on which the transform of the lags -lags .. lags can be read between the bins."""
+        return int(fft.next_fast_len(math.ceil(OVERSAMPLING * (2 * lags + 1)), real=True))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy import fft
 
 from numeric.curvature import formula_bias, reestimated_bias
 from numeric.lag_kernel import LagKernel
@@ -57,11 +56,10 @@ def peak_estimate(
 
 def by_wigner(request: Request) -> Track:
     """Peak of the full-length Wigner distribution; biased by the curvature of omega(t), to all orders."""
-    n_fft = fft.next_fast_len(request.z.size, real=True)
     return peak_estimate(
         request,
         "wigner",
-        lambda z: wigner_kernel(z, request.rate, n_fft=n_fft),
+        lambda z: wigner_kernel(z, request.rate),
         border=request.cycle,
         deviation=lambda level: full_length_deviation(level, request.rate),
     )
@@ -114,11 +112,10 @@ def by_smoothed_pseudo_wigner(request: Request) -> Track:
 def by_spectrogram(request: Request) -> Track:
     """Peak of the spectrogram of the analytic signal."""
     w = window(request.lag_window, request.half)
-    n_fft = fft.next_fast_len(2 * w.size)
     return peak_estimate(
         request,
         "spectrogram",
-        lambda z: ShortTimeKernel(z, request.rate, w, n_fft),
+        lambda z: ShortTimeKernel(z, request.rate, w),
         border=0.5 * request.lag_seconds,
         deviation=lambda level: peak_deviation(level, request.rate, w[request.half :]),
         lag_seconds=2.0 * request.half / request.rate,

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from scipy import fft
 
 from numeric.errors import InputError
-from numeric.lag_kernel import BLOCK_BYTES, LagKernel
+from numeric.lag_kernel import BLOCK_BYTES
 from numeric.noise import Level, phase_noise
 from numeric.samples import Array, ComplexArray, checked_budget, checked_rate
 from numeric.wigner import MEMORY_BUDGET, as_analytic
@@ -60,20 +60,18 @@ class PolynomialKernel:
         """The bins pi rate k / n_fft, as for the Wigner distribution."""
         return math.pi * self.rate * np.arange(self.n_fft) / self.n_fft
 
-    def blocks(self) -> Iterator[tuple[int, int, ComplexArray]]:
-        """All columns, a few at a time."""
+    @property
+    def period(self) -> float:
+        """Pi rate, as for the Wigner distribution."""
+        return math.pi * self.rate
+
+    def searched(self) -> Iterator[tuple[int, int, Array]]:
+        """All real spectra on the bins ``omega``, scaled by 2 / rate, a few at a time."""
         size, block = self.products.shape[0], max(1, BLOCK_BYTES // (16 * self.n_fft))
         for start in range(0, size, block):
             stop = min(start + block, size)
-            yield start, stop, self.products[start:stop]
-
-    def spectra(self, columns: ComplexArray) -> Array:
-        """Real spectra, scaled by 2 / rate."""
-        return np.asarray(fft.hfft(columns, n=self.n_fft, axis=1) * (2.0 / self.rate), dtype=np.float64)
-
-    def derivatives(self, columns: ComplexArray, omega: Array) -> tuple[Array, Array]:
-        """First and second derivative at each column's own omega, as for the Wigner distribution."""
-        return LagKernel.derivatives(self, columns, omega)  # type: ignore[arg-type]
+            spectra = fft.hfft(self.products[start:stop], n=self.n_fft, axis=1)
+            yield start, stop, np.asarray(spectra * (2.0 / self.rate), dtype=np.float64)
 
 
 def half_lags(lag_seconds: float, rate: float, order: int, size: int) -> int:
@@ -100,8 +98,8 @@ def polynomial_kernel(
 
     >>> t = np.arange(129) / 16.0
     >>> kernel = polynomial_kernel(np.exp(2j * np.pi * 3.0 * t), 16.0, lag_seconds=2.0)
-    >>> columns = next(kernel.blocks())[2]
-    >>> round(float(kernel.omega[kernel.spectra(columns)[64].argmax()] / (2 * np.pi)), 1)
+    >>> spectra = next(kernel.searched())[2]
+    >>> round(float(kernel.omega[spectra[64].argmax()] / (2 * np.pi)), 1)
     3.0
     """
     z, rate = as_analytic(x), checked_rate(rate)

@@ -1,6 +1,6 @@
-"""The ridge of a lag kernel: the highest bin of each column, then Newton on the exact transform of its lags.
+"""The ridge of a lag kernel: the highest bin of each column, then Newton's method on its spectrum between the bins.
 
-No plane is stored: columns are formed, searched and dropped in blocks.
+No plane is stored: columns are formed, transformed, searched and dropped in blocks.
 """
 
 from __future__ import annotations
@@ -10,33 +10,28 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
-from numeric.samples import Array, ComplexArray, Mask
-
-NEWTON_STEPS = 5
-SETTLED = 1e-10
-"""Share of a bin below which a step of all columns ends the iteration."""
+from numeric.bin_interpolation import HALF, derivative_weights, maximum, neighbours, parabola_vertex
+from numeric.samples import Array, Mask
 
 
 class Kernel(Protocol):
-    """What gives columns by the block, their spectra on the bins ``omega``, and the spectra's exact derivatives."""
+    """What gives real spectra by the block, on enough bins to be read between them."""
 
     @property
     def n_fft(self) -> int:
-        """Length of the transform."""
+        """Length of the longest transform."""
 
     @property
-    def omega(self) -> Array:
-        """The bins."""
+    def period(self) -> float:
+        """Span of one period of the frequency axis, rad per time unit."""
 
-    def blocks(self) -> Iterator[tuple[int, int, ComplexArray]]:
-        """All columns as (start, stop, columns)."""
+    def searched(self) -> Iterator[tuple[int, int, NDArray[np.floating]]]:
+        """All spectra as (start, stop, ``(columns, bins)``), the bins in equal steps over one period from 0.
 
-    def spectra(self, columns: ComplexArray) -> Array:
-        """Real spectra, ``(columns, bins)``."""
-
-    def derivatives(self, columns: ComplexArray, omega: Array) -> tuple[Array, Array]:
-        """First and second derivative of each column's spectrum at its own ``omega``, up to a positive factor."""
+        Their number, which may change from block to block, is at least OVERSAMPLING times that of the lags.
+        """
 
 
 @dataclass(frozen=True)
@@ -48,46 +43,40 @@ class Ridge:
     inside: Mask
 
 
-def parabola_vertex(left: Array, centre: Array, right: Array) -> Array:
-    """Offset (in bins, -1/2 .. 1/2) of the vertex through three neighbouring values; 0 where they do not bend down.
+def highest(values: NDArray[np.floating], spacing: float, low: Array, high: Array) -> NDArray[np.intp]:
+    """Highest bin of each row between its ``low`` and ``high``; some bin outside where none lies between.
 
-    >>> parabola_vertex(np.array([1.0]), np.array([2.0]), np.array([2.0])).tolist()
-    [0.5]
+    >>> highest(np.array([[9.0, 1.0, 2.0, 1.0]]), 1.0, np.ones(1), np.full(1, 3.0)).tolist()
+    [2]
     """
-    bend = left - 2.0 * centre + right
-    safe = np.where(bend < 0.0, bend, -1.0)
-    return np.asarray(np.where(bend < 0.0, np.clip(0.5 * (left - right) / safe, -0.5, 0.5), 0.0), dtype=np.float64)
-
-
-def refine(kernel: Kernel, columns: ComplexArray, omega: Array, reach: float) -> Array:
-    """Newton's method for the maximum of the exact transform, kept within ``reach`` of the starting ``omega``."""
-    best = omega
-    for _ in range(NEWTON_STEPS):
-        slope, bend = kernel.derivatives(columns, best)
-        concave = bend < 0.0
-        step = np.where(concave, -slope / np.where(concave, bend, -1.0), 0.25 * reach * np.sign(slope))
-        best = np.clip(best + np.clip(step, -0.5 * reach, 0.5 * reach), omega - reach, omega + reach)
-        if np.abs(step).max() < SETTLED * reach:
-            break
-    return best
+    lowest = np.minimum(np.ceil(low / spacing), values.shape[1] - 1).astype(np.intp)
+    beyond = np.minimum(np.floor(high / spacing) + 1, values.shape[1]).astype(np.intp)
+    first, last = int(lowest.min()), max(int(beyond.max()), int(lowest.min()) + 1)
+    within = values[:, first:last]
+    edges = np.ptp(lowest), np.ptp(beyond)
+    if any(edges):  # only the strips between the lowest and the highest edge need a mask
+        within = within.copy()
+        bins = np.arange(first, last)
+        left, right = within[:, : edges[0]], within[:, within.shape[1] - edges[1] :]
+        left[bins[: edges[0]] < lowest[:, None]] = -np.inf
+        right[bins[bins.size - edges[1] :] >= beyond[:, None]] = -np.inf
+    return np.asarray(within.argmax(axis=1) + first, dtype=np.intp)
 
 
 def follow(kernel: Kernel, low: Array, high: Array) -> Ridge:
     """Return the ridge of ``kernel`` between ``low[n]`` and ``high[n]`` (rad per time unit, one value per column)."""
-    size, bins = low.size, kernel.omega
-    omega, height, inside = np.empty(size), np.empty(size), np.empty(size, dtype=np.bool_)
-    spacing = bins[1] - bins[0] if bins.size > 1 else 0.0
-    first = max(0, int(np.searchsorted(bins, low.min())) - 1)
-    last = min(bins.size, int(np.searchsorted(bins, high.max())) + 2)
-    bins = bins[first:last]
-    for begin, end, columns in kernel.blocks():
-        values = kernel.spectra(columns)[:, first:last]
-        rows = np.arange(end - begin)
-        allowed = (bins >= low[begin:end, None]) & (bins <= high[begin:end, None])
-        at = np.where(allowed, values, -np.inf).argmax(axis=1)
-        left, centre, right = (values[rows, np.clip(at + d, 0, bins.size - 1)] for d in (-1, 0, 1))
-        inside[begin:end] = (centre >= left) & (centre >= right) & allowed[rows, at]
-        coarse = bins[at] + spacing * parabola_vertex(left, centre, right)
-        omega[begin:end] = refine(kernel, columns, coarse, spacing)
-        height[begin:end] = centre
-    return Ridge(omega, height, inside)
+    size, weights = low.size, derivative_weights()
+    derivatives, three = np.empty((size, weights.shape[1])), np.empty((size, 3))
+    at, spacing = np.empty(size, dtype=np.intp), np.empty(size)
+    for begin, end, values in kernel.searched():
+        part = slice(begin, end)
+        spacing[part] = kernel.period / values.shape[1]
+        at[part] = highest(values, spacing[begin], low[part], high[part])
+        around = neighbours(values, at[part])
+        derivatives[part] = around @ weights
+        three[part] = around[:, HALF - 1 : HALF + 2]
+    left, centre, right = three.T
+    coarse = at * spacing
+    inside = (centre >= left) & (centre >= right) & (coarse >= low) & (coarse <= high)
+    omega = coarse + spacing * maximum(derivatives, parabola_vertex(left, centre, right))
+    return Ridge(omega, centre, inside)

@@ -5,14 +5,15 @@ S(omega, t_n) = sum over j of z[n + j] w[j] exp(-i omega j / rate); the ridge is
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from scipy import fft
 
+from numeric.bin_interpolation import OVERSAMPLING
 from numeric.lag_kernel import BLOCK_BYTES
-from numeric.lag_moments import lag_moments
 from numeric.samples import TWO_PI, Array, ComplexArray
 
 
@@ -23,30 +24,33 @@ class ShortTimeKernel:
     signal: ComplexArray
     rate: float
     window: Array
-    n_fft: int
 
     @property
-    def omega(self) -> Array:
-        """The bins 2 pi rate k / n_fft of the non-negative half."""
-        return TWO_PI * self.rate * np.arange(self.n_fft // 2 + 1) / self.n_fft
+    def n_fft(self) -> int:
+        """Bins enough for |S|^2, whose lags reach as far as the window is long, to be read between the bins."""
+        return int(fft.next_fast_len(math.ceil(OVERSAMPLING * (2 * self.window.size - 1))))
 
-    def blocks(self) -> Iterator[tuple[int, int, ComplexArray]]:
-        """All segments, a few at a time: (start, stop, segments)."""
-        half, size = self.window.size // 2, self.signal.size
-        padded = np.pad(self.signal, half)
-        segments = np.lib.stride_tricks.sliding_window_view(padded, self.window.size)
-        block = max(1, BLOCK_BYTES // (32 * self.n_fft))
+    @property
+    def period(self) -> float:
+        """2 pi rate."""
+        return TWO_PI * self.rate
+
+    def spans(self) -> Iterator[tuple[int, int]]:
+        """Consecutive (start, stop) that cover the record."""
+        size, block = self.signal.size, max(1, BLOCK_BYTES // (40 * self.n_fft))
         for start in range(0, size, block):
-            stop = min(start + block, size)
-            yield start, stop, np.asarray(segments[start:stop] * self.window, dtype=np.complex128)
+            yield start, min(start + block, size)
 
-    def spectra(self, columns: ComplexArray) -> Array:
-        """|S|^2 on the bins."""
-        spectra = fft.fft(columns, n=self.n_fft, axis=1)[:, : self.n_fft // 2 + 1]
-        return np.asarray(np.abs(spectra) ** 2, dtype=np.float64)
+    def spectra(self, start: int, stop: int, window: Array) -> ComplexArray:
+        """S times exp(-i omega half / rate) under any window of the same length, shape ``(columns, n_fft)``."""
+        padded = np.pad(self.signal, self.window.size // 2)[start : stop + window.size - 1]
+        segments = np.lib.stride_tricks.sliding_window_view(padded, window.size)
+        filled = np.zeros((stop - start, self.n_fft), dtype=np.complex128)
+        np.multiply(segments, window, out=filled[:, : window.size])
+        return np.asarray(fft.fft(filled, axis=1, overwrite_x=True), dtype=np.complex128)
 
-    # P = |S|^2 with S_j = sum j^k z w e^{..}:  P' = 2 Im conj(S_0) S_1,  P'' = 2 (|S_1|^2 - Re conj(S_0) S_2).
-    def derivatives(self, columns: ComplexArray, omega: Array) -> tuple[Array, Array]:
-        """First and second derivative of |S|^2 at each column's own omega (scaled by rate)."""
-        s0, s1, s2 = lag_moments(columns, omega / self.rate).T
-        return 2.0 * (s0.conj() * s1).imag, 2.0 / self.rate * (np.abs(s1) ** 2 - (s0.conj() * s2).real)
+    def searched(self) -> Iterator[tuple[int, int, Array]]:
+        """|S|^2 on the bins 2 pi rate k / n_fft, a few columns at a time."""
+        for start, stop in self.spans():
+            spectra = self.spectra(start, stop, self.window)
+            yield start, stop, np.asarray(spectra.real**2 + spectra.imag**2, dtype=np.float64)

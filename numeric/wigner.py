@@ -66,8 +66,8 @@ def plane(kernel: LagKernel, name: str, *, start: float, memory: int) -> Distrib
     remedy = "shorten the signal, lower n_fft, or follow the ridge with estimate(...), which stores no plane"
     checked_budget(8 * size * kernel.n_fft, memory, f"{name} of {size} samples by {kernel.n_fft} bins", remedy)
     columns = np.empty((size, kernel.n_fft))
-    for first, last, block in kernel.blocks():
-        columns[first:last] = kernel.spectra(block)
+    for first, last in kernel.spans(kernel.n_fft):
+        columns[first:last] = kernel.spectra(first, last, kernel.n_fft)
     settings = {
         "rate": kernel.rate,
         "n_fft": kernel.n_fft,

@@ -6,10 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.polynomial.chebyshev import chebval
+from scipy.fft import hfft
 
+from numeric.bin_interpolation import DEGREE, derivative_weights, neighbour_weights, neighbours
 from numeric.curvature import chirp, curvature_coefficient, formula_bias, reestimated_bias, smooth_fit
 from numeric.errors import InputError
-from numeric.lag_moments import lag_moments
+from numeric.lag_kernel import LagKernel
 from numeric.ridge import follow
 from numeric.search_band import continuous_path, find_corridor
 from numeric.short_time import ShortTimeKernel
@@ -40,14 +43,24 @@ def test_track_is_frozen_and_its_parts_agree_in_length() -> None:
         Track(np.arange(4.0), np.ones(4), np.ones(1, bool), "test")
 
 
-@given(st.integers(1, 60), st.floats(0.0, 3.0))
+@given(st.integers(0, 40), st.floats(-1.0, 1.0), st.integers(0, 200))
 @settings(deadline=None, max_examples=40)
-def test_lag_moments_are_the_sums_written_out(lags: int, theta: float) -> None:
+def test_spectra_are_read_between_the_bins_to_rounding(lags: int, offset: float, at: int) -> None:
     rng = np.random.default_rng(lags)
-    columns = rng.normal(size=(3, lags)) + 1j * rng.normal(size=(3, lags))
-    m = np.arange(lags)
-    expected = np.stack([(columns * m**j * np.exp(-1j * theta * m)).sum(axis=1) for j in range(3)], axis=1)
-    assert np.abs(lag_moments(columns, np.full(3, theta)) - expected).max() <= 1e-11 * lags**3
+    lag = rng.normal(size=lags + 1) + 1j * rng.normal(size=lags + 1)
+    lag[0] = lag[0].real
+    bins = LagKernel.search_length(lags)
+    around = neighbours(hfft(lag, n=bins)[None], np.array([at % bins]))
+    m = np.arange(lags + 1)
+    turned = lag * np.exp(-2j * np.pi * m * (at % bins + offset) / bins) * np.where(m, 2.0, 1.0)
+    step = 2 * np.pi * m / bins
+    expected = [turned.real.sum(), (step * turned).imag.sum(), -(step**2 * turned).real.sum()]
+    weights, slopes = neighbour_weights(), derivative_weights()
+    parts = [weights, slopes[:, :DEGREE], slopes[:, DEGREE:]]
+    found = [chebval(offset, (around @ part)[0]) for part in parts]
+    scale = np.abs(lag).sum()
+    for value, exact, tolerance in zip(found, expected, (2e-12, 5e-11, 3e-9), strict=True):
+        assert abs(value - exact) < tolerance * scale
 
 
 def test_refinement_finds_the_maximum_between_the_bins() -> None:
@@ -62,14 +75,15 @@ def test_refinement_finds_the_maximum_between_the_bins() -> None:
     fine = ridge.omega[50] + np.linspace(-0.5, 0.5, 4001)
     height = 2 * (column * np.exp(-2j * np.outer(fine, m) / rate)).real.sum(axis=1)
     assert fine[height.argmax()] == pytest.approx(ridge.omega[50], abs=2.6e-4)
-    slope, bend = kernel.derivatives(column[None], ridge.omega[50:51])
-    assert abs(slope[0] / bend[0]) < 1e-10
+    turned = column * m * np.exp(-2j * ridge.omega[50] * m / rate)
+    slope, bend = 2 / rate * 2 * turned.imag.sum(), -((2 / rate) ** 2) * 2 * (m * turned).real.sum()
+    assert abs(slope / bend) < 1e-10
 
 
 def test_spectrogram_ridge_of_a_tone_is_exact_between_the_bins() -> None:
     rate, f = 16.0, 3.123456
     z = np.exp(2j * np.pi * f * np.arange(200) / rate)
-    kernel = ShortTimeKernel(z, rate, window("hann", 20), 48)
+    kernel = ShortTimeKernel(z, rate, window("hann", 20))
     ones = np.ones(200)
     ridge = follow(kernel, 10.0 * ones, 30.0 * ones)
     assert np.abs(ridge.omega[20:-20] / (2 * np.pi) - f).max() < 1e-10
