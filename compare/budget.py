@@ -35,10 +35,19 @@ def _interior(motion: Motion, curve: Curve, error: Array) -> Array:
     return np.where(motion.zone.interior(curve.time), error, np.nan)
 
 
-def reference_uncertainty(motion: Motion) -> float:
-    """Relative uncertainty of the reference, rms over the interior."""
+def reference_error(motion: Motion) -> float:
+    """Relative numerical error of the reference, rms over the interior."""
+    return _relative_rms(motion, motion.cycle.interpolation_error_at)
+
+
+def definition_spread(motion: Motion) -> float:
+    """Relative spread between readings of omega0(t) from different events, rms over the interior."""
+    return _relative_rms(motion, motion.cycle.spread_at)
+
+
+def _relative_rms(motion: Motion, error: Callable[[Array], Array]) -> float:
     inside = motion.time[motion.zone.interior(motion.time)]
-    return rms(motion.cycle.uncertainty_at(inside) / motion.cycle.at(inside)) or 0.0
+    return rms(error(inside) / motion.cycle.at(inside)) or 0.0
 
 
 def _model_row(motion: Motion, curve: Curve) -> BudgetRow | None:
@@ -55,7 +64,8 @@ def _model_row(motion: Motion, curve: Curve) -> BudgetRow | None:
         truncation=rms(truncation),
         averaging=rms(averaging),
         estimator=None,
-        reference=reference_uncertainty(motion),
+        reference=reference_error(motion),
+        definition=definition_spread(motion),
         total=whole,
         closure=rms(total - truncation - averaging) or 0.0,
         note="" if motion.has_backbone else "Averaging: the transient's distance from the limit cycle.",
@@ -90,18 +100,17 @@ def _estimate_row(
         truncation=None,
         averaging=None,
         estimator=None if part is None else rms(part),
-        reference=reference_uncertainty(motion),
+        reference=reference_error(motion),
+        definition=definition_spread(motion),
         total=whole,
         closure=whole if part is None else (rms(total - part) or 0.0),
-        note=_estimate_note(whole, reference_uncertainty(motion), known is not None),
+        note=_estimate_note(whole, definition_spread(motion), known is not None),
     )
 
 
-def _estimate_note(total: float, reference: float, known: bool) -> str:
-    """Say when the distance cannot be told from the reference's own uncertainty, and when the bias is not known."""
-    below = "Below the reference's own uncertainty, which is how well omega0(t) of a decay is defined." * (
-        total < reference
-    )
+def _estimate_note(total: float, spread: float, known: bool) -> str:
+    """Say when the distance is below what omega0(t) of a decay is defined to, and when the bias is not known."""
+    below = "Closer to the crossings' reading than the turning points' reading is." * (total < spread)
     missing = "No synthetic motion with known frequency for this oscillator." * (not known)
     return f"{below} {missing}".strip()
 

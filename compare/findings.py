@@ -19,7 +19,7 @@ from compare.overtones import Overtones, ratio_error, slope
 from compare.reconstruction import known_motion, model_phase, relative_rms
 from compare.results import Array, Curve, Mask, Reconstruction, Score, Statement
 from compare.spectrum import MOST, Orders, Ripple, ripple
-from compare.wording import frequency, in_pi, relative
+from compare.wording import frequency, in_pi, offset, relative, scientific
 from numeric.energy import amplitude_from_energy, energy_of
 
 LEAST_CHANGE = 0.01
@@ -99,11 +99,11 @@ def _oscillation(e: Evidence) -> Statement:
     return Statement(
         figure=1,
         title="The integrated oscillation",
-        paper="After 20 s the oscillation is still far from the linear region, with a final amplitude of about 2/3 pi.",
+        paper="After 20 s the oscillation is still far from the linear region, with a final amplitude of about 2/3 π.",
         measured=(
             f"From {e.size(float(run.u[0]))} the amplitude changes to A = {e.size(float(e.motion.energy_peak[-1]))} at "
             f"t = {e.clock(float(run.time[-1]))}, over {e.motion.rising.size - 1} whole cycles. "
-            f"Two integrators differ by at most {e.motion.disagreement:.1e}."
+            f"Two integrators differ by at most {scientific(e.motion.disagreement)}{_unit(e)}."
         ),
     )
 
@@ -111,7 +111,7 @@ def _oscillation(e: Evidence) -> Statement:
 def _spectrogram(e: Evidence) -> Statement:
     levels = e.overtones.of_u
     loud = [m for m in range(2, MOST + 1) if levels.level_db(m) > -60]
-    heard = ", ".join(f"{m} at {levels.level_db(m):.0f} dB" for m in loud) or "none above -60 dB"
+    heard = ", ".join(f"{m} at {_db(levels.level_db(m))}" for m in loud) or "none above −60 dB"
     even = max(levels.level_db(m) for m in range(2, MOST + 1, 2))
     return Statement(
         figure=2,
@@ -119,7 +119,7 @@ def _spectrogram(e: Evidence) -> Statement:
         paper="A fundamental of high energy and five weaker components whose slope increases with their order.",
         measured=(
             f"The fundamental holds {100 * levels.share[1]:.2f} % of the energy{_offset(levels)}; overtones re the "
-            f"fundamental: {heard}. The strongest even multiple is at {even:.0f} dB.{_slopes(e)}"
+            f"fundamental: {heard}. The strongest even multiple is at {_db(even)}.{_slopes(e)}"
         ),
     )
 
@@ -156,9 +156,9 @@ def _derivative(e: Evidence) -> Statement:
     return Statement(
         figure=3,
         title="Time-frequency plane of the derivative",
-        paper="The higher harmonics stand out more, by the factor omega^2 in the power spectrum; two are aliased.",
+        paper="The higher harmonics stand out more, by the factor ω² in the power spectrum; two are aliased.",
         measured=(
-            f"{raised}The highest multiple above -60 dB, {top}, reaches {e.hertz(highest)} with the Nyquist frequency "
+            f"{raised}The highest multiple above −60 dB, {top}, reaches {e.hertz(highest)} with the Nyquist frequency "
             f"at {e.hertz(nyquist)}, {verdict}."
         ),
     )
@@ -220,6 +220,19 @@ def _frequency(e: Evidence) -> Statement:
     )
 
 
+def _db(level: float) -> str:
+    return f"{level:.0f} dB".replace("-", "−")
+
+
+def _signed(value: float) -> str:
+    return f"{value:+.4f}".replace("-", "−")
+
+
+def _unit(e: Evidence) -> str:
+    unit = e.motion.setting.oscillator.unit
+    return f" {unit}" if unit else ""
+
+
 def _zones(e: Evidence, name: str) -> str:
     score = e.scores[name]
     return f"{score.label}: {', '.join(relative(x) for x in (score.rms_start, score.rms_interior, score.rms_end))}"
@@ -268,7 +281,7 @@ def _drift(e: Evidence) -> str:
     phase = model_phase(e.motion, e.motion.exact_at_energy)
     at = np.interp(e.motion.rising, e.motion.time, phase)
     drift = float(at[-1] - at[0] - 2 * np.pi * (e.motion.rising.size - 1))
-    return f" Its phase (23) drifts by {drift:+.4f} rad over {e.motion.rising.size - 1} cycles."
+    return f" Its phase (23) drifts by {_signed(drift)} rad over {e.motion.rising.size - 1} cycles."
 
 
 def _wigner(e: Evidence) -> Statement:
@@ -292,12 +305,10 @@ def _cause(e: Evidence) -> str:
     cause = e.cause
     if cause is None:
         return f"Against the cycle frequency the error is {e.rms('wigner')} rms."
-    measured, alone, predicted = (
-        relative(x, signed=True) for x in (cause.measured, cause.fundamental_only, cause.predicted)
-    )
+    measured, alone, predicted = (offset(x) for x in (cause.measured, cause.fundamental_only, cause.predicted))
     text = (
-        f"On average the peak of the signal lies {measured} off. A signal of the fundamental alone gives {alone}, and "
-        f"the curvature of omega0(t) predicts {predicted} to leading order"
+        f"On average the peak of the signal lies {measured}. A signal of the fundamental alone gives {alone}, and "
+        f"the curvature of ω₀(t) predicts {predicted} to leading order"
     )
     return f"{text}{_verdict(cause)}."
 
@@ -346,7 +357,7 @@ def _harmonics(e: Evidence) -> Statement:
     slip = ""
     if first == 3 and e.motion.setting.is_pendulum:
         level = e.overtones.of_u.level_db(2)
-        slip = f" The text's factor 2 is a slip: multiple 2 is at {level:.0f} dB, multiple 3 is meant."
+        slip = f" The text's factor 2 is a slip: multiple 2 is at {_db(level)}, multiple 3 is meant."
     return Statement(
         figure=9,
         title="A higher harmonic against its multiple of the fundamental",
@@ -365,4 +376,4 @@ def _harmonic_error(e: Evidence, multiple: int) -> str:
     spans = ((low, high), (low, low + quarter), (high - quarter, high))
     errors = [ratio_error(curve, multiple, e.motion, *span) for span in spans]
     whole, early, late = (relative(float(np.sqrt(np.mean(x**2)))) if x.size else "no value" for x in errors)
-    return f"harmonic {multiple} is {multiple} omega0 within {whole} rms ({early} early, {late} late in the interior)"
+    return f"harmonic {multiple} is {multiple} ω₀ within {whole} rms ({early} early, {late} late in the interior)"

@@ -23,6 +23,7 @@ from compare.study import ranges, study
 from compare.summary import cards, decay_sentences, study_sentences, study_title
 from compare.summary_recording import recording_cards, recording_sentences, recording_title
 from compare.timing import timings
+from compare.wording import symbol
 from numeric.potential import peak_limit
 from numeric.recording import Recording
 from symbolic.errors import InputError
@@ -182,7 +183,7 @@ def _system_report(
         cards=cards(result, finding, times),
         derivation=derivation(shown),
         study=result,
-        ranges=found,
+        ranges=_shown_ranges(result, plan.target),
         decay=decay,
         recording=None,
         timings=times,
@@ -192,12 +193,17 @@ def _system_report(
     )
 
 
+def _shown_ranges(result: Study, target: float) -> tuple[Range, ...]:
+    """Ranges at the target asked for and at the three of the order map."""
+    return tuple(item for level in sorted({1e-2, 1e-3, 1e-6, target}, reverse=True) for item in ranges(result, level))
+
+
 def _lead(case: Setting) -> str:
     o = case.oscillator
-    values = ", ".join(f"{name} = {float(value):.6g}" for name, value in o.parameters.items() if value is not None)
+    values = ", ".join(f"{symbol(name)} = {float(v):.6g}" for name, v in o.parameters.items() if v is not None)
     given = f" with {values}" if values else ""
     reference = f"  {o.reference}." if o.reference else ""
-    return f"{o.title}: {o.equation}{given}.{reference}".replace("..", ".")
+    return f"{o.title}{given}.{reference}".replace("..", ".")
 
 
 def _system_csv(result: Study, decay: DecayComparison) -> dict[str, str]:

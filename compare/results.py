@@ -131,10 +131,13 @@ class BudgetRow:
     averaging: float | None
     estimator: float | None
     reference: float
+    """Numerical error of the reference itself."""
     total: float
     closure: float
     """rms of what the named parts leave unexplained."""
     note: str = ""
+    definition: float = 0.0
+    """How well omega0(t) of a decay is defined at all: crossings against turning points."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from compare.results import Card, DecayComparison, Range, Score, Study, Timing
-from compare.wording import amplitude, frequency, in_pi, nanoseconds, relative
+from compare.wording import amplitude, frequency, in_pi, nanoseconds, offset, relative, scientific
 
 
 def study_title(study: Study, found: Range) -> str:
@@ -18,10 +18,14 @@ def study_title(study: Study, found: Range) -> str:
     target = relative(found.target)
     if found.up_to is None:
         return f"Order {found.order} misses {target} at every amplitude studied for {study.title}"
-    symbol = "eps" if study.variable == "eps" else "A"
+    symbol = _symbol(study)
     reach = amplitude(found.up_to, study.amplitude_unit)
     extent = "on all of the range studied, up to" if found.up_to >= study.amplitudes[-1] else "up to"
     return f"Order {found.order} stays within {target} {extent} {symbol} = {reach}"
+
+
+def _symbol(study: Study) -> str:
+    return "ε" if study.variable == "eps" else study.variable
 
 
 def study_sentences(study: Study, found: Sequence[Range]) -> tuple[str, ...]:
@@ -30,14 +34,23 @@ def study_sentences(study: Study, found: Sequence[Range]) -> tuple[str, ...]:
 
 
 def _study_sentences(study: Study, found: Sequence[Range]) -> Iterator[str]:
-    symbol = "eps" if study.variable == "eps" else "A"
+    symbol = _symbol(study)
     reached = [item for item in found if item.up_to is not None]
     target = relative(found[0].target)
-    listed = ", ".join(f"order {item.order} to {item.up_to:.3g}" for item in reached)
-    yield f"Relative error within {target}, counted up to the first violation: {listed or 'no order'} ({symbol})."
-    yield f"The exact frequency comes from: {study.reference_name}, known to {float(study.reference_error.max()):.0e}."
+    listed = ", ".join(f"order {item.order} up to {symbol} = {item.up_to:.3g}" for item in _sample(reached))
+    yield f"The relative error stays within {target}, counted to the first violation, for {listed or 'no order'}."
+    known = scientific(float(study.reference_error.max()), digits=1)
+    yield f"The exact frequency is the {study.reference_name}, known to {known}."
     if study.convergence_note:
         yield study.convergence_note
+
+
+def _sample(found: Sequence[Range]) -> Sequence[Range]:
+    """At most four of the orders, the first and the last among them."""
+    if len(found) <= 4:
+        return found
+    picks = np.linspace(0, len(found) - 1, 4).round().astype(int)
+    return [found[i] for i in picks]
 
 
 def cards(study: Study, found: Range, timings: Sequence[Timing]) -> tuple[Card, Card, Card]:
@@ -46,7 +59,7 @@ def cards(study: Study, found: Range, timings: Sequence[Timing]) -> tuple[Card, 
 
 
 def _range_card(study: Study, found: Range) -> Card:
-    symbol = "eps" if study.variable == "eps" else "A"
+    symbol = _symbol(study)
     value = "none" if found.up_to is None else f"{symbol} ≤ {amplitude(found.up_to, study.amplitude_unit)}"
     ends = (
         ""
@@ -62,7 +75,7 @@ def _range_card(study: Study, found: Range) -> Card:
 def _worst_card(study: Study, order: int) -> Card:
     row = study.relative_error[study.orders.index(order)]
     at = int(np.argmax(np.abs(row)))
-    symbol = "eps" if study.variable == "eps" else "A"
+    symbol = _symbol(study)
     where = f"{symbol} = {amplitude(float(study.amplitudes[at]), study.amplitude_unit)}"
     text = f"Order {order} against the exact frequency ({study.reference_name}), at {where}."
     return Card("Worst error", relative(float(row[at]), signed=True), text)
@@ -73,8 +86,13 @@ def _cost_card(timings: Sequence[Timing]) -> Card:
         return Card("Cost", "not measured", "No evaluation time was taken in this run.")
     best = min(timings, key=lambda item: item.nanoseconds)
     others = [item for item in timings if item is not best]
-    text = f"{best.name}, {best.note}." + "".join(f"  {item.name}: {nanoseconds(item.nanoseconds)}." for item in others)
+    listed = "; ".join(f"{item.name} {nanoseconds(item.nanoseconds)}" for item in others)
+    text = f"{_capital(best.name)}, {best.note}." + (f"  For comparison: {listed}." if listed else "")
     return Card("Cost per value", nanoseconds(best.nanoseconds), text)
+
+
+def _capital(text: str) -> str:
+    return text[:1].upper() + text[1:]
 
 
 def decay_sentences(decay: DecayComparison) -> tuple[str, ...]:
@@ -89,20 +107,18 @@ def _decay_sentences(decay: DecayComparison) -> Iterator[str]:
     for name, words in _HEADLINES:
         score = scores.get(name)
         if score is not None and score.rms_interior is not None:
-            yield words.format(
-                label=score.label, rms=relative(score.rms_interior), mean=relative(score.mean_interior, signed=True)
-            )
+            yield words.format(label=score.label, rms=relative(score.rms_interior), mean=offset(score.mean_interior))
     yield from (_CAUSE for statement in decay.statements if "not harmonics" in statement.measured)
     yield from _best_and_failed(decay.scores)
 
 
-_CAUSE = "The cause of that bias is the curvature of omega0(t): a signal without harmonics shows the same."
+_CAUSE = "The cause of that bias is the curvature of ω₀(t), not harmonics: a signal without harmonics shows the same."
 
 _HEADLINES = (
     ("closed-form", "The exact backbone at the amplitude from the energy follows it within {rms} rms."),
     ("averaged-action", "The averaged-action model, which needs no integration, follows it within {rms} rms."),
-    ("lindstedt-4", "The fourth-order expansion is {rms} rms off ({mean} on average)."),
-    ("wigner", "The peak of the full-length Wigner distribution lies {mean} off on average ({rms} rms)."),
+    ("lindstedt-4", "The fourth-order expansion is {rms} rms off, {mean} on average."),
+    ("wigner", "The peak of the full-length Wigner distribution lies {mean} on average ({rms} rms)."),
     ("pseudo-wigner", "A windowed (pseudo-)Wigner peak comes within {rms} rms."),
     ("pseudo-wigner-corrected", "With its computable curvature bias removed, within {rms} rms."),
 )
@@ -130,7 +146,7 @@ def _reference_sentence(decay: DecayComparison) -> str:
     text = f"Every curve is held against the cycle frequency of the integrated solution, {span} unless said otherwise."
     if decay.disagreement is None:
         return text
-    return f"{text} Two integrators agree within {decay.disagreement:.1e} {decay.case.unit}".strip() + "."
+    return f"{text} Two integrators agree within {scientific(decay.disagreement)} {decay.case.unit}".strip() + "."
 
 
 def _best_and_failed(scores: Sequence[Score]) -> Iterator[str]:

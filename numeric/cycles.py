@@ -13,10 +13,9 @@ crossing depends on the amplitude, so that crossings of one direction alone woul
 first order in the damping, and those of the other direction by as much with the other sign.  The centre between an
 upward and the next downward crossing is free of it; these centres, 2 pi apart, are the events then.
 
-A second reading, from the other families of events (turning points, centres of the lower half
-swings), differs from the first by
-what a damped oscillation leaves undefined, of relative order (mu/k)^2, and by interpolation error; this spread is
-part of the uncertainty.  Beyond its outermost events the spline is continued by at most 0.6 of their spacing, which
+A second reading, from the other families of events (turning points, centres of the lower half swings), differs from the
+first by what a damped oscillation leaves undefined, of relative order (mu/k)^2, and by interpolation error; this spread
+is part of the uncertainty.  Beyond its outermost events the spline is continued by at most 0.6 of their spacing, which
 reaches a start or an end at a turning point; its error estimate grows accordingly.
 """
 
@@ -107,18 +106,29 @@ class CycleFrequency:
         return omega
 
     def uncertainty_at(self, time: ArrayLike) -> Array:
-        """Return the error estimate of ``at``: interpolation, plus the spread of the readings.
+        """Return the error estimate of ``at``: interpolation, plus the spread of the readings; NaN where none reach."""
+        return np.asarray(self.interpolation_error_at(time) + self.spread_at(time))
 
-        Where a reading does not reach, its difference is taken at the nearest time it does.  NaN where none does.
-        """
+    def interpolation_error_at(self, time: ArrayLike) -> Array:
+        """Return how well the reading that ``at`` takes is interpolated: the numerical error of the reference."""
         t = np.atleast_1d(np.asarray(time, dtype=float))
-        error, spread = np.full_like(t, np.nan), np.zeros_like(t)
+        error = np.full_like(t, np.nan)
         for reading in reversed(self.readings):
             inside = reading.covers(t)
             error[inside] = reading.interpolation_error(t[inside])
+        return error
+
+    def spread_at(self, time: ArrayLike) -> Array:
+        """Return how far the readings differ: how well the omega0(t) of a decay is defined at all.
+
+        Where a reading does not reach, its difference is taken at the nearest time it does.
+        """
+        t = np.atleast_1d(np.asarray(time, dtype=float))
+        spread = np.zeros_like(t)
+        for reading in reversed(self.readings):
             nearest = np.clip(t, *reading.span)
             spread = np.fmax(spread, np.abs(reading.omega(nearest) - self.at(nearest)))
-        return np.asarray(error + spread)
+        return spread
 
 
 def cycle_frequency(trajectory: Trajectory, *, dynamics: Dynamics | None = None) -> CycleFrequency:

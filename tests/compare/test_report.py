@@ -92,7 +92,7 @@ def test_the_papers_case_is_the_papers():
 def test_a_limit_cycle_reports_in_eps():
     case = setting(find("van-der-pol").with_parameters({"eps": "0.4"}), initial=(1.0, 0.0), duration=40.0, rate=5.0)
     report = assemble_system(case, orders=(2, 4), amplitudes=[0.2, 0.5], order=4)
-    assert "eps = 0.5" in report.title
+    assert "ε = 0.5" in report.title
     assert report.study.limit is None
     assert any("Amplitude of the limit cycle" in formula.title for formula in report.derivation.formulas)
 
@@ -109,7 +109,7 @@ def test_bad_requests_are_refused():
 
 
 @pytest.mark.parametrize(
-    ("value", "text"), [(0.5, "50 %"), (0.0123, "1.2 %"), (0.00099, "0.099 %"), (9.9e-5, "9.9e-05"), (0.0, "0")]
+    ("value", "text"), [(0.5, "50 %"), (0.0123, "1.2 %"), (0.00099, "0.099 %"), (9.9e-5, "9.9 × 10⁻⁵"), (0.0, "0")]
 )
 def test_errors_are_worded_without_prefixes(value, text):
     assert relative(value) == text
