@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from typing import TypeAlias
 
 from flint import arb, ctx
 
 from symbolic.balls import rational
-from symbolic.enclosure import Amplitude, enclose
+from symbolic.enclosure import DEFINITIONS, Amplitude, enclose
 from symbolic.energy_integral import energy_integral
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion
@@ -19,6 +20,10 @@ from symbolic.oscillator import Oscillator
 from symbolic.pade import mapped, mapping_for, pade
 from symbolic.resummation import Resummation
 from symbolic.singularity import limits
+from symbolic.spaces import Scalar
+
+FIRST_TERMS = 4
+"""Order through which an expansion must agree with the oscillator's own series."""
 
 Formula: TypeAlias = Expansion | Resummation
 
@@ -37,15 +42,17 @@ class Accuracy:
 def certified_error(oscillator: Oscillator, formula: Formula, amplitude: Amplitude, *, bits: int = 128) -> arb:
     """Return a ball around formula/omega0 - 1 at an amplitude, in the formula's own definition of it.
 
-    Raises InputError where the formula does not hold, for another oscillator's formula, for definitions that have no
-    enclosure, and as ``enclose`` does.
+    The sign of the answer is proved when the ball excludes 0.  Raises InputError where the formula does not hold, for
+    another oscillator's formula, for definitions that have no enclosure, and as ``enclose`` does.
 
     >>> from symbolic.systems import find
     >>> error = certified_error(find("pendulum"), nome(find("pendulum"), 16), 1)
     >>> bool(abs(error) < 1e-18)
     True
     """
-    if formula.system != oscillator.name or formula.scale != oscillator.natural_frequency or formula.variable != "A":
+    if isinstance(formula, Expansion):
+        check_belongs(oscillator, formula)
+    elif formula.system != oscillator.name or formula.scale != oscillator.natural_frequency or formula.variable != "A":
         raise InputError(
             f"the {formula.method} formula of {formula.system} in {formula.variable} has no certified error against "
             f"{oscillator.name}; derive it in the amplitude from the same parameters"
@@ -53,6 +60,34 @@ def certified_error(oscillator: Oscillator, formula: Formula, amplitude: Amplitu
     exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
     with ctx.workprec(bits + 40):
         return formula.in_balls(arb(rational(exact.amplitude))) / exact.omega - 1
+
+
+def check_belongs(oscillator: Oscillator, expansion: Expansion) -> None:
+    """Raise InputError unless the series is an amplitude series of this oscillator, judged by its first terms.
+
+    >>> from symbolic.lindstedt import lindstedt
+    >>> from symbolic.systems import find
+    >>> check_belongs(find("duffing"), lindstedt(find("pendulum"), 4))
+    Traceback (most recent call last):
+        ...
+    symbolic.errors.InputError: the expansion of pendulum is not one of duffing-hardening; derive it from ...
+    """
+    if expansion.variable != "A" or expansion.amplitude not in DEFINITIONS:
+        raise InputError(
+            f"a certified error needs an expansion in the amplitude defined by {' or '.join(DEFINITIONS)}, not "
+            f"{expansion.amplitude} in {expansion.variable}; derive it so"
+        )
+    own = _first_terms(oscillator, expansion.amplitude)
+    differ = any(a != b for a, b in zip(own, expansion.coefficients, strict=False))
+    if differ or expansion.scale != oscillator.natural_frequency:
+        raise InputError(
+            f"the expansion of {expansion.system} is not one of {oscillator.name}; derive it from the same parameters"
+        )
+
+
+@lru_cache(maxsize=64)
+def _first_terms(oscillator: Oscillator, definition: str) -> tuple[Scalar, ...]:
+    return energy_integral(oscillator, FIRST_TERMS, amplitude=definition).coefficients
 
 
 def resummations(oscillator: Oscillator, order: int) -> tuple[Formula, ...]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
 from typing import Final, Literal, TypeAlias
 
 import sympy
@@ -19,21 +18,18 @@ from flint import arb, ctx
 from symbolic.ball_functions import number
 from symbolic.balls import rational
 from symbolic.elliptic import closed_form
-from symbolic.energy_integral import energy_integral
 from symbolic.errors import InputError
-from symbolic.expansion import Expansion
 from symbolic.integrand import integrand_of
 from symbolic.oscillator import Oscillator
 from symbolic.period_quadrature import frequency
 from symbolic.separatrix import Separatrix, limits, separatrix
-from symbolic.spaces import Scalar
 from symbolic.strip import strip_of
 from symbolic.tokens import parse_number
 from symbolic.turning_points import Orbit, orbit
 from symbolic.walk import UndecidedError, decided
 from symbolic.well import Well, well_of
 
-__all__ = ["Amplitude", "Enclosure", "Separatrix", "certified_error", "enclose", "separatrix"]
+__all__ = ["Amplitude", "Enclosure", "Separatrix", "enclose", "separatrix"]
 
 Amplitude: TypeAlias = "Fraction | int | str | float | sympy.Rational"
 Method: TypeAlias = Literal["closed form", "quadrature"]
@@ -49,8 +45,6 @@ GUARD_BITS: Final = 40
 CHECK_BITS: Final = 64
 """Precision of a limit that is only printed."""
 
-FIRST_TERMS: Final = 4
-"""Order to which an expansion is compared with the oscillator it is said to be of."""
 
 
 @dataclass(frozen=True)
@@ -239,53 +233,3 @@ def brief_number(value: Fraction) -> str:
     '0.3333333333'
     """
     return f"{float(value):.10g}"
-
-
-def certified_error(oscillator: Oscillator, expansion: Expansion, amplitude: Amplitude, *, bits: int = 128) -> arb:
-    """A ball around omega_series / omega_exact - 1 at an amplitude, in the expansion's own definition of it.
-
-    The exact coefficients are evaluated in balls; the sign of the answer is proved when the ball excludes 0.  Raises
-    InputError as ``enclose`` does, for definitions other than peak and trough, and when the expansion is not of this
-    oscillator.
-
-    >>> from symbolic.lindstedt import lindstedt
-    >>> from symbolic.systems import find
-    >>> pendulum = find("pendulum")
-    >>> certified_error(pendulum, lindstedt(pendulum, 4), 1).str(5, radius=False)
-    '3.5469e-5'
-    """
-    check_belongs(oscillator, expansion)
-    exact = enclose(oscillator, amplitude, definition=expansion.amplitude, bits=bits)
-    with ctx.workprec(bits + GUARD_BITS):
-        A, total = arb(rational(exact.amplitude)), arb(0)
-        for coefficient in reversed(expansion.coefficients):
-            total = total * A + coefficient
-        return total * number(exact.scale) / exact.omega - 1
-
-
-def check_belongs(oscillator: Oscillator, expansion: Expansion) -> None:
-    """Raise InputError unless the series is an amplitude series of this oscillator, judged by its first terms.
-
-    >>> from symbolic.lindstedt import lindstedt
-    >>> from symbolic.systems import find
-    >>> check_belongs(find("duffing"), lindstedt(find("pendulum"), 4))
-    Traceback (most recent call last):
-        ...
-    symbolic.errors.InputError: the expansion of pendulum is not one of duffing-hardening; derive it from ...
-    """
-    if expansion.variable != "A" or expansion.amplitude not in DEFINITIONS:
-        raise InputError(
-            f"a certified error needs an expansion in the amplitude defined by {' or '.join(DEFINITIONS)}, not "
-            f"{expansion.amplitude} in {expansion.variable}; derive it so"
-        )
-    own = _first_terms(oscillator, expansion.amplitude)
-    differ = any(a != b for a, b in zip(own, expansion.coefficients, strict=False))
-    if differ or expansion.scale != oscillator.natural_frequency:
-        raise InputError(
-            f"the expansion of {expansion.system} is not one of {oscillator.name}; derive it from the same parameters"
-        )
-
-
-@lru_cache(maxsize=64)
-def _first_terms(oscillator: Oscillator, definition: str) -> tuple[Scalar, ...]:
-    return energy_integral(oscillator, FIRST_TERMS, amplitude=definition).coefficients

@@ -41,6 +41,9 @@ _LAST: Final = 4
 """How many coefficients, of the upper half, stand for the size of those left out."""
 
 
+_POWERS = {2: "²", 3: "³"}
+
+
 @dataclass(frozen=True)
 class Singularity:
     """(1 - x/x_c)^exponent near x_c = modulus exp(i argument), x = X^step; exponents 0, 1, ... mean a logarithm.
@@ -101,14 +104,14 @@ class Limits:
         )
 
     def _place(self, s: Singularity) -> str:
-        x = self.variable if self.step == 1 else f"{self.variable}^{self.step}"
+        x = self.variable if self.step == 1 else f"{self.variable}{_POWERS.get(self.step, f'^{self.step}')}"
         scale = (self.radius or 0) ** self.step / s.modulus
         size = _with_error(s.modulus * scale, s.modulus_uncertainty * scale)
         if s.argument == 0:
             return f"{x} = {size}"
         if s.argument == math.pi:
-            return f"{x} = -{size}"
-        return f"|{x}| = {size}, arg = +-{_with_error(abs(s.argument), s.argument_uncertainty)}"
+            return f"{x} = −{size}"
+        return f"|{x}| = {size}, arg = ±{_with_error(abs(s.argument), s.argument_uncertainty)}"
 
 
 def limits(expansion: Expansion, *, longer: Expansion | None = None) -> Limits:
@@ -119,7 +122,7 @@ def limits(expansion: Expansion, *, longer: Expansion | None = None) -> Limits:
     >>> from symbolic.energy_integral import energy_integral
     >>> from symbolic.systems import find
     >>> limits(energy_integral(find("pendulum"), 40)).sentence()
-    'The series converges for |A| < 3.142 +- 0.002 (estimated: logarithm of the period at A^2 = 9.87 +- 0.02); ...'
+    'The series converges for |A| < 3.142 ± 0.002 (estimated: logarithm of the period at A² = 9.87 ± 0.02); ...'
     >>> limits(energy_integral(find("linear"), 40)).sentence()
     'The range of convergence is not known: every coefficient beyond the first is zero.'
     """
@@ -249,10 +252,10 @@ def _with_error(value: float, error: float) -> str:
     """A value with its uncertainty, to the digit where that begins.
 
     >>> _with_error(3.14159265, 0.00012)
-    '3.1416 +- 0.0002'
+    '3.1416 ± 0.0002'
     """
     if error < 1e-9 * abs(value):
         return f"{value:.10g}"
     digits = min(max(0, -math.floor(math.log10(error))), 12)
     step = 10.0**-digits
-    return f"{value:.{digits}f} +- {math.ceil(error / step) * step:.{digits}f}"
+    return f"{value:.{digits}f} ± {math.ceil(error / step) * step:.{digits}f}"

@@ -10,7 +10,8 @@ from flint import acb, arb, ctx, fmpq
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from symbolic.enclosure import certified_error, enclose, rounded_down, separatrix
+from symbolic.accuracy import certified_error
+from symbolic.enclosure import enclose, rounded_down, separatrix
 from symbolic.energy_integral import energy_integral
 from symbolic.errors import InputError
 from symbolic.integrand import GeneralIntegrand, OrbitBall, integrand_of

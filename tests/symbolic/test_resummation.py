@@ -223,5 +223,5 @@ def test_the_table_has_a_gap_where_a_formula_does_not_hold() -> None:
 def test_the_formula_of_another_oscillator_has_no_certified_error() -> None:
     with pytest.raises(InputError, match="of pendulum in A has no certified error against duffing-hardening"):
         certified_error(find("duffing"), nome(find("pendulum"), 8), 1)
-    with pytest.raises(InputError, match="van-der-pol in eps"):
+    with pytest.raises(InputError, match="peak in eps"):
         certified_error(find("van-der-pol"), expansion("van-der-pol", 8), 1)

@@ -208,8 +208,8 @@ def test_both_routes_meet(name: str) -> None:
 
 def test_the_sentence_is_one_line_with_every_number_in_it() -> None:
     assert limits(expansion("van-der-pol", 48)).sentence() == (
-        "The series converges for |eps| < 1.849 +- 0.005 (estimated: square-root branch point of the frequency at "
-        "|eps^2| = 3.42 +- 0.02, arg = +-1.792 +- 0.006); truncated at order 48 it errs by less than about 0.1 % up to "
+        "The series converges for |eps| < 1.849 ± 0.005 (estimated: square-root branch point of the frequency at "
+        "|eps²| = 3.42 ± 0.02, arg = ±1.792 ± 0.006); truncated at order 48 it errs by less than about 0.1 % up to "
         "eps = 1.76."
     )
 
