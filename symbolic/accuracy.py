@@ -15,11 +15,12 @@ from symbolic.enclosure import DEFINITIONS, Amplitude, enclose
 from symbolic.energy_integral import energy_integral
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion
+from symbolic.lindstedt import lindstedt
 from symbolic.nome import nome
 from symbolic.oscillator import Oscillator
 from symbolic.pade import mapped, mapping_for, pade
 from symbolic.resummation import Resummation
-from symbolic.singularity import limits
+from symbolic.singularity import Limits, limits
 from symbolic.spaces import Scalar
 
 FIRST_TERMS = 4
@@ -29,6 +30,8 @@ Formula: TypeAlias = Expansion | Resummation
 
 _LONGER = 40
 """Order of the expansion that settles the singularity when the one asked for is shorter."""
+_SETTLING = 48
+"""The same for any amplitude definition and for limit cycles, by Lindstedt-Poincaré."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +91,18 @@ def check_belongs(oscillator: Oscillator, expansion: Expansion) -> None:
 @lru_cache(maxsize=64)
 def _first_terms(oscillator: Oscillator, definition: str) -> tuple[Scalar, ...]:
     return energy_integral(oscillator, FIRST_TERMS, amplitude=definition).coefficients
+
+
+def settled_limits(oscillator: Oscillator, expansion: Expansion) -> Limits:
+    """Return the limits of an expansion; a short one is settled by the same expansion carried further.
+
+    >>> from symbolic.systems import find
+    >>> settled_limits(find("pendulum"), energy_integral(find("pendulum"), 8)).sentence()
+    'The series converges for |A| < 3.1416 ± ...'
+    """
+    if expansion.names or expansion.order >= _SETTLING:
+        return limits(expansion)
+    return limits(expansion, longer=lindstedt(oscillator, _SETTLING, amplitude=expansion.amplitude))
 
 
 def resummations(oscillator: Oscillator, order: int) -> tuple[Formula, ...]:

@@ -81,7 +81,15 @@ def printed(oscillator: Oscillator, result: Result, style: str, checks: tuple[Ch
             return joined(result.mathml())
         case "python":
             return joined(tuple(map(str, expressions(result))))
-    return as_text(oscillator, result.to_dict()) + certified(checks)
+    return as_text(oscillator, result.to_dict()) + range_of_use(oscillator, result) + certified(checks)
+
+
+def range_of_use(oscillator: Oscillator, result: Result) -> str:
+    """Where the series converges and how far it may be used, in one line; nothing for a slow flow."""
+    from symbolic.accuracy import settled_limits
+    from symbolic.expansion import Expansion
+
+    return f"\n{settled_limits(oscillator, result).sentence()}\n" if isinstance(result, Expansion) else ""
 
 
 def certified(checks: tuple[Check, ...] | None) -> str:
