@@ -12,6 +12,7 @@ import numpy as np
 
 from compare import tables
 from compare.bind import bind
+from compare.certified import certified
 from compare.decay import HIGH_ORDER, compare_decay
 from compare.derivation import Exact, derivation, derive, undamped
 from compare.models import LOW_ORDERS
@@ -188,6 +189,7 @@ def _system_report(
         recording=None,
         timings=times,
         provenance=provenance(plan.settings(), command=command, seconds=seconds),
+        certified=certified(undamped(plan.setting.oscillator), plan.order, float(plan.amplitudes[-1])),
         csv=_system_csv(result, decay),
         finding=finding,
     )

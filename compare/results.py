@@ -88,6 +88,25 @@ class Range:
 
 
 @dataclass(frozen=True)
+class CertifiedRow:
+    """One formula: its relative errors, proved to within ``radius``; None where it does not hold."""
+
+    method: str
+    errors: tuple[float | None, ...]
+    radius: float
+
+
+@dataclass(frozen=True)
+class Certified:
+    """The series and its resummations of one order, each error enclosed against the exact frequency."""
+
+    order: int
+    amplitudes: Array
+    """Peak amplitudes."""
+    rows: tuple[CertifiedRow, ...]
+
+
+@dataclass(frozen=True)
 class Curve:
     """One omega0(t): a reference, a model, an expansion bound to an amplitude, or an estimate."""
 
@@ -329,6 +348,8 @@ class Report:
     recording: RecordingComparison | None
     timings: tuple[Timing, ...]
     provenance: Provenance
+    certified: Certified | None = None
+    """Proved errors of the series and its resummations, where omega0 can be enclosed."""
     csv: Mapping[str, str] = field(default_factory=dict)
     """File name to CSV text, for the download links."""
     finding: Range | None = None

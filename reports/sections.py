@@ -13,7 +13,7 @@ from reports.formulas import FormulaError, formula_latex, formula_mathml
 from reports.paper_figures import paper_figures
 from reports.recording_figures import recording_blocks
 from reports.study_figures import backbone_block, error_block, map_block, order_needed
-from reports.tables import budget_table, range_table, score_table, timing_table
+from reports.tables import budget_table, certified_table, range_table, score_table, timing_table
 from reports.wording import number
 
 PartKind = Literal["figure", "table", "formula", "text", "lines", "statement", "code", "downloads", "provenance"]
@@ -124,6 +124,8 @@ def _orders(report: Report) -> Iterator[Part]:
     if report.ranges:
         letter = "A" if study.variable == "A" else "ε"
         yield Part("table", range_table(report.ranges, letter, study.amplitude_unit))
+    if report.certified:
+        yield Part("table", certified_table(report.certified, study.amplitude_unit))
 
 
 def _tracks(report: Report) -> Iterator[Part]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from compare.results import BudgetRow, Range, Score, Timing
+from compare.results import BudgetRow, Certified, Range, Score, Timing
 from reports.wording import NONE, number, relative, threshold
 
 
@@ -98,6 +98,20 @@ def _reach(reach: dict[tuple[int, float], float | None], order: int, target: flo
         return NONE
     up_to = reach[order, target]
     return "nowhere" if up_to is None else number(up_to)
+
+
+def certified_table(found: Certified, unit: str) -> Table:
+    """Return the series beside its resummations, one column per amplitude."""
+    largest = max((row.radius for row in found.rows), default=0.0)
+    return Table(
+        "certified",
+        f"Relative error of ω₀ by each formula of order {found.order} at peak amplitudes"
+        + (f" in {unit}" if unit else "")
+        + f", enclosed against the exact frequency in ball arithmetic: proved to within {relative(largest)}. "
+        "A dash means that the formula does not hold there.",
+        ("formula", *(f"A = {number(a)}" for a in found.amplitudes)),
+        tuple(Row((row.method, *(relative(e, signed=True) for e in row.errors))) for row in found.rows),
+    )
 
 
 def timing_table(timings: Sequence[Timing]) -> Table:

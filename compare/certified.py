@@ -1,0 +1,53 @@
+"""The truncated series and its resummations with errors that are proved, at a few amplitudes."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+
+from compare.results import Array, Certified, CertifiedRow
+from symbolic.accuracy import Accuracy, accuracy
+from symbolic.enclosure import separatrix
+from symbolic.errors import InputError
+from symbolic.expansion import Expansion
+from symbolic.oscillator import Oscillator
+
+SHARES = (0.25, 0.5, 0.7, 0.9, 0.95)
+"""Amplitudes as shares of the separatrix, or of the largest amplitude studied where there is none."""
+
+
+def certified(oscillator: Oscillator, order: int, largest: float) -> Certified | None:
+    """Return proved errors of every formula of this order, or None where omega0 has no enclosure.
+
+    That is so for limit cycles and damped oscillators, and for parameters without a value.
+
+    >>> from symbolic.systems import find
+    >>> table = certified(find("pendulum"), 8, 3.0)
+    >>> [f"{error:.0e}" for error in table.rows[0].errors]
+    ['1e-08', '2e-05', '9e-04', '3e-02', '9e-02']
+    """
+    try:
+        amplitudes = _amplitudes(oscillator, largest)
+        found = accuracy(oscillator, order, [Fraction(a) for a in amplitudes])
+    except InputError:
+        return None  # said on the page by the section's absence; the study has its own reference
+    if not any(row.errors and row.errors[0] is not None for row in found):
+        return None
+    return Certified(order=order, amplitudes=amplitudes, rows=tuple(_row(item) for item in found))
+
+
+def _amplitudes(oscillator: Oscillator, largest: float) -> Array:
+    limit = separatrix(oscillator).peak
+    top = largest if limit is None else float(limit)
+    found = np.array([float(f"{share * top:.3g}") for share in SHARES])
+    found.flags.writeable = False
+    return found
+
+
+def _row(item: Accuracy) -> CertifiedRow:
+    """Floats for print: the middle of each ball, and the largest distance of any ball from its middle."""
+    errors = tuple(None if ball is None else float(ball.mid()) for ball in item.errors)
+    radii = [float(ball.rad()) for ball in item.errors if ball is not None]
+    name = "truncated series" if isinstance(item.formula, Expansion) else item.formula.method
+    return CertifiedRow(name, errors, max(radii, default=0.0))
