@@ -10,28 +10,30 @@ import numpy as np
 
 from numeric.arrays import frozen
 from numeric.errors import InputError
-from numeric.samples import TWO_PI, Array
+from numeric.samples import TWO_PI, Array, Floats
 
 
 @dataclass(frozen=True)
 class Distribution:
     """``values[frequency, time]``, shape ``(omega.size, time.size)``; omega in rad per time unit.
 
-    The plane itself is kept as a read-only view (a copy would double the largest array here); the axes are copies.
+    ``values`` are float64, or float32 where they were computed so; the plane is kept as a read-only view (a copy would
+    double the largest array here), the axes are copies.
 
     >>> plane = Distribution(np.ones((2, 3)), np.array([0.0, np.pi]), np.arange(3.0), "example")
     >>> plane.values.shape, plane.frequency_hz.tolist()
     ((2, 3), [0.0, 0.5])
     """
 
-    values: Array
+    values: Floats
     omega: Array
     time: Array
     name: str
     settings: Mapping[str, object] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        plane = np.asarray(self.values, dtype=np.float64).view()
+        plane = np.asarray(self.values)
+        plane = plane.astype(np.float64, copy=False).view() if plane.dtype != np.float32 else plane.view()
         if plane.shape != (np.size(self.omega), np.size(self.time)):
             raise InputError(
                 f"{self.name}: values have shape {plane.shape}, the axes need "

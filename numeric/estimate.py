@@ -65,6 +65,7 @@ def estimate(
     harmonics: int | None = None,
     harmonic: int = 1,
     order: int = 6,
+    band_limited: bool = False,
     bias: bool = True,
     remove_bias: bool = False,
 ) -> Track:
@@ -75,6 +76,9 @@ def estimate(
     of the windowed methods (default four cycles), ``smoothing_seconds`` the time smoothing (default one cycle).
     ``harmonics`` is the highest multiple that harmonic least squares fits (default: those the data show).
     ``order`` is that of the polynomial Wigner distribution, 4 or 6.
+    ``band_limited=True`` limits the signal to the band before a Wigner, pseudo- or smoothed pseudo-Wigner distribution
+    and decimates its lags: faster, free of cross terms with what lies outside, and less exact near the ends,
+    where the filter rings (not counted as valid).
     ``harmonic`` above 1 asks for the track of that harmonic, phase-locked to the fundamental found by ``method``.
     ``bias=False`` leaves the bias estimate out; ``remove_bias=True`` takes it off.  The mean is removed.
 
@@ -101,6 +105,7 @@ def estimate(
         harmonics=harmonics,
         order=order,
         bias=bias or remove_bias,
+        band_limited=band_limited,
     )
     track = finish(ESTIMATORS[method](request), remove_bias)
     return track if harmonic == 1 else harmonic_track(request.x, request.rate, track, multiple=harmonic)

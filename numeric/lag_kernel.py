@@ -26,9 +26,8 @@ from scipy import fft
 
 from numeric.bin_interpolation import OVERSAMPLING
 from numeric.errors import InputError
-from numeric.samples import Array
+from numeric.samples import Array, Floats
 
-Floats = NDArray[np.floating]
 Complexes = NDArray[np.complexfloating]
 
 BLOCK_BYTES = 2_000_000
@@ -39,9 +38,22 @@ REACHES = 16
 """Steps in which the number of lags grows from the border inwards: each is one length of transform."""
 
 
+def lagged(z: Complexes, reach: int, *, spare: int = 0) -> Complexes:
+    """View z[n + m], row n + spare for n = -spare .. N - 1 + spare, column m = 0 .. reach; zero outside the record.
+
+    >>> lagged(np.array([1.0 + 0j, 2.0, 3.0]), 1).real.tolist()
+    [[1.0, 2.0], [2.0, 3.0], [3.0, 0.0]]
+    """
+    padded = np.pad(z, (spare, spare + reach))
+    return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, reach + 1))
+
+
 @dataclass(frozen=True)
 class LagKernel:
-    """A complex signal with its lag window ``h[0..M]`` (h[0] = 1) and its time smoothing ``g[-G..G]``."""
+    """A complex signal with its lag window ``h[0..M]`` (h[0] = 1) and its time smoothing ``g[-G..G]``.
+
+    ``decimation`` is D; ``origin`` is the frequency that the signal was turned down by.
+    """
 
     signal: Complexes
     rate: float
@@ -49,6 +61,7 @@ class LagKernel:
     smoothing: Array
     n_fft: int
     decimation: int = 1
+    origin: float = 0.0
 
     def __post_init__(self) -> None:
         if self.n_fft < 2 * self.half_lags + 1:
@@ -80,16 +93,15 @@ class LagKernel:
     @property
     def omega(self) -> Array:
         """The bins of a plane, k = 0 .. n_fft - 1, in rad per time unit."""
-        return self.period * np.arange(self.n_fft) / self.n_fft
+        return self.origin + self.period * np.arange(self.n_fft) / self.n_fft
 
     @cached_property
     def _factors(self) -> tuple[Complexes, Complexes]:
-        """Views of (2 D / rate) z[n + D m] and conj z[n - D m], row n + G, column m; both run forwards in memory."""
-        reach, scale = self.decimation * self.half_lags, 2.0 * self.decimation / self.rate
-        z = np.pad(self.signal, reach + self.half_smoothing)
-        ahead = np.lib.stride_tricks.sliding_window_view(z * z.real.dtype.type(scale), reach + 1)
-        behind = np.lib.stride_tricks.sliding_window_view(z[::-1].conj(), reach + 1)[::-1]
-        return ahead[reach:, :: self.decimation], behind[:, :: self.decimation]
+        """The two factors of (2 D / rate) K, row n + G, column m."""
+        reach, scale = self.decimation * self.half_lags, self.signal.real.dtype.type(2.0 * self.decimation / self.rate)
+        ahead = lagged(self.signal * scale, reach, spare=self.half_smoothing)
+        behind = lagged(self.signal[::-1].conj(), reach, spare=self.half_smoothing)[::-1]
+        return ahead[:, :: self.decimation], behind[:, :: self.decimation]
 
     def reach(self, start: int, stop: int) -> int:
         """The largest lag index at which a column from ``start`` to ``stop`` is not zero, or a little above it."""

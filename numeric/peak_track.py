@@ -29,7 +29,7 @@ def peak_estimate(
     **settings: object,
 ) -> Track:
     """Ridge of a kernel with its deviation and its bias: by formula where given, else by estimating again."""
-    corridor, time, kernel = request.corridor, request.time, make(request.z)
+    corridor, time, kernel, border = request.corridor, request.time, make(request.z), border + request.ringing
     work = 20.0 * time.size * kernel.n_fft * (1.0 + np.log2(kernel.n_fft))
     checked_work(
         work, f"{method} of {time.size} samples by {kernel.n_fft} bins", "use a windowed method or less signal"
@@ -48,10 +48,16 @@ def peak_estimate(
         bias = formula_bias(time, ridge.omega, valid, kernel=formula)
     elif request.bias:
         bias = reestimated_bias(time, ridge.omega, valid, resolution=2.0 * border, estimator=again)
-    how = {"bias_by": "formula" if formula is not None else "estimating again on the fitted chirp and amplitude"}
+    how: dict[str, object] = {"band_limited": request.band_limited}
+    how |= {"bias_by": "formula" if formula is not None else "estimating again on the fitted chirp and amplitude"}
     return Track(
         time, ridge.omega, valid, method, deviation(level), bias, request.settings(noise=level.noise, **how, **settings)
     )
+
+
+def half_lag_window(request: Request) -> Array:
+    """h[0..M] at every lag, decimated or not: the band passes what the peak answers to."""
+    return window(request.lag_window, request.half)[request.half :]
 
 
 def by_wigner(request: Request) -> Track:
@@ -59,7 +65,7 @@ def by_wigner(request: Request) -> Track:
     return peak_estimate(
         request,
         "wigner",
-        lambda z: wigner_kernel(z, request.rate),
+        lambda z: wigner_kernel(z, request.rate, band=request.band),
         border=request.cycle,
         deviation=lambda level: full_length_deviation(level, request.rate),
     )
@@ -69,7 +75,9 @@ def by_pseudo_wigner(request: Request) -> Track:
     """Peak of the pseudo-Wigner distribution."""
 
     def make(z: ComplexArray) -> LagKernel:
-        return wigner_kernel(z, request.rate, lag_seconds=request.lag_seconds, lag_window=request.lag_window)
+        return wigner_kernel(
+            z, request.rate, lag_seconds=request.lag_seconds, lag_window=request.lag_window, band=request.band
+        )
 
     kernel = make(request.z)
     return peak_estimate(
@@ -77,9 +85,9 @@ def by_pseudo_wigner(request: Request) -> Track:
         "pseudo-wigner",
         make,
         border=0.5 * request.lag_seconds,
-        deviation=lambda level: peak_deviation(level, request.rate, kernel.lag_window),
+        deviation=lambda level: peak_deviation(level, request.rate, half_lag_window(request)),
         formula=kernel,
-        lag_seconds=2.0 * kernel.half_lags / request.rate,
+        lag_seconds=2.0 * request.half / request.rate,
         lag_window=request.lag_window,
     )
 
@@ -94,6 +102,7 @@ def by_smoothed_pseudo_wigner(request: Request) -> Track:
             lag_seconds=request.lag_seconds,
             lag_window=request.lag_window,
             smoothing_seconds=request.smoothing_seconds,
+            band=request.band,
         )
 
     kernel = make(request.z)
@@ -102,8 +111,8 @@ def by_smoothed_pseudo_wigner(request: Request) -> Track:
         "smoothed-pseudo-wigner",
         make,
         border=0.5 * (request.lag_seconds + request.smoothing_seconds),
-        deviation=lambda level: peak_deviation(level, request.rate, kernel.lag_window, kernel.smoothing),
-        lag_seconds=2.0 * kernel.half_lags / request.rate,
+        deviation=lambda level: peak_deviation(level, request.rate, half_lag_window(request), kernel.smoothing),
+        lag_seconds=2.0 * request.half / request.rate,
         lag_window=request.lag_window,
         smoothing_seconds=2.0 * kernel.half_smoothing / request.rate,
     )

@@ -61,6 +61,11 @@ class PolynomialKernel:
         return math.pi * self.rate * np.arange(self.n_fft) / self.n_fft
 
     @property
+    def origin(self) -> float:
+        """The bins begin at 0."""
+        return 0.0
+
+    @property
     def period(self) -> float:
         """Pi rate, as for the Wigner distribution."""
         return math.pi * self.rate

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from numeric.band_limit import ringing
 from numeric.curvature import held
 from numeric.errors import InputError
 from numeric.noise import Level, measure_level
@@ -39,6 +40,7 @@ class Request:
     order: int
     bias: bool
     offset: float
+    band_limited: bool = False
 
     @property
     def time(self) -> Array:
@@ -54,6 +56,16 @@ class Request:
     def cycle(self) -> float:
         """The longest period that the corridor's guide shows."""
         return TWO_PI / float(self.corridor.guide.min())
+
+    @property
+    def band(self) -> tuple[float, float] | None:
+        """The band that a band-limited Wigner kernel keeps, None for all."""
+        return self.corridor.limits if self.band_limited else None
+
+    @property
+    def ringing(self) -> float:
+        """How long the ends of the record ring in the filter of a band-limited kernel; 0 without it."""
+        return 0.0 if self.band is None else ringing(*self.band)
 
     def away_from_border(self, seconds: float) -> Mask:
         """True at samples at least ``seconds`` inside the record."""
@@ -90,6 +102,7 @@ def prepared(
     harmonics: int | None,
     order: int,
     bias: bool,
+    band_limited: bool = False,
 ) -> Request:
     """Check a signal, take its mean off, find its corridor and set the default windows."""
     samples, rate = checked_real_samples(x, what="estimate", at_least=FEWEST_SAMPLES), checked_rate(rate)
@@ -120,6 +133,7 @@ def prepared(
         order=order,
         bias=bias,
         offset=offset,
+        band_limited=band_limited,
     )
 
 

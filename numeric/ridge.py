@@ -24,11 +24,15 @@ class Kernel(Protocol):
         """Length of the longest transform."""
 
     @property
+    def origin(self) -> float:
+        """Frequency of the first bin, rad per time unit."""
+
+    @property
     def period(self) -> float:
         """Span of one period of the frequency axis, rad per time unit."""
 
     def searched(self) -> Iterator[tuple[int, int, NDArray[np.floating]]]:
-        """All spectra as (start, stop, ``(columns, bins)``), the bins in equal steps over one period from 0.
+        """All spectra as (start, stop, ``(columns, bins)``), the bins in equal steps over one period from ``origin``.
 
         Their number, which may change from block to block, is at least OVERSAMPLING times that of the lags.
         """
@@ -65,6 +69,7 @@ def highest(values: NDArray[np.floating], spacing: float, low: Array, high: Arra
 
 def follow(kernel: Kernel, low: Array, high: Array) -> Ridge:
     """Return the ridge of ``kernel`` between ``low[n]`` and ``high[n]`` (rad per time unit, one value per column)."""
+    low, high = low - kernel.origin, high - kernel.origin
     size, weights = low.size, derivative_weights()
     derivatives, three = np.empty((size, weights.shape[1])), np.empty((size, 3))
     at, spacing = np.empty(size, dtype=np.intp), np.empty(size)
@@ -79,4 +84,4 @@ def follow(kernel: Kernel, low: Array, high: Array) -> Ridge:
     coarse = at * spacing
     inside = (centre >= left) & (centre >= right) & (coarse >= low) & (coarse <= high)
     omega = coarse + spacing * maximum(derivatives, parabola_vertex(left, centre, right))
-    return Ridge(omega, centre, inside)
+    return Ridge(kernel.origin + omega, centre, inside)

@@ -15,6 +15,7 @@ from numeric.errors import InputError
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
+Floats = NDArray[np.floating]
 Mask = NDArray[np.bool_]
 
 TWO_PI = 2.0 * math.pi

@@ -31,6 +31,11 @@ class ShortTimeKernel:
         return int(fft.next_fast_len(math.ceil(OVERSAMPLING * (2 * self.window.size - 1))))
 
     @property
+    def origin(self) -> float:
+        """The bins begin at 0."""
+        return 0.0
+
+    @property
     def period(self) -> float:
         """2 pi rate."""
         return TWO_PI * self.rate

@@ -14,13 +14,17 @@ from numpy.typing import ArrayLike
 from scipy import fft
 
 from numeric.analytic import analytic_signal
+from numeric.band_limit import BandLimited, band_limited
 from numeric.distribution import Distribution
-from numeric.lag_kernel import LagKernel
+from numeric.errors import InputError
+from numeric.lag_kernel import Complexes, LagKernel
 from numeric.samples import ComplexArray, checked_budget, checked_rate, checked_samples
 from numeric.windows import half_width, window
 
 MEMORY_BUDGET = 1_000_000_000
 """Bytes that a full plane may take unless the caller says otherwise."""
+SINGLE_SWING = (1e-12, 1e12)
+"""Magnitudes that single precision takes: products of two, summed, stay far inside float32."""
 
 
 def as_analytic(x: ArrayLike, *, remove_mean: bool = True) -> ComplexArray:
@@ -29,6 +33,15 @@ def as_analytic(x: ArrayLike, *, remove_mean: bool = True) -> ComplexArray:
     if np.iscomplexobj(samples):
         return np.asarray(samples, dtype=np.complex128)
     return analytic_signal(samples, remove_mean=remove_mean)
+
+
+def as_single(z: ComplexArray) -> Complexes:
+    """The samples as complex64; refuses those whose products, summed over lags, would leave float32."""
+    largest = float(np.abs(z).max())
+    if largest and not SINGLE_SWING[0] <= largest <= SINGLE_SWING[1]:
+        low, high = SINGLE_SWING
+        raise InputError(f"signal reaches {largest:.3g}, outside {low:g} .. {high:g} in single precision; scale it")
+    return z.astype(np.complex64)
 
 
 def wigner_kernel(
@@ -41,14 +54,20 @@ def wigner_kernel(
     smoothing_window: str = "hann",
     n_fft: int | None = None,
     remove_mean: bool = True,
+    band: tuple[float, float] | None = None,
+    single: bool = False,
 ) -> LagKernel:
     """Build the lag kernel of a member of the family; None leaves the lag window or the smoothing out.
 
     ``lag_seconds`` is the stretch of signal that a column sees: z from t - lag_seconds/2 to t + lag_seconds/2
     (rounded to whole samples on each side), so that tau runs over -lag_seconds .. lag_seconds.
     ``smoothing_seconds`` is the full width of the time smoothing window, whose samples sum to 1.
+    ``band`` (low, high) in rad per time unit limits the signal to that band and decimates its lags.
+    ``single`` works in complex64: half the memory, seven digits.
     """
     z, rate = as_analytic(x, remove_mean=remove_mean), checked_rate(rate)
+    limited = BandLimited(z, 0.0, 1) if band is None else band_limited(z, rate, *band)
+    step = limited.decimation
     half = (z.size - 1) // 2 if lag_seconds is None else half_width(lag_seconds, rate, longest=z.size)
     h = window("rectangular" if lag_seconds is None else lag_window, half)[half:]
     g = np.ones(1)
@@ -56,22 +75,28 @@ def wigner_kernel(
         reach = half_width(smoothing_seconds, rate, name="smoothing_seconds", longest=z.size)
         g = window(smoothing_window, reach)
     if n_fft is None:
-        n_fft = z.size if lag_seconds is None else fft.next_fast_len(2 * (2 * half + 1), real=True)
-    return LagKernel(z, rate, h, g / g.sum(), int(n_fft))
+        n_fft = (
+            -(-z.size // step) if lag_seconds is None else fft.next_fast_len(2 * (2 * (half // step) + 1), real=True)
+        )
+    signal = as_single(limited.signal) if single else limited.signal
+    return LagKernel(signal, rate, h[::step], g / g.sum(), int(n_fft), step, limited.origin)
 
 
 def plane(kernel: LagKernel, name: str, *, start: float, memory: int) -> Distribution:
     """Evaluate every column of a kernel; refuses before the work when the plane is over the budget ``memory``."""
-    size = kernel.signal.size
+    size, real = kernel.signal.size, kernel.signal.real.dtype
     remedy = "shorten the signal, lower n_fft, or follow the ridge with estimate(...), which stores no plane"
-    checked_budget(8 * size * kernel.n_fft, memory, f"{name} of {size} samples by {kernel.n_fft} bins", remedy)
-    columns = np.empty((size, kernel.n_fft))
+    checked_budget(
+        real.itemsize * size * kernel.n_fft, memory, f"{name} of {size} samples by {kernel.n_fft} bins", remedy
+    )
+    columns = np.empty((size, kernel.n_fft), dtype=real)
     for first, last in kernel.spans(kernel.n_fft):
         columns[first:last] = kernel.spectra(first, last, kernel.n_fft)
     settings = {
         "rate": kernel.rate,
         "n_fft": kernel.n_fft,
-        "lag_seconds": 2.0 * kernel.half_lags / kernel.rate,
+        "lag_seconds": float(kernel.lags[-1]),
+        "precision": real.name,
         "smoothing_seconds": 2.0 * kernel.half_smoothing / kernel.rate,
     }
     time = start + np.arange(size) / kernel.rate
@@ -85,11 +110,13 @@ def wigner(
     n_fft: int | None = None,
     start: float = 0.0,
     remove_mean: bool = True,
+    single: bool = False,
     memory: int = MEMORY_BUDGET,
 ) -> Distribution:
     """Return the Wigner distribution of ``x`` over all lags the record has; ``values[n_fft, N]``, n_fft = N by default.
 
     Real ``x`` is made analytic (less its mean unless ``remove_mean`` is False); complex ``x`` is taken as it is.
+    ``single=True`` works in float32: half the memory, an error near 3e-7 of the largest value.
     Raises InputError for values that are not finite, rate <= 0, n_fft below the lag count, or a plane over ``memory``.
 
     >>> tone = np.exp(2j * np.pi * 3.0 * np.arange(64) / 32.0)
@@ -99,7 +126,7 @@ def wigner(
     >>> round(plane.energy(), 12)
     2.0
     """
-    kernel = wigner_kernel(x, rate, n_fft=n_fft, remove_mean=remove_mean)
+    kernel = wigner_kernel(x, rate, n_fft=n_fft, remove_mean=remove_mean, single=single)
     return plane(kernel, "wigner", start=start, memory=memory)
 
 
@@ -112,6 +139,7 @@ def pseudo_wigner(
     n_fft: int | None = None,
     start: float = 0.0,
     remove_mean: bool = True,
+    single: bool = False,
     memory: int = MEMORY_BUDGET,
 ) -> Distribution:
     """Return the pseudo-Wigner distribution: the lag product under a window over ``lag_seconds`` of signal.
@@ -125,7 +153,7 @@ def pseudo_wigner(
     3.0
     """
     kernel = wigner_kernel(
-        x, rate, lag_seconds=lag_seconds, lag_window=lag_window, n_fft=n_fft, remove_mean=remove_mean
+        x, rate, lag_seconds=lag_seconds, lag_window=lag_window, n_fft=n_fft, remove_mean=remove_mean, single=single
     )
     return plane(kernel, "pseudo-wigner", start=start, memory=memory)
 
@@ -141,6 +169,7 @@ def smoothed_pseudo_wigner(
     n_fft: int | None = None,
     start: float = 0.0,
     remove_mean: bool = True,
+    single: bool = False,
     memory: int = MEMORY_BUDGET,
 ) -> Distribution:
     """Return the smoothed pseudo-Wigner distribution: the pseudo-Wigner convolved along time with a window of sum 1.
@@ -162,5 +191,6 @@ def smoothed_pseudo_wigner(
         smoothing_window=smoothing_window,
         n_fft=n_fft,
         remove_mean=remove_mean,
+        single=single,
     )
     return plane(kernel, "smoothed-pseudo-wigner", start=start, memory=memory)

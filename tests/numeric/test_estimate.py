@@ -72,6 +72,20 @@ def test_paper_case(pendulum_decay: Source, method: str, remove_bias: bool, low:
         assert predicted == pytest.approx(error, rel=0.06)
 
 
+@pytest.mark.parametrize("method", ["wigner", "pseudo-wigner", "smoothed-pseudo-wigner"])
+def test_band_limited_track_is_the_track_where_the_band_holds_all(method: str) -> None:
+    t, x, omega = chirp()
+    bare = estimate(x, 32.0, method=method, bias=False)
+    limited = estimate(x, 32.0, method=method, bias=False, band_limited=True)
+    assert limited.settings["band_limited"] is True
+    assert limited.standard_deviation is not None
+    assert bare.standard_deviation is not None
+    middle = (t > 5.0) & (t < 15.0)  # the band filter, like the analytic signal, errs near the ends of the record
+    assert np.count_nonzero(limited.valid) < np.count_nonzero(bare.valid)
+    assert np.abs(limited.omega / omega - 1.0)[middle].max() < 1e-3
+    assert limited.standard_deviation[middle] == pytest.approx(bare.standard_deviation[middle], rel=1e-3)
+
+
 def test_harmonic_least_squares_reaches_the_borders(pendulum_decay: Source) -> None:
     decay = pendulum_decay()
     track = estimate(decay.u, 32.0, method="harmonic-least-squares")

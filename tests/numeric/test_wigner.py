@@ -171,6 +171,67 @@ def test_memory_is_predicted_and_refused_before_the_work() -> None:
         wigner(np.ones(64, dtype=complex), 1.0, memory=1000)
 
 
+def test_band_limited_lags_are_decimated_and_the_ridge_stays() -> None:
+    rate = 64.0
+    t = np.arange(1025) / rate
+    fade = np.exp(-(((t - 8.0) / 2.0) ** 2))  # to 1e-7 at both ends, since the DFT takes the record as one period
+    inside = fade * np.exp(2j * np.pi * (3.0 * t + 0.04 * t * t))
+    outside = 0.7 * fade * np.exp(2j * np.pi * 14.0 * t)
+    low, high = np.full(t.size, 15.0), np.full(t.size, 35.0)
+    kernel = wigner_kernel(inside + outside, rate, band=(15.0, 35.0))
+    assert kernel.decimation == 6
+    ridge = follow(kernel, low, high)
+    middle = (t > 5.0) & (t < 11.0)
+    assert np.abs(ridge.omega / (2 * np.pi) - 3.0 - 0.08 * t)[middle].max() < 1e-6
+    alone = wigner_kernel(inside, rate)
+    assert np.abs(follow(alone, low, high).omega - ridge.omega)[middle].max() < 1e-5
+
+
+def test_band_limited_column_is_the_full_one_folded_into_the_band() -> None:
+    # Every D-th lag of K gives the sum of D copies of its spectrum, moved by one period each.
+    rate, size, n = 32.0, 240, np.arange(240)
+    wave = np.exp(2j * np.pi * 40 * n / size) * (1.0 + 0.3 * np.cos(2 * np.pi * 3 * n / size))  # 37 .. 43 cycles
+    band = (2 * np.pi * rate * 35 / size, 2 * np.pi * rate * 45 / size)
+    kernel = wigner_kernel(wave + np.exp(2j * np.pi * 90 * n / size), rate, lag_seconds=4.0, band=band)
+    assert kernel.decimation == 8
+    m, column = np.arange(-64, 65), 100
+    product = window("hann", 64) * wave[column + m] * wave[column - m].conj()
+    copies = kernel.omega[:, None] + kernel.period * np.arange(8)
+    full = (np.exp(-2j * copies[..., None] * m / rate) @ product).real * 2.0 / rate
+    found = kernel.spectra(column, column + 1, kernel.n_fft)[0]
+    assert np.abs(found - full.sum(axis=1)).max() < 1e-12 * np.abs(full).max()
+
+
+@pytest.mark.parametrize("smoothing", [None, 0.5])
+def test_single_precision_errs_by_its_rounding(smoothing: float | None) -> None:
+    z, rate = noise(500), 20.0
+    if smoothing is None:
+        double, single = wigner(z, rate), wigner(z, rate, single=True)
+    else:
+        windows = {"lag_seconds": 5.0, "smoothing_seconds": smoothing}
+        double, single = (smoothed_pseudo_wigner(z, rate, **windows, single=one) for one in (False, True))
+    assert single.values.dtype == np.float32
+    assert single.settings["precision"] == "float32"
+    error = np.abs(single.values - double.values).max() / np.abs(double.values).max()
+    assert 1e-9 < error < 1e-6
+    assert not single.values.flags.writeable
+
+
+def test_single_precision_track_errs_little() -> None:
+    rate = 32.0
+    t = np.arange(513) / rate
+    z = np.exp(2j * np.pi * (2.0 * t + 0.1 * t * t))
+    ones = np.ones(t.size)
+    ridge = follow(wigner_kernel(z, rate, single=True), 0.5 * ones, 60.0 * ones)
+    assert 1e-12 < np.abs(ridge.omega / (2 * np.pi) - 2.0 - 0.2 * t)[40:-40].max() < 1e-5
+
+
+@pytest.mark.parametrize("scale", [1e-13, 1e13])
+def test_single_precision_refuses_what_would_leave_it(scale: float) -> None:
+    with pytest.raises(InputError, match="in single precision; scale it"):
+        wigner(scale * np.ones(8), 1.0, single=True, remove_mean=False)
+
+
 def test_ridge_never_holds_a_plane() -> None:
     size, rate = 8192, 100.0
     t = np.arange(size) / rate
