@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 
 import numpy as np
 
 from compare.results import Array, Certified, CertifiedRow
-from symbolic.accuracy import Accuracy, accuracy
-from symbolic.enclosure import separatrix
+from symbolic.accuracy import Accuracy, Ball, accuracy
+from symbolic.enclosure import enclose, separatrix
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion
 from symbolic.oscillator import Oscillator
@@ -37,6 +38,47 @@ def certified(oscillator: Oscillator, order: int, largest: float) -> Certified |
     return Certified(order=order, amplitudes=amplitudes, rows=tuple(_row(item) for item in found))
 
 
+def certified_rows(
+    oscillator: Oscillator, orders: Sequence[int], amplitudes: Sequence[float]
+) -> list[dict[str, float | int | str | None]]:
+    """Return one row per order, formula and amplitude: the keys of a study's rows, and the radius of the proof.
+
+    ``omega`` and ``relative_error`` are None where the formula does not hold.  Raises InputError where omega0 has no
+    enclosure: limit cycles, damping, symbolic parameters, amplitudes at or beyond the separatrix.
+
+    >>> from symbolic.systems import find
+    >>> rows = certified_rows(find("pendulum"), [4], [1.0])
+    >>> rows[0]["method"], f"{rows[0]['relative_error']:.4e}"
+    ('truncated series', '3.5469e-05')
+    """
+    exact = [Fraction(a) for a in amplitudes]
+    reference = [enclose(oscillator, a).omega for a in exact]
+    return [
+        _cell(order, item, ball, float(amplitude), omega)
+        for order in orders
+        for item in accuracy(oscillator, order, exact)
+        for ball, amplitude, omega in zip(item.errors, exact, reference, strict=True)
+    ]
+
+
+def _cell(
+    order: int, item: Accuracy, ball: Ball | None, amplitude: float, omega: Ball
+) -> dict[str, float | int | str | None]:
+    return {
+        "order": order,
+        "amplitude": amplitude,
+        "method": _name(item),
+        "omega": None if ball is None else float(((1 + ball) * omega).mid()),
+        "omega_reference": float(omega.mid()),
+        "relative_error": None if ball is None else float(ball.mid()),
+        "error_radius": None if ball is None else float(ball.rad()),
+    }
+
+
+def _name(item: Accuracy) -> str:
+    return "truncated series" if isinstance(item.formula, Expansion) else item.formula.method
+
+
 def _amplitudes(oscillator: Oscillator, largest: float) -> Array:
     limit = separatrix(oscillator).peak
     top = largest if limit is None else float(limit)
@@ -49,5 +91,4 @@ def _row(item: Accuracy) -> CertifiedRow:
     """Floats for print: the middle of each ball, and the largest distance of any ball from its middle."""
     errors = tuple(None if ball is None else float(ball.mid()) for ball in item.errors)
     radii = [float(ball.rad()) for ball in item.errors if ball is not None]
-    name = "truncated series" if isinstance(item.formula, Expansion) else item.formula.method
-    return CertifiedRow(name, errors, max(radii, default=0.0))
+    return CertifiedRow(_name(item), errors, max(radii, default=0.0))

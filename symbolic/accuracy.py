@@ -23,6 +23,8 @@ from symbolic.resummation import Resummation
 from symbolic.singularity import Limits, limits
 from symbolic.spaces import Scalar
 
+Ball: TypeAlias = arb
+"""A real number enclosed: a middle and a radius."""
 FIRST_TERMS = 4
 """Order through which an expansion must agree with the oscillator's own series."""
 

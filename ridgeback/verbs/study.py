@@ -16,6 +16,7 @@ from ridgeback.tables import Row, aligned, csv_text
 
 if TYPE_CHECKING:
     from compare.results import Study
+    from symbolic.oscillator import Oscillator
 
 
 @click.command("study", short_help="Error of expansions over order and amplitude.")
@@ -37,6 +38,11 @@ if TYPE_CHECKING:
     show_default=True,
     help="How the expansion is derived.",
 )
+@click.option(
+    "--certified",
+    is_flag=True,
+    help="Prove every error in ball arithmetic, and put the resummations of the series beside it.",
+)
 @format_option("text", "json", "csv", default="text")
 @output_option
 def command(
@@ -45,6 +51,7 @@ def command(
     orders: tuple[int, ...],
     amplitudes: tuple[float, ...],
     method: str,
+    certified: bool,
     style: str,
     output: str,
 ) -> None:
@@ -52,8 +59,12 @@ def command(
 
     \b
     ridgeback study pendulum --orders 2,4,8,16 --amplitudes 0.1:3.0:30
+    ridgeback study pendulum --orders 8,16 --amplitudes 1,2,3 --certified
     ridgeback study van-der-pol --orders 4,8 --amplitudes 0.1,0.5,1 --format csv
     """
+    if certified:
+        write_text(output, proved(choice.oscillator(), orders, amplitudes, style))
+        return
     from compare.study import study
 
     result = study(choice.oscillator(), orders, amplitudes, method=method)
@@ -62,6 +73,20 @@ def command(
     unknown = sum(not math.isfinite(float(row["omega_reference"])) for row in rows)
     if unknown:
         raise PartialError(f"{unknown} of {len(rows)} cells have no reference; they are left empty in the output")
+
+
+def proved(oscillator: Oscillator, orders: tuple[int, ...], amplitudes: tuple[float, ...], style: str) -> str:
+    """The series and its resummations with proved errors; ``error_radius`` bounds what each error may still be off."""
+    from compare.certified import certified_rows
+    from compare.derivation import undamped
+
+    rows = certified_rows(undamped(oscillator), orders, amplitudes)
+    columns = list(rows[0])
+    if style == "csv":
+        return csv_text(columns, rows)
+    if style == "json":
+        return json_text(rows)
+    return aligned(columns, rows) + "\n"
 
 
 def printed(result: Study, rows: list[dict[str, float | int | str]], style: str) -> str:

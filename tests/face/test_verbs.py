@@ -291,3 +291,22 @@ def test_progress_speaks_only_to_terminals() -> None:
     assert "50%  Wigner" in terminal.getvalue()
     assert terminal.getvalue().endswith("\x1b[2K")
     assert pipe.getvalue() == ""
+
+
+def test_a_certified_study_proves_each_error(ridgeback: Ridgeback) -> None:
+    done = ridgeback("study", "pendulum", "--orders", "8", "--amplitudes", "1,2", "--certified", "--format", "json")
+    rows = json.loads(done.out)
+    assert done.code == 0
+    assert {"order", "amplitude", "method", "omega", "omega_reference", "relative_error", "error_radius"} == set(
+        rows[0]
+    )
+    series = [row for row in rows if row["method"] == "truncated series"]
+    exact = [math.pi / (2 * float(mpmath.ellipk(math.sin(a / 2) ** 2))) for a in (1.0, 2.0)]
+    assert [row["omega_reference"] for row in series] == pytest.approx(exact, rel=1e-14)
+    assert all(row["error_radius"] < 1e-30 for row in rows)
+    assert ridgeback("study", "van-der-pol", "--orders", "4", "--amplitudes", "1", "--certified").code == 2
+
+
+def test_the_range_of_use_is_printed_with_every_expansion(ridgeback: Ridgeback) -> None:
+    assert "converges for |A| < 3.14" in ridgeback("derive", "pendulum", "--order", "4").out
+    assert "converges for |eps| < 1.849" in ridgeback("derive", "van-der-pol", "--order", "4").out
