@@ -29,14 +29,14 @@ def peak_estimate(
     **settings: object,
 ) -> Track:
     """Ridge of a kernel with its deviation and its bias: by formula where given, else by estimating again."""
-    corridor, time, kernel, border = request.corridor, request.time, make(request.z), border + request.ringing
+    corridor, time, kernel = request.corridor, request.time, make(request.z)
     work = 20.0 * time.size * kernel.n_fft * (1.0 + np.log2(kernel.n_fft))
     checked_work(
         work, f"{method} of {time.size} samples by {kernel.n_fft} bins", "use a windowed method or less signal"
     )
     ridge = follow(kernel, corridor.low, corridor.high)
-    valid = ridge.inside & request.away_from_border(border)
-    need(valid, method, border)
+    valid = ridge.inside & request.away_from_border(border + request.ringing)
+    need(valid, method, border + request.ringing)
 
     level = request.level(ridge.omega, valid)
 
