@@ -11,7 +11,7 @@ mu = k mu^ for linear damping, c3 = c3^ / k for cubic damping, alpha = k^2 alpha
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
@@ -23,8 +23,11 @@ from symbolic.rings import free_names
 from symbolic.structure import divided, positive_root
 
 ROOT: Final = "k*"
-"""Stands for an irrational k (known by its square) in terms odd in u' that carry no parameter, as in u'' + 2*u + u'**3;
-no parameter can have this name."""
+INVERSE: Final = "1/k*"
+"""Stand for k and 1/k where they do not scale out: an irrational k (known by its square) as in u'' + 2*u + u'**3, a
+symbolic one as in u'' + k**2*u + u**3.  No parameter can have these names."""
+UNITS: Final = {ROOT: -1, INVERSE: 1}
+"""The power of k in the unit of each: the same bookkeeping as for parameters puts k back."""
 HIGHEST_POWER: Final = 8
 """Powers of u' beyond this one are not looked for when a unit is chosen; any unit is right, some need a root of k^2."""
 
@@ -67,8 +70,7 @@ def ordered(oscillator: Oscillator, *, weight: int = 2, weights: Mapping[str, in
     dimensions = {name: _dimension(force, _symbol(name)) for name in (*chosen, *symbolic)}
     natural = _scaled(force, scale, dimensions)
     _check(natural, oscillator, tuple(chosen), scale)
-    if natural.has(_symbol(ROOT)):
-        dimensions[ROOT] = -1
+    dimensions.update({name: power for name, power in UNITS.items() if natural.has(_symbol(name))})
     return Ordered(force=natural, scale=scale, weights=chosen, dimensions=dimensions)
 
 
@@ -155,21 +157,29 @@ def _dimension(force: sympy.Expr, symbol: sympy.Symbol) -> int:
 
 
 def _scaled(force: sympy.Expr, scale: sympy.Expr, dimensions: Mapping[str, int]) -> sympy.Expr:
-    """f(u, k u')/k^2 with parameters in units of k; the odd powers of an irrational k that stay are powers of ROOT."""
+    """f(u, k u')/k^2 with parameters in units of k; the powers of k that stay are powers of ROOT and INVERSE."""
     irrational = scale.is_number and not scale.is_Rational
     k = _symbol(ROOT) if irrational else scale
     units = {_symbol(name): k**power * _symbol(name) for name, power in dimensions.items() if power}
     natural = divided(force.subs({V: k * V, **units}), k**2)
-    if not irrational:
+    if irrational:
+        square = sympy.expand(scale**2)
+        return _with_powers(natural, k, lambda n: square ** (n // 2) * k ** (n % 2))
+    if not scale.is_Symbol:
         return natural
-    return natural.replace(
-        lambda e: e.is_Pow and e.base == k and e.exp.is_Integer,
-        lambda e: sympy.expand(scale**2) ** (e.exp // 2) * k ** (e.exp % 2),
-    )
+    return _with_powers(natural, k, lambda n: _symbol(ROOT) ** n if n > 0 else _symbol(INVERSE) ** -n)
+
+
+def _with_powers(expression: sympy.Expr, k: sympy.Symbol, power: Callable[[sympy.Integer], sympy.Expr]) -> sympy.Expr:
+    """Replace every whole power of k."""
+    marked = expression.replace(lambda e: e.is_Pow and e.base == k and e.exp.is_Integer, lambda e: power(e.exp))
+    return marked if power(sympy.S.One) == k else marked.subs(k, power(sympy.S.One))
 
 
 def _check(force: sympy.Expr, oscillator: Oscillator, small: tuple[str, ...], scale: sympy.Expr) -> None:
     held = sorted(str(s) for s in scale.free_symbols & force.free_symbols)
+    if {_symbol(name) for name in UNITS} <= force.free_symbols:
+        held = sorted(str(s) for s in scale.free_symbols)
     if held:
         raise InputError(
             f"{oscillator.name}: its natural frequency {scale} does not scale out of every term; give "

@@ -18,7 +18,7 @@ from flint import fmpq
 from symbolic.errors import InputError
 from symbolic.expansion import nearest, series_latex
 from symbolic.fourier import Trig
-from symbolic.ordering import ROOT
+from symbolic.ordering import UNITS
 from symbolic.rendering import as_sympy, mathml
 from symbolic.spaces import Scalar
 
@@ -243,7 +243,7 @@ def json_rows(variables: tuple[str, ...], terms: tuple[Term, ...]) -> list[dict[
 
 
 def _monomial(names: tuple[str, ...], powers: tuple[int, ...]) -> sympy.Expr:
-    pairs = [(name, n) for name, n in zip(names, powers, strict=True) if name != ROOT]  # ROOT is k, see ``unit``
+    pairs = [(name, n) for name, n in zip(names, powers, strict=True) if name not in UNITS]  # powers of k, see ``unit``
     return sympy.Mul(*[sympy.Symbol(name, real=True) ** int(n) for name, n in pairs])
 
 
