@@ -19,8 +19,6 @@ from symbolic.systems import find
 @pytest.mark.parametrize("system", ["pendulum", "duffing-hardening", "helmholtz-duffing"])
 @pytest.mark.parametrize("derive", [lindstedt, energy_integral], ids=["lindstedt", "energy-integral"])
 def test_conservative(benchmark: Any, derive: Any, system: str, order: int) -> None:
-    if system == "helmholtz-duffing" and order > 50:
-        pytest.skip("even and odd powers: beyond a minute")
     result = benchmark.pedantic(derive, args=(find(system), order), rounds=3, warmup_rounds=1)
     assert result.order == order
 

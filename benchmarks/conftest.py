@@ -1,0 +1,29 @@
+"""After the run: the table of paired measurements that the README shows, written to ``benchmarks/table.md``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+TABLE = Path(__file__).with_name("table.md")
+HEAD = "| series | by hand | Ridgeback | ratio |\n|---|---|---|---|\n"
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Pair the medians of each (series, who) and write them as Markdown, when any pair was measured."""
+    benchmarks = getattr(getattr(session.config, "_benchmarksession", None), "benchmarks", [])
+    medians: dict[str, dict[str, float]] = {}
+    for item in benchmarks:
+        if "series" in item.extra_info and item.stats.data:
+            medians.setdefault(item.extra_info["series"], {})[item.extra_info["who"]] = item.stats.median
+    rows = [row(series, found) for series, found in medians.items() if len(found) == 2]
+    if rows:
+        TABLE.write_text(HEAD + "".join(rows), encoding="utf-8")
+
+
+def row(series: str, found: dict[str, Any]) -> str:
+    """One line: both medians in seconds and their ratio."""
+    hand, ours = found["by hand"], found["Ridgeback"]
+    return f"| {series} | {hand:.2g} s | {ours:.2g} s | {ours / hand:.2g} |\n"
