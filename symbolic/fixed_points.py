@@ -167,6 +167,26 @@ def cycle_series(flow: SlowFlow) -> tuple[Series, ...]:
     return tuple(tuple(sympy.Rational(int(c.p), int(c.q)) for c in _solved(plane, start, reach)) for start in starts)
 
 
+def frequency_series(flow: SlowFlow, square: Series) -> Series:
+    """phi' on a limit cycle in powers of the small parameter, from the series of a^2 there.
+
+    Where the terms of a power of m come to an end, phi' = k + O(m) depends on a through m only and is known one power
+    further than a^2.  Raises InputError when a parameter is symbolic.
+
+    >>> from symbolic.multiple_scales import multiple_scales
+    >>> from symbolic.systems import find
+    >>> flow = multiple_scales(find("van-der-pol"), 12, weight=1)
+    >>> frequency_series(flow, cycle_series(flow)[0])
+    (1, 0, -1/16, 0, 17/3072)
+    """
+    terms = [(t.powers, sympy.expand(t.coefficient / flow.scale)) for t in _entire(flow, flow.frequency)]
+    if any(not value.is_Rational for _, value in terms):
+        raise InputError(f"{flow.system}: the coefficients of phi' hold symbols; give every parameter a number")
+    plane = {(powers[0] // 2, powers[1]): rational(value) for powers, value in terms}
+    series = [rational(value) for value in square] + [fmpq(0)] * (flow.complete is not None)
+    return tuple(flow.scale * sympy.Rational(int(c.p), int(c.q)) for c in _substituted(plane, series))
+
+
 def _reduced(flow: SlowFlow) -> tuple[Plane, int, list[fmpq]]:
     """The amplitude equation as a polynomial in s and m, the last power of m it determines, and s at m = 0."""
     if any(not term.coefficient.is_Rational for term in flow.damping):

@@ -107,13 +107,13 @@ class _Frame:
 
     def along(self, series: Sequence[Trig], n: int, omega: Sequence[Scalar], delta: Sequence[Scalar]) -> Trig:
         """Grade n of D series, from the grades of series, omega and delta that exist."""
-        total = self.zero
+        turned, grown = self.zero, self.zero
         for j in range(max(0, n + 1 - len(series)), min(n, len(omega) - 1) + 1):
             if omega[j] != 0:
-                total = total + series[n - j].derivative().scale(omega[j])
+                turned = turned + series[n - j].scale(omega[j])
             if delta[j] != 0:
-                total = total + self._by_amplitude(series[n - j], n - j).scale(delta[j])
-        return total
+                grown = grown + self._by_amplitude(series[n - j], n - j).scale(delta[j])
+        return turned.derivative() + grown
 
     def _by_amplitude(self, p: Trig, n: int) -> Trig:
         """a d/da of a grade: its terms a^(n - w.r) m^r have a-degree n - w.r."""
