@@ -100,7 +100,7 @@ def settled_limits(oscillator: Oscillator, expansion: Expansion) -> Limits:
 
     >>> from symbolic.systems import find
     >>> settled_limits(find("pendulum"), energy_integral(find("pendulum"), 8)).sentence()
-    'The series converges for |A| < 3.1416 ± ...'
+    'The series converges for |A| < 3.14159 ± ...'
     """
     if expansion.names or expansion.order >= _SETTLING:
         return limits(expansion)
