@@ -25,6 +25,11 @@ ALLOWED: dict[str, frozenset[str]] = {
 # Where coefficients are derived: a float literal here would end exactness silently.
 DERIVATIONS = (
     "series",
+    "recurrences",
+    "spaces",
+    "modular",
+    "amplitude",
+    "ordering",
     "truncated",
     "fourier",
     "rings",
