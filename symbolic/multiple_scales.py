@@ -74,9 +74,9 @@ def multiple_scales(
     return SlowFlow(
         system=oscillator.name,
         order=order,
-        weights=dict(natural.weights),
+        weights=natural.weights,
         scale=natural.scale,
-        dimensions=dict(natural.dimensions),
+        dimensions=natural.dimensions,
         omega=tuple(march.omega[: order + 1]),
         delta=tuple(march.delta[: order + 1]),
         waveform=tuple(march.u),

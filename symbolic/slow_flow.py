@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any
 
 import sympy
@@ -63,6 +64,10 @@ class SlowFlow:
     residual_of: Callable[[SlowFlow], list[int]]
     method: str = "multiple-scales"
     amplitude: str = "fundamental"
+
+    def __post_init__(self) -> None:
+        for name in ("weights", "dimensions"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
 
     @property
     def names(self) -> tuple[str, ...]:

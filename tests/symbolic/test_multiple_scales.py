@@ -5,7 +5,7 @@ The slow twin writes k out and works with monomials z^p zbar^q in SymPy; it shar
 
 import math
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, product
 
 import pytest
 import sympy
@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy.polys.rings import xring
 
-from symbolic.cost import Budget, predict
+from symbolic.cost import Budget, predict, weighted_monomials
 from symbolic.errors import InputError
 from symbolic.fixed_points import cycle_series, fixed_points, frequency_series, root_series
 from symbolic.fourier import harmonic
@@ -569,8 +569,17 @@ def test_bad_transients_are_refused() -> None:
 # -- cost ------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("weights", [(2,), (1, 1), (2, 3), (2, 2, 1)])
+def test_monomials_are_counted_well_enough(weights: tuple[int, ...]) -> None:
+    powers = product(*(range(30 // w + 1) for w in weights))
+    exact = sum(sum(w * r for w, r in zip(weights, rs, strict=True)) <= 30 for rs in powers)
+    assert weighted_monomials(30, weights) == pytest.approx(exact, rel=0.06)
+
+
 def test_more_small_parameters_cost_more_and_are_refused_before_the_work() -> None:
     one, two = (predict("multiple-scales", 40, weights=w).seconds for w in ((2,), (2, 2)))
     assert two > 4 * one
+    with pytest.raises(InputError, match=r"order 1000000 by multiple-scales"):
+        multiple_scales(make("u'' + c*u' + d*u'**3 + b*u**2*u' + u + g*u**3"), 10**6)
     with pytest.raises(InputError, match=r"order 60 by multiple-scales .* order \d+ fits"):
         multiple_scales(make("u'' + c*u' + d*u'**3 + b*u**2*u' + u + g*u**3"), 60, budget=Budget(seconds=1))
