@@ -131,10 +131,10 @@ def _notes(recording: Recording, curves: tuple[Curve, ...], measured: Backbone, 
         f"The backbone is made from {curves[0].label}: the first that succeeded, in an order of preference that puts "
         "efficiency in noise and freedom from curvature bias first."
     )
-    for other in curves[1:]:
-        apart = distance(curves[0], other)
-        if apart is not None:
-            yield f"{other.label} differs from it by {relative(apart)} rms where both are valid."
+    pairs = [(other.label, distance(curves[0], other)) for other in curves[1:]]
+    apart = [f"{label} {relative(value)}" for label, value in pairs if value is not None]
+    if apart:
+        yield f"Rms distance of the other tracks from it, where both are valid: {', '.join(apart)}."
     yield from measured.notes
     yield from failed
 

@@ -19,6 +19,10 @@ def _hertz(value: float) -> str:
     return frequency(value, "s")
 
 
+def _signed(value: float) -> str:
+    return f"{value:+.4f}".replace("-", "−")
+
+
 def _sense(found: RecordingComparison) -> str:
     """Hardening, softening, or neither within two standard deviations."""
     low, high = _ends(found)
@@ -53,8 +57,8 @@ def _sentences(found: RecordingComparison) -> Iterator[str]:
     )
     yield f"The backbone's relative standard deviation is {relative(_middle(_relative_sd(found)))} in the median."
     yield (
-        f"The amplitude changes at {found.damping[high]:+.4f} per second at the largest amplitude and "
-        f"{found.damping[low]:+.4f} at the smallest (a'/a)."
+        f"The amplitude changes at a′/a = {_signed(found.damping[high])} per second at the largest amplitude and "
+        f"{_signed(found.damping[low])} at the smallest."
     )
     yield from found.notes
 
@@ -75,7 +79,7 @@ def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
     damping = float(np.median(found.damping))
     return (
         Card("Fundamental frequency", span, f"Amplitudes {amplitudes} (first harmonic): {_sense(found)}."),
-        Card("Damping", f"{damping:+.4f} per s", "Median of a'/a over the backbone; the figure shows it by amplitude."),
+        Card("Damping", f"{_signed(damping)} per s", "Median of a′/a over the backbone; see the figure."),
         Card(
             "Uncertainty",
             relative(_middle(_relative_sd(found))),

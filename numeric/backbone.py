@@ -126,10 +126,10 @@ def assemble(fit: HarmonicFit, usable: Mask, omega: Array, omega_sd: Array, offs
     curve_omega = np.array([pooled(w[i], s[i], weights[i], crowding) for i in of])
     curve_damping = np.array([pooled(d[i], ds[i], weights[i], crowding) for i in of])
     left_out = int(usable.size - a.size)
-    notes = [f"the mean {offset:.6g} was removed"]
+    notes = [f"The mean of the samples, {offset:.4g}, was removed."]
     if left_out:
         notes.append(
-            f"{left_out} of {usable.size} points lie near a border or are not {CLEAR:g} times above their noise"
+            f"{left_out} of {usable.size} points lie near a border or are not {CLEAR:g} times above noise; left out."
         )
     return Backbone(
         time=fit.time[usable],

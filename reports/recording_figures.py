@@ -9,7 +9,7 @@ from reports.block import Block, Readout, block
 from reports.canvas import Array, Canvas, Line, Trace, draw, linear, padded, titles
 from reports.labels import place
 from reports.theme import sentinel
-from reports.time_figures import Clock, plane_block, tracks_block, traces_of
+from reports.time_figures import Clock, plane_block, traces_of, tracks_block
 from reports.wording import number
 
 CLOCK = Clock("s")
@@ -133,8 +133,8 @@ def backbone_figure(recording: RecordingComparison) -> Block:
 
 def damping_figure(recording: RecordingComparison) -> Block:
     """Logarithmic decay rate -a'/a against amplitude with its band."""
-    caption = "Damping −a′/a against amplitude. Band: two standard deviations either side."
-    texts = ("Damping of the recording", "−a′/a / (1/s)", caption, "damping")
+    caption = "Rate of change a′/a of the amplitude, negative in a decay. Band: two standard deviations either side."
+    texts = ("Damping of the recording", "a′/a / (1/s)", caption, "damping")
     return _band_block(
         "damping",
         recording,

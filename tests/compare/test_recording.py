@@ -58,7 +58,7 @@ def test_sources_and_mutual_distances_are_told(found, path):
     assert found.source == path.name
     assert len(found.sha256) == 64
     assert found.column == "position [mm]"
-    assert any("differs from it by" in note for note in found.notes)
+    assert any("distance of the other tracks" in note for note in found.notes)
 
 
 def test_the_fit_gives_back_its_coefficients_and_their_uncertainty():
