@@ -14,6 +14,7 @@ from numeric.harmonics import harmonic_track
 from numeric.peak_track import by_pseudo_wigner, by_smoothed_pseudo_wigner, by_spectrogram, by_wigner
 from numeric.phase_track import by_harmonic_least_squares, by_hilbert, by_zero_crossing
 from numeric.polynomial_track import by_polynomial_wigner
+from numeric.reassigned_track import by_reassigned_spectrogram, by_synchrosqueezing
 from numeric.request import Request, prepared
 from numeric.track import Track
 
@@ -44,6 +45,8 @@ ESTIMATORS: Mapping[str, Callable[[Request], Track]] = MappingProxyType(
         "smoothed-pseudo-wigner": by_smoothed_pseudo_wigner,
         "polynomial-wigner": by_polynomial_wigner,
         "spectrogram": by_spectrogram,
+        "reassigned-spectrogram": by_reassigned_spectrogram,
+        "synchrosqueezed": by_synchrosqueezing,
         "hilbert": by_hilbert,
         "zero-crossing": by_zero_crossing,
         "harmonic-least-squares": by_harmonic_least_squares,

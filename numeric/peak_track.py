@@ -10,7 +10,7 @@ from numeric.curvature import formula_bias, reestimated_bias
 from numeric.lag_kernel import LagKernel
 from numeric.noise import Level, full_length_deviation, peak_deviation
 from numeric.request import Request, need
-from numeric.ridge import Kernel, follow
+from numeric.ridge import Kernel, Ridge, follow
 from numeric.samples import Array, ComplexArray, checked_work
 from numeric.short_time import ShortTimeKernel
 from numeric.track import Track
@@ -21,27 +21,26 @@ from numeric.windows import window
 def peak_estimate(
     request: Request,
     method: str,
-    make: Callable[[ComplexArray], Kernel],
+    ridge_of: Callable[[ComplexArray], Ridge],
     *,
+    bins: int,
     border: float,
     deviation: Callable[[Level], Array],
     formula: LagKernel | None = None,
     **settings: object,
 ) -> Track:
-    """Ridge of a kernel with its deviation and its bias: by formula where given, else by estimating again."""
-    corridor, time, kernel = request.corridor, request.time, make(request.z)
-    work = 20.0 * time.size * kernel.n_fft * (1.0 + np.log2(kernel.n_fft))
-    checked_work(
-        work, f"{method} of {time.size} samples by {kernel.n_fft} bins", "use a windowed method or less signal"
-    )
-    ridge = follow(kernel, corridor.low, corridor.high)
+    """A ridge, on ``bins`` bins, with its deviation and its bias: by formula where given, else by estimating again."""
+    time = request.time
+    work = 20.0 * time.size * bins * (1.0 + np.log2(bins))
+    checked_work(work, f"{method} of {time.size} samples by {bins} bins", "use a windowed method or less signal")
+    ridge = ridge_of(request.z)
     valid = ridge.inside & request.away_from_border(border + request.ringing)
     need(valid, method, border + request.ringing)
 
     level = request.level(ridge.omega, valid)
 
     def again(z: ComplexArray) -> Array:
-        return follow(make(level.amplitude * z), corridor.low, corridor.high).omega
+        return ridge_of(level.amplitude * z).omega
 
     bias: Array | None = None
     if request.bias and formula is not None:
@@ -55,6 +54,11 @@ def peak_estimate(
     )
 
 
+def following(request: Request, make: Callable[[ComplexArray], Kernel]) -> Callable[[ComplexArray], Ridge]:
+    """What follows the ridge of a signal's kernel through the corridor."""
+    return lambda z: follow(make(z), request.corridor.low, request.corridor.high)
+
+
 def half_lag_window(request: Request) -> Array:
     """h[0..M] at every lag, decimated or not: the band passes what the peak answers to."""
     return window(request.lag_window, request.half)[request.half :]
@@ -62,10 +66,15 @@ def half_lag_window(request: Request) -> Array:
 
 def by_wigner(request: Request) -> Track:
     """Peak of the full-length Wigner distribution; biased by the curvature of omega(t), to all orders."""
+
+    def make(z: ComplexArray) -> LagKernel:
+        return wigner_kernel(z, request.rate, band=request.band)
+
     return peak_estimate(
         request,
         "wigner",
-        lambda z: wigner_kernel(z, request.rate, band=request.band),
+        following(request, make),
+        bins=make(request.z).n_fft,
         border=request.cycle,
         deviation=lambda level: full_length_deviation(level, request.rate),
     )
@@ -83,7 +92,8 @@ def by_pseudo_wigner(request: Request) -> Track:
     return peak_estimate(
         request,
         "pseudo-wigner",
-        make,
+        following(request, make),
+        bins=kernel.n_fft,
         border=0.5 * request.lag_seconds,
         deviation=lambda level: peak_deviation(level, request.rate, half_lag_window(request)),
         formula=kernel,
@@ -109,7 +119,8 @@ def by_smoothed_pseudo_wigner(request: Request) -> Track:
     return peak_estimate(
         request,
         "smoothed-pseudo-wigner",
-        make,
+        following(request, make),
+        bins=kernel.n_fft,
         border=0.5 * (request.lag_seconds + request.smoothing_seconds),
         deviation=lambda level: peak_deviation(level, request.rate, half_lag_window(request), kernel.smoothing),
         lag_seconds=2.0 * request.half / request.rate,
@@ -121,10 +132,15 @@ def by_smoothed_pseudo_wigner(request: Request) -> Track:
 def by_spectrogram(request: Request) -> Track:
     """Peak of the spectrogram of the analytic signal."""
     w = window(request.lag_window, request.half)
+
+    def make(z: ComplexArray) -> ShortTimeKernel:
+        return ShortTimeKernel(z, request.rate, w)
+
     return peak_estimate(
         request,
         "spectrogram",
-        lambda z: ShortTimeKernel(z, request.rate, w),
+        following(request, make),
+        bins=make(request.z).n_fft,
         border=0.5 * request.lag_seconds,
         deviation=lambda level: peak_deviation(level, request.rate, w[request.half :]),
         lag_seconds=2.0 * request.half / request.rate,

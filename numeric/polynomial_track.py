@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from numeric.harmonics import carrier, without_others
-from numeric.peak_track import peak_estimate
+from numeric.peak_track import following, peak_estimate
 from numeric.phase_track import by_harmonic_least_squares
 from numeric.polynomial_wigner import PolynomialKernel, half_lags, polynomial_deviation, polynomial_kernel
 from numeric.request import Request
@@ -41,7 +41,8 @@ def by_polynomial_wigner(request: Request) -> Track:
     return peak_estimate(
         replace(request, z=as_analytic(alone)),
         "polynomial-wigner",
-        make,
+        following(request, make),
+        bins=4 * M + 2,
         border=0.5 * request.lag_seconds,
         deviation=lambda level: polynomial_deviation(level, request.rate, h, request.order),
         lag_seconds=2.0 * request.half / request.rate,

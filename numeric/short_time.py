@@ -17,6 +17,22 @@ from numeric.lag_kernel import BLOCK_BYTES
 from numeric.samples import TWO_PI, Array, ComplexArray
 
 
+def short_time_spectra(signal: ComplexArray, window: Array, start: int, stop: int, n_fft: int) -> ComplexArray:
+    """S on the bins 2 pi rate k / n_fft, k = 0 .. n_fft - 1, for n = start .. stop - 1; zero outside the record.
+
+    >>> short_time_spectra(np.array([1.0, 2.0, 3.0 + 0j]), np.array([1.0, 1.0, 1.0]), 1, 2, 4).round(12).tolist()
+    [[(6+0j), (2-2j), (-2+0j), (2+2j)]]
+    """
+    half = window.size // 2
+    padded = np.pad(signal, half)[start : stop + 2 * half]
+    segments = np.lib.stride_tricks.sliding_window_view(padded, window.size)
+    filled = np.zeros((stop - start, n_fft), dtype=np.complex128)
+    np.multiply(segments[:, half:], window[half:], out=filled[:, : half + 1])
+    if half:
+        np.multiply(segments[:, :half], window[:half], out=filled[:, -half:])
+    return np.asarray(fft.fft(filled, axis=1, overwrite_x=True), dtype=np.complex128)
+
+
 @dataclass(frozen=True)
 class ShortTimeKernel:
     """A complex signal and its symmetric window ``w[-half..half]``; zero outside the record."""
@@ -46,16 +62,8 @@ class ShortTimeKernel:
         for start in range(0, size, block):
             yield start, min(start + block, size)
 
-    def spectra(self, start: int, stop: int, window: Array) -> ComplexArray:
-        """S times exp(-i omega half / rate) under any window of the same length, shape ``(columns, n_fft)``."""
-        padded = np.pad(self.signal, self.window.size // 2)[start : stop + window.size - 1]
-        segments = np.lib.stride_tricks.sliding_window_view(padded, window.size)
-        filled = np.zeros((stop - start, self.n_fft), dtype=np.complex128)
-        np.multiply(segments, window, out=filled[:, : window.size])
-        return np.asarray(fft.fft(filled, axis=1, overwrite_x=True), dtype=np.complex128)
-
     def searched(self) -> Iterator[tuple[int, int, Array]]:
         """|S|^2 on the bins 2 pi rate k / n_fft, a few columns at a time."""
         for start, stop in self.spans():
-            spectra = self.spectra(start, stop, self.window)
+            spectra = short_time_spectra(self.signal, self.window, start, stop, self.n_fft)
             yield start, stop, np.asarray(spectra.real**2 + spectra.imag**2, dtype=np.float64)

@@ -23,6 +23,15 @@ WINDOWS: Mapping[str, Callable[[Array], Array]] = MappingProxyType(
 )
 
 
+# dw/ds of those that end at zero; the others jump at their ends, where a slope says nothing.
+SLOPES: Mapping[str, Callable[[Array], Array]] = MappingProxyType(
+    {
+        "hann": lambda s: -0.5 * math.pi * np.sin(math.pi * s),
+        "blackman": lambda s: -0.5 * math.pi * np.sin(math.pi * s) - 0.16 * math.pi * np.sin(2 * math.pi * s),
+    }
+)
+
+
 def window(name: str, half: int) -> Array:
     """Return the ``2 half + 1`` samples at s = j / (half + 1), j = -half .. half, so that no end sample is zero.
 
@@ -34,6 +43,19 @@ def window(name: str, half: int) -> Array:
     if half < 0:
         raise InputError(f"half width {half} of a window is negative; use 0 or more")
     return WINDOWS[name](np.arange(-half, half + 1) / (half + 1.0))
+
+
+def window_slope(name: str, half: int) -> Array:
+    """Return the slope per sample of :func:`window` at its ``2 half + 1`` samples.
+
+    Raises InputError for a window that does not end at zero.
+
+    >>> window_slope("hann", 1).round(6).tolist()
+    [0.785398, -0.0, -0.785398]
+    """
+    if name not in SLOPES:
+        raise InputError(f"window {name!r} does not end at zero; reassignment needs one of {', '.join(SLOPES)}")
+    return SLOPES[name](np.arange(-half, half + 1) / (half + 1.0)) / (half + 1.0)
 
 
 def half_width(seconds: float, rate: float, *, name: str = "lag_seconds", longest: int | None = None) -> int:

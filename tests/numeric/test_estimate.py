@@ -12,7 +12,14 @@ from numeric.errors import InputError
 from numeric.estimate import METHODS, estimate
 from numeric.harmonic_fit import Shape, harmonic_fit
 
-PEAKS = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner", "spectrogram")
+PEAKS = (
+    "wigner",
+    "pseudo-wigner",
+    "smoothed-pseudo-wigner",
+    "spectrogram",
+    "reassigned-spectrogram",
+    "synchrosqueezed",
+)
 Source = Callable[..., Any]
 
 
@@ -57,6 +64,10 @@ def test_auto_says_what_it_chose_and_why() -> None:
         ("pseudo-wigner", True, 0.0, 1.7e-5),
         ("smoothed-pseudo-wigner", True, 0.0, 1.5e-4),
         ("spectrogram", True, 0.0, 5e-5),
+        ("reassigned-spectrogram", False, 4.5e-4, 6.5e-4),
+        ("reassigned-spectrogram", True, 0.0, 5e-5),
+        ("synchrosqueezed", False, 5.5e-4, 7.5e-4),
+        ("synchrosqueezed", True, 0.0, 5e-5),
         ("zero-crossing", False, 0.9e-4, 1.5e-4),
         ("zero-crossing", True, 0.0, 1.0e-5),
         ("harmonic-least-squares", False, 0.0, 2.5e-5),
@@ -190,6 +201,7 @@ def test_harmonic_is_followed_on_request(pendulum_decay: Source) -> None:
         (chirp()[1], {"lag_seconds": 30.0, "method": "pseudo-wigner"}, "the signal has 641"),
         (chirp()[1], {"lag_seconds": 20.0, "method": "pseudo-wigner"}, "pseudo-wigner: .* give a longer record"),
         (chirp()[1], {"lag_window": "flat", "method": "pseudo-wigner"}, "window 'flat' is unknown"),
+        (chirp()[1], {"lag_window": "gaussian", "method": "synchrosqueezed"}, "window 'gaussian' does not end at zero"),
         (chirp()[1], {"harmonic": 30}, "harmonic 30 reaches .* Nyquist"),
         (chirp()[1], {"harmonics": 40}, "window of .* samples is too short"),
         (np.arange(64.0), {"band": (1.0, 2.0)}, r"signal spans .* cycles .* 4 are needed"),
