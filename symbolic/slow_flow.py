@@ -94,10 +94,9 @@ class SlowFlow:
 
     def _only(self) -> tuple[str, int]:
         if len(self.weights) != 1:
-            found = ", ".join(self.weights) or "none"
             raise InputError(
-                f"{self.system}: this needs a slow flow with one small parameter, and its small parameters are: "
-                f"{found}; give weight 0 to those that shall not be small"
+                f"{self.system}: this needs a slow flow with one small parameter, and this one has "
+                f"{', '.join(self.weights) or 'none'}; say which is small by its weight, 0 for those that are not"
             )
         return next(iter(self.weights.items()))
 

@@ -70,15 +70,18 @@ def rational_terms(expansion: Expansion, values: Sequence[object]) -> dict[Power
 
 
 def slow_flow_form(flow: SlowFlow, *, equation: str = "", limit: float | None = None) -> Form:
-    """Build the functions omega0 and damping of a multiple-scales slow flow with one small parameter.
+    """Build the functions omega0 and damping of a multiple-scales slow flow with at most one small parameter.
 
-    Raises InputError when it has another number of them, or one that does not scale like a rate.
+    Raises InputError when it has several, or one that does not scale like a rate.
     """
-    if flow.dimensions[flow.small] != 1:
-        raise InputError(f"{flow.small} of '{flow.system}' does not scale like a rate, as mu of 2*mu*u' does; no code")
+    if len(flow.weights) > 1 or any(flow.dimensions[name] != 1 for name in flow.weights):
+        raise InputError(
+            f"'{flow.system}' has the small parameters {', '.join(flow.weights)}; code is written for at most one, "
+            "that scales like a rate as mu of 2*mu*u' does: give the others a number and the weight 0"
+        )
     arguments = (
         Argument("a", MEANINGS["fundamental"]),
-        Argument(flow.small, "coefficient of the damping 2*mu*u'" if flow.small == "mu" else SMALL),
+        *(Argument(name, SMALL) for name in flow.weights),
         frequency_argument(flow.scale),
     )
     rate = "Relative rate of change of the amplitude, a'/a, per unit of time."
@@ -89,7 +92,8 @@ def slow_flow_form(flow: SlowFlow, *, equation: str = "", limit: float | None = 
     facts = (
         *common_facts(flow.method, equation),
         f"Amplitude a: {MEANINGS['fundamental']}.",
-        f"Order: terms a^p {flow.small}^q with p + {flow.weight} q up to {flow.order}.",
+        *(f"Order: terms a^p {name}^q with p + {w} q up to {flow.order}." for name, w in flow.weights.items()),
+        *(() if flow.weights else (f"Order: powers of a up to {flow.order}.",)),
         SCALING,
         *limit_fact("a", limit),
     )
@@ -100,12 +104,11 @@ def slow_function(
     name: str, summary: str, prefix: str, arguments: tuple[Argument, ...], flow: SlowFlow, terms: Sequence[Term]
 ) -> Function:
     """One side of the slow flow; a term a^p m^q carries k^(1 - q), which is taken out of it here."""
-    units: dict[Powers, Rational] = {
-        term.powers: term.coefficient / flow.unit(term.powers[1:]) for term in terms
-    }
+    units: dict[Powers, Rational] = {term.powers: term.coefficient / flow.unit(term.powers[1:]) for term in terms}
     if any(not c.is_Rational for c in units.values()):
-        raise InputError(NO_NUMBER.format(system=flow.system, names=", ".join(flow.names)))
-    return function(name, summary, prefix, arguments, units, factor=K, per={flow.small: K})
+        names = ", ".join(flow.names[len(flow.weights) :])
+        raise InputError(NO_NUMBER.format(system=flow.system, names=names))
+    return function(name, summary, prefix, arguments, units, factor=K, per=dict.fromkeys(flow.weights, K))
 
 
 def frequency_argument(scale: Expr) -> Argument:

@@ -14,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy.polys.rings import xring
 
+from symbolic.codegen import generate
 from symbolic.cost import Budget, predict, weighted_monomials
 from symbolic.errors import InputError
 from symbolic.fixed_points import cycle_series, fixed_points, frequency_series, root_series
@@ -276,6 +277,16 @@ def test_values_are_asked_for_by_name_and_number() -> None:
         flow.damping_at(0.5, 0.1)
     with pytest.raises(InputError, match="one small parameter"):
         _ = flow.small
+
+
+def test_code_has_the_arguments_that_the_flow_has() -> None:
+    text = generate(multiple_scales(make("u'' + u + u'**3 = 0"), 4))
+    assert "def omega0(a, k=1.0)" in text
+    assert "def damping(a, k=1.0)" in text
+    with pytest.raises(InputError, match="small parameters c, d; code is written for at most one"):
+        generate(multiple_scales(make("u'' + c*u' + d*u'**3 + u"), 4))
+    with pytest.raises(InputError, match="scales like a rate"):
+        generate(multiple_scales(make("u'' + d*u'**3 + u"), 4))
 
 
 # -- natural frequency -----------------------------------------------------------------------------------------------
