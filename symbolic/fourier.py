@@ -11,7 +11,8 @@ what a symmetry removes costs nothing.  The operator of every perturbation equat
     (d^2/dtau^2 + 1) x^m   =   (1 - m^2) x^m       + m (m-1) x^(m-2)
     (d^2/dtau^2 + 1) S x^m = S [(1 - (m+1)^2) x^m  + m (m-1) x^(m-2)]
 
-The polynomials live in a ``Space`` (see ``spaces``), which decides what the coefficients are.
+The polynomials live in a ``Space`` (see ``spaces``), which decides what the coefficients are.  A space may bring a
+``basis`` of its own, which gives the four polynomials another meaning (harmonics, for balls) and its own rules.
 """
 
 from __future__ import annotations
@@ -22,11 +23,10 @@ from dataclasses import dataclass
 
 from flint import fmpq
 
-from symbolic.spaces import Polynomial, Scalar, Space
+from symbolic.spaces import Parts, Polynomial, Scalar, Space
 
-Parts = tuple[Polynomial | None, Polynomial | None, Polynomial | None, Polynomial | None]
-"""p_0 ... p_3; None stands for zero.  Index = 2 * (sine) + (odd power of x)."""
 NOTHING: Parts = (None, None, None, None)
+"""p_0 ... p_3; None stands for zero.  Index = 2 * (sine) + (odd power of x)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,6 +67,9 @@ class Trig:
         return hash(tuple(str(p) for p in self.parts))
 
     def __bool__(self) -> bool:
+        if self.space.basis is not None:
+            absent = self.space.basis.absent
+            return any(p is not None and not absent(p) for p in self.parts)
         return self.parts != NOTHING and any(p is not None and p != 0 for p in self.parts)
 
     def map(self, change: Callable[[Polynomial], Polynomial]) -> Trig:
@@ -84,6 +87,8 @@ class Trig:
         p_0 -> -2 S x D p_0,   x p_1 -> -S (p_1 + 2 y D p_1),
         S p_2 -> x (p_2 - 2 (1 - y) D p_2),   S x p_3 -> y p_3 - (1 - y)(p_3 + 2 y D p_3).
         """
+        if self.space.basis is not None:
+            return Trig(self.space, self.space.basis.derivative(self.parts))
         shift, d = self.space.shift, self.space.derivative
         p0, p1, p2, p3 = self.parts
         even = odd = sine_even = sine_odd = None
@@ -114,6 +119,8 @@ def dot(space: Space, left: list[Trig], right: list[Trig]) -> Trig:
     >>> dot(c.space, [c, s], [c, s]) == constant(c.space, fmpq(1))
     True
     """
+    if space.basis is not None:
+        return Trig(space, space.basis.dot([x.parts for x in left], [y.parts for y in right]))
     sums: dict[tuple[int, int], Polynomial] = {}
     for x, y in zip(left, right, strict=True):
         for i, p in enumerate(x.parts):
@@ -152,6 +159,8 @@ def cosine(space: Space) -> Trig:
     >>> cosine(space_for(())).coefficients(1)
     [1]
     """
+    if space.basis is not None:
+        return Trig(space, space.basis.lowest(1))
     return Trig(space, (None, space.constant(fmpq(1)), None, None))
 
 
@@ -162,6 +171,8 @@ def sine(space: Space) -> Trig:
     >>> sine(space_for(())).derivative() == cosine(space_for(()))
     True
     """
+    if space.basis is not None:
+        return Trig(space, space.basis.lowest(2))
     return Trig(space, (None, None, space.constant(fmpq(1)), None))
 
 
@@ -178,6 +189,9 @@ def solve_oscillator(right: Trig) -> tuple[Trig, Scalar, Scalar]:
     (True, 0, 0)
     """
     space = right.space
+    if space.basis is not None:
+        solution, p, q = space.basis.solve(right.parts)
+        return Trig(space, solution), p, q
     solutions: list[Polynomial | None] = []
     resonant: list[Scalar] = [fmpq(0), fmpq(0)]
     for part, p in enumerate(right.parts):
@@ -221,6 +235,8 @@ def harmonic(p: Trig, multiple: int) -> tuple[Scalar, Scalar]:
     >>> harmonic(x * x * x, 3)
     (1/4, 0)
     """
+    if p.space.basis is not None:
+        return p.space.basis.harmonic(p.parts, multiple)
     parity = multiple % 2
     cos_part: Scalar = fmpq(0)
     sin_part: Scalar = fmpq(0)
@@ -255,6 +271,8 @@ def at_zero(p: Trig) -> Scalar:
     >>> at_zero(cosine(space_for(())))
     1
     """
+    if p.space.basis is not None:
+        return p.space.basis.at_zero(p.parts)
     return sum((value for part in (0, 1) for value in p.coefficients(part)), fmpq(0))
 
 

@@ -16,7 +16,7 @@ from symbolic.fourier import Trig, at_zero, constant, cosine, harmonic, solve_os
 from symbolic.oscillator import Oscillator, U, V
 from symbolic.rings import free_names
 from symbolic.spaces import Scalar, Space, space_for
-from symbolic.strained import March, compiled, normalise, residual
+from symbolic.strained import March, Watch, compiled, normalise, residual, unwatched
 
 
 def limit_cycle(oscillator: Oscillator, order: int, amplitude: str) -> Expansion:
@@ -46,8 +46,8 @@ def limit_cycle(oscillator: Oscillator, order: int, amplitude: str) -> Expansion
     )
 
 
-def march_cycle(oscillator: Oscillator, order: int, amplitude: str, space: Space) -> March:
-    """Run the orders of a limit cycle over a given coefficient space.
+def march_cycle(oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: Watch = unwatched) -> March:
+    """Run the orders of a limit cycle over a given coefficient space; ``watch`` sees the march before each order.
 
     Raises InputError as ``limit_cycle`` does.
 
@@ -61,6 +61,7 @@ def march_cycle(oscillator: Oscillator, order: int, amplitude: str, space: Space
     start = cosine(space).scale(a0)
     march = March(compiled(rest, (), start, _graded(oscillator, space)), [start], space)
     for n in range(1, order + 2):
+        watch(march, n)
         _cycle_step(march, n, amplitude, averaged.derivative()(a0))
     return march
 

@@ -27,8 +27,8 @@ from symbolic.fourier import constant, cosine, solve_oscillator
 from symbolic.limit_cycle import limit_cycle
 from symbolic.oscillator import Oscillator, U, V
 from symbolic.rings import free_names
-from symbolic.spaces import Space, space_for
-from symbolic.strained import March, compiled, normalise, residual
+from symbolic.spaces import Space, is_zero, space_for
+from symbolic.strained import March, Watch, compiled, normalise, residual, unwatched
 
 DIRECT = ("peak", "fundamental")
 """Definitions that fix the homogeneous solution order by order; the others are reached by conversion."""
@@ -78,8 +78,10 @@ def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Bu
     )
 
 
-def march_family(oscillator: Oscillator, order: int, amplitude: str, space: Space) -> March:
-    """Run the orders of a conservative oscillator over a given coefficient space.
+def march_family(
+    oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: Watch = unwatched
+) -> March:
+    """Run the orders of a conservative oscillator over a given coefficient space; ``watch`` sees each order begin.
 
     Raises InputError when the oscillator has no family of periodic orbits.
 
@@ -95,6 +97,7 @@ def march_family(oscillator: Oscillator, order: int, amplitude: str, space: Spac
     program.supply(U, march.u[1])
     program.supply(V, march.slope[1])
     for n in range(2, order + 2):
+        watch(march, n)
         _family_step(march, n, amplitude, oscillator)
     return march
 
@@ -107,7 +110,7 @@ def _family_step(march: March, n: int, amplitude: str, oscillator: Oscillator) -
     program.supply(V, march.velocity(n, n - 2) if program.uses_velocity else zero)
     right = -program.root.get(n) - march.inertia(n, 1, n - 2)
     particular, p, q = solve_oscillator(right)
-    if q != 0:
+    if not is_zero(q):
         raise InputError(_no_family(oscillator))
     march.extend_omega(-p)  # right + w_(n-1) cos tau must hold no cos tau
     march.append(normalise(particular, amplitude, size=True))

@@ -35,6 +35,9 @@ class Ring(Protocol):
     def dot(self, left: list[Element], right: list[Element]) -> Element:
         """Return the sum of products of two lists of the same length."""
 
+    def product(self, x: Node, y: Node) -> Node:
+        """Return the node of x y: ``Product``, or one that multiplies faster."""
+
     def invert(self, element: Element) -> Element:
         """Return 1 / element for a leading coefficient; InputError when the ring cannot."""
 

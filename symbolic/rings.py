@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import sympy
-from flint import fmpq, nmod
+from flint import arb, fmpq, nmod
 
 from symbolic.errors import InputError
 from symbolic.fourier import NOTHING, Trig, constant, dot
+from symbolic.harmonic_basis import Balls
 from symbolic.parse import U, V
+from symbolic.recurrences import Node, Product
+from symbolic.relaxed import RelaxedProduct
 from symbolic.spaces import Space
 
 # Values at the only arguments where an elementary function of a rational is rational.
@@ -52,6 +55,12 @@ class TrigRing:
     def dot(self, left: list[Trig], right: list[Trig]) -> Trig:
         return dot(self.space, left, right)
 
+    def product(self, x: Node, y: Node) -> Node:
+        """Return the node of a product: in blocks for balls, where products are long and additions cheap."""
+        if isinstance(self.space, Balls):
+            return RelaxedProduct(self, x, y, self.space)
+        return Product(self, x, y)
+
     def invert(self, element: Trig) -> Trig:
         value = self._constant(element)
         if value is None or value == 0:
@@ -74,18 +83,20 @@ class TrigRing:
 
     def power(self, element: Trig, exponent: sympy.Rational) -> Trig:
         value = self._constant(element)
+        if isinstance(value, arb) and value.is_exact():
+            value = value.fmpq()
         root = None if not isinstance(value, fmpq) else sympy.Rational(int(value.p), int(value.q)) ** exponent
         if root is None or not root.is_Rational:
             raise InputError(f"the power {exponent} of {value} is not rational; scale the argument to start from 1")
         return self.number(root)
 
-    def _constant(self, element: Trig) -> fmpq | nmod | None:
+    def _constant(self, element: Trig) -> fmpq | nmod | arb | None:
         """Return the value of a constant element without parameters, else None."""
         coefficients = element.coefficients(0)
         if any(p is not None and p != 0 for p in element.parts[1:]) or len(coefficients) > 1:
             return None
         value = coefficients[0] if coefficients else fmpq(0)
-        if isinstance(value, fmpq | nmod):
+        if isinstance(value, fmpq | nmod | arb):
             return value
         terms = value.to_dict()
         if any(any(powers) for powers in terms):

@@ -24,7 +24,6 @@ from symbolic.recurrences import (
     Logarithm,
     Node,
     Power,
-    Product,
     Quotient,
     Ring,
     Scaled,
@@ -119,7 +118,7 @@ class Program:
         if denominator is not sympy.S.One:
             return Quotient(self.ring, self._compile(numerator), self._compile(denominator))
         head, *tail = sorted(e.args, key=lambda f: f.has(*self._moving))  # small parameters first: see convolve
-        return Product(self.ring, self._compile(head), self._compile(sympy.Mul(*tail, evaluate=False)))
+        return self.ring.product(self._compile(head), self._compile(sympy.Mul(*tail, evaluate=False)))
 
     def _build_power(self, base: sympy.Expr, exponent: sympy.Expr) -> Node:
         if base is sympy.E:
@@ -132,7 +131,7 @@ class Program:
         if exponent.is_Integer and exponent <= 64:
             half = int(exponent) // 2
             low, high = self._compile(base**half), self._compile(base ** (int(exponent) - half))
-            return Product(self.ring, low, high)
+            return self.ring.product(low, high)
         return Power(self.ring, self._compile(base), exponent)
 
     def _build_function(self, e: sympy.Expr) -> Node:

@@ -19,10 +19,41 @@ Scalar = Any
 """What multiplies a power of y: ``fmpq``, ``nmod``, or an ``fmpq_mpoly`` that is free of y."""
 
 
+Parts = tuple[Polynomial | None, Polynomial | None, Polynomial | None, Polynomial | None]
+"""The four polynomials of a trigonometric polynomial; None stands for zero.  See ``fourier``."""
+
+
+class Basis(Protocol):
+    """Another meaning of the four polynomials than powers of cos tau, with its own rules; see ``harmonic_basis``."""
+
+    def lowest(self, part: int) -> Parts:
+        """Return 1, cos tau, sin tau or sin 2 tau by the index of its part."""
+
+    def derivative(self, p: Parts) -> Parts:
+        """Return d/dtau."""
+
+    def dot(self, left: Sequence[Parts], right: Sequence[Parts]) -> Parts:
+        """Return the sum of products."""
+
+    def solve(self, right: Parts) -> tuple[Parts, Scalar, Scalar]:
+        """Solve w'' + w = right; also return the resonant cosine and sine left over."""
+
+    def harmonic(self, p: Parts, multiple: int) -> tuple[Scalar, Scalar]:
+        """Return the coefficients of cos(multiple tau) and sin(multiple tau)."""
+
+    def at_zero(self, p: Parts) -> Scalar:
+        """Return the value at tau = 0."""
+
+    def absent(self, p: Polynomial) -> bool:
+        """Whether a part is zero at a glance."""
+
+
 class Space(Protocol):
     """Polynomials in one variable y."""
 
     names: tuple[str, ...]
+    basis: Basis | None
+    """None: powers of cos tau, the exact spaces' own."""
 
     def constant(self, value: Scalar) -> Polynomial:
         """Return the constant polynomial."""
@@ -51,6 +82,7 @@ class Rationals:
     """
 
     names: tuple[str, ...] = ()
+    basis: Basis | None = None
 
     def constant(self, value: Scalar) -> Polynomial:
         return fmpq_poly([value])
@@ -99,6 +131,8 @@ class Parametric:
     mu
     """
 
+    basis: Basis | None = None
+
     def __init__(self, names: tuple[str, ...]) -> None:
         self.names = names
         self._context = fmpq_mpoly_ctx.get(("y*", *names), Ordering.lex)  # no parameter can be called y*
@@ -128,6 +162,16 @@ class Parametric:
             for powers, value in self.constant(coefficient).to_dict().items():
                 total[(m, *powers[1:])] = value
         return self._context.from_dict(total)
+
+
+def is_zero(value: Scalar) -> bool:
+    """Whether a scalar is zero; of a ball, whether it is certainly zero (``!= 0`` would mean certainly not).
+
+    >>> from flint import arb
+    >>> is_zero(fmpq(0)), is_zero(arb(0)), is_zero(arb(0, 1))
+    (True, True, False)
+    """
+    return bool(value == 0)
 
 
 @lru_cache(maxsize=64)

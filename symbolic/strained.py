@@ -5,6 +5,9 @@ Notation as in ``lindstedt``: strained time tau = omega t, ' = d/dtau, omega^2 =
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TypeAlias
+
 import sympy
 from flint import fmpq
 
@@ -15,7 +18,7 @@ from symbolic.parse import U, V
 from symbolic.recurrences import Element
 from symbolic.rings import TrigRing
 from symbolic.series import Program
-from symbolic.spaces import Scalar, Space
+from symbolic.spaces import Scalar, Space, is_zero
 
 
 class March:
@@ -33,7 +36,7 @@ class March:
         """Sum of w_j u''_(n-j) over first <= j <= last."""
         total = constant(self.space, fmpq(0))
         for j in range(first, last + 1):
-            if self.squared[j] != 0:
+            if not is_zero(self.squared[j]):
                 total = total + self.curve[n - j].scale(self.squared[j])
         return total
 
@@ -41,7 +44,7 @@ class March:
         """Sum of omega_j du_(n-j)/dtau over 0 <= j <= last, for the orders of u that exist."""
         total = constant(self.space, fmpq(0))
         for j in range(last + 1):
-            if n - j < len(self.slope) and self.omega[j] != 0:
+            if n - j < len(self.slope) and not is_zero(self.omega[j]):
                 total = total + self.slope[n - j].scale(self.omega[j])
         return total
 
@@ -56,6 +59,14 @@ class March:
         self.u.append(p)
         self.slope.append(p.derivative())
         self.curve.append(self.slope[-1].derivative())
+
+
+Watch: TypeAlias = Callable[[March, int], None]
+"""Told the march and the order about to be found."""
+
+
+def unwatched(march: March, order: int) -> None:
+    """Watch nothing."""
 
 
 def normalise(p: Trig, amplitude: str, *, size: bool) -> Trig:
