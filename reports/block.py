@@ -111,7 +111,7 @@ def _readout_data(readout: Readout, canvases: Sequence[Canvas]) -> dict[str, obj
         "link": readout.link,
         "xs": shared,
         "series": series,
-        "axes": {canvas.variant.name: [_axes_data(canvas, i) for i in range(len(canvas.panels))] for canvas in canvases},
+        "axes": {c.variant.name: [_axes_data(c, i) for i in range(len(c.panels))] for c in canvases},
     }
 
 

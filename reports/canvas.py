@@ -119,9 +119,7 @@ def titles(axes: Axes, *, x: str = "", y: str = "") -> None:
     if x:
         axes.set_xlabel(x, color=sentinel("fg"), labelpad=3)
     if y:
-        offset = axes.annotate(
-            y, (0.0, 1.0), (-LEFT + 10.0, 9.0), xycoords="axes fraction", textcoords="offset points"
-        )
+        offset = axes.annotate(y, (0.0, 1.0), (-LEFT + 10.0, 9.0), xycoords="axes fraction", textcoords="offset points")
         offset.set_color(sentinel("fg"))
 
 
@@ -185,9 +183,7 @@ def shade(axes: Axes, low: float, high: float, *, hatched: bool = False) -> None
     if high <= low:
         return
     if hatched:
-        axes.axvspan(
-            low, high, facecolor="none", edgecolor=sentinel("grid"), hatch="////", linewidth=0.0, zorder=0.4
-        )
+        axes.axvspan(low, high, facecolor="none", edgecolor=sentinel("grid"), hatch="////", linewidth=0.0, zorder=0.4)
     else:
         axes.axvspan(low, high, color=sentinel("grid"), alpha=0.45, linewidth=0.0, zorder=0.3)
 

@@ -6,6 +6,8 @@ contour drawn through one invents loops.
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -37,7 +39,7 @@ def runs(row: Bands) -> list[tuple[int, int, int]]:
     [(0, 2, 2), (2, 3, 5)]
     """
     breaks = [0, *(np.flatnonzero(np.diff(row)) + 1).tolist(), row.size]
-    return [(a, b, int(row[a])) for a, b in zip(breaks, breaks[1:], strict=False) if b > a]
+    return [(a, b, int(row[a])) for a, b in itertools.pairwise(breaks) if b > a]
 
 
 def edges(centres: Array) -> Array:

@@ -79,9 +79,7 @@ def _tracks_caption(decay: DecayComparison, clock: Clock, names: list[str]) -> s
     values = decay.reference.omega[decay.reference.valid] * clock.factor
     ends = f"from {number(float(values[0]))} to {number(float(values[-1]))} {clock.unit}".strip() if values.size else ""
     a, b = (number(v, 3) for v in decay.interior)
-    errors = [
-        f"{score.label} {relative(score.rms_interior)}" for score in decay.scores if score.label in names
-    ]
+    errors = [f"{score.label} {relative(score.rms_interior)}" for score in decay.scores if score.label in names]
     unit = f" {decay.case.time_unit}" if decay.case.time_unit else ""
     return (
         f"Thick: {decay.reference.label}, {ends}. Below: error relative to it. Hatched: within reach of the "
@@ -125,7 +123,7 @@ def residuals_figure(decay: DecayComparison) -> Block:
             token = SERIES[KINDS.index(curve.kind)] if curve.kind in KINDS else "fg"
             draw(axes, Line(curve.time, np.where(error > 0, error, np.nan), "", token, width=1.2))
             score = found.get(curve.name)
-            _panel_title(axes, curve.label, relative(score.rms_interior) if score else "", columns)
+            _panel_title(axes, curve.label, relative(score.rms_interior) if score else "")
             if k + columns >= len(curves):
                 titles(axes, x=clock.x_title)
 
@@ -144,7 +142,7 @@ def residuals_figure(decay: DecayComparison) -> Block:
     )
 
 
-def _panel_title(axes: Axes, label: str, value: str, columns: int) -> None:
+def _panel_title(axes: Axes, label: str, value: str) -> None:
     room = axes.get_window_extent().width + 26
     for size in (10.0, 9.0, 8.0):
         if measured(axes, label, size)[0] <= room:
@@ -199,7 +197,7 @@ def budget_figure(decay: DecayComparison) -> Block | None:
     return block(
         "budget",
         title="Where the error comes from",
-        description="For each method the truncation, averaging and estimator parts of its relative error, and the total: "
+        description="The truncation, averaging and estimator parts of each method's relative error, and its total: "
         + "; ".join(f"{row.label} {relative(row.total)}" for row in rows),
         caption="Bar: total distance from the reference. Marks: its named parts, each as rms on its own (rms values "
         "of parts do not add up; what they leave unexplained together is the closure in the table).",

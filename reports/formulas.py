@@ -15,12 +15,12 @@ from compare.results import Formula
 
 _NAMESPACE = "http://www.w3.org/1998/Math/MathML"
 _ELEMENTS = frozenset(
-    "math mrow mi mn mo mtext mspace mfrac msqrt mroot msub msup msubsup mover munder munderover mstyle "
-    "mtable mtr mtd mpadded mphantom".split()
+    "math mrow mi mn mo mtext mspace mfrac msqrt mroot msub msup msubsup mover munder munderover mstyle mtable mtr mtd "
+    "mpadded mphantom".split()
 )
 _ATTRIBUTES = frozenset(
-    "accent columnalign depth display displaystyle fence form height linethickness lspace mathsize mathvariant "
-    "maxsize minsize movablelimits rspace scriptlevel separator stretchy symmetric width".split()
+    "accent columnalign depth display displaystyle fence form height linethickness lspace mathsize mathvariant maxsize "
+    "minsize movablelimits rspace scriptlevel separator stretchy symmetric width".split()
 )
 _ACCENTS = frozenset("¨˙~ˆ¯^→")
 _PRIMES = frozenset("′″‴")
@@ -118,9 +118,7 @@ def term_parts(terms: tuple[str, ...]) -> tuple[str, ...]:
     >>> term_parts(("1", r"-\frac{1}{16} A^2", "x"))
     ('1', '-\\frac{1}{16} A^2', '+x')
     """
-    return tuple(
-        term if i == 0 or term.lstrip().startswith(("+", "-")) else f"+{term}" for i, term in enumerate(terms)
-    )
+    return tuple(term if i == 0 or term.lstrip().startswith(("+", "-")) else f"+{term}" for i, term in enumerate(terms))
 
 
 def _infix(markup: str) -> str:

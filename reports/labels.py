@@ -37,7 +37,8 @@ def _renderer(axes: Axes) -> RendererAgg:
     figure = axes.get_figure(root=True)
     if figure is None:
         raise ValueError("the panel belongs to no figure; measure labels on a panel of a canvas")
-    return FigureCanvasAgg(figure).get_renderer()
+    renderer: RendererAgg = FigureCanvasAgg(figure).get_renderer()  # type: ignore[no-untyped-call]
+    return renderer
 
 
 def outline_points(axes: Axes, line: Line, spacing: float = 3.0) -> Array:
@@ -94,14 +95,12 @@ def _box_at(anchor: Array, width: float, step: float, shift: float) -> Box:
     return x, y, x + width, y + HEIGHT
 
 
-def _price(
-    axes: Axes, box: Box, step: float, shift: float, own: Array, others: Array, boxes: list[Box]
-) -> float:
+def _price(axes: Axes, box: Box, step: float, shift: float, own: Array, others: Array, boxes: list[Box]) -> float:
     frame = axes.get_window_extent()
     wide = (box[0] - MARGIN, box[1] - 1, box[2] + MARGIN, box[3] + 1)
     outside = box[0] < frame.x0 + 2 or box[2] > frame.x1 or box[1] < frame.y0 + 2 or box[3] > frame.y1 + 2
     overlap = any(_overlaps(wide, other) for other in boxes)
-    return (
+    price = (
         1e6 * outside
         + 1e5 * overlap
         + 60.0 * _count(wide, others)
@@ -109,6 +108,7 @@ def _price(
         + 12.0 * abs(step)
         + 6.0 * abs(shift)
     )
+    return float(price)
 
 
 def _overlaps(a: Box, b: Box) -> bool:
@@ -130,9 +130,9 @@ def _write(axes: Axes, line: Line, box: Box, anchor: tuple[float, float], size: 
         x = min(max(anchor[0], box[0] + 2), box[2] - 2)
         ends = np.array([[x, edge], list(anchor)])
         inverse = axes.transAxes.inverted().transform(ends)
-        axes.plot(
-            *inverse.T, transform=axes.transAxes, color=sentinel(line.token), linewidth=0.7, zorder=4.0
-        )[0].set_gid(f"class:{line.style or 'leader'}")
+        axes.plot(*inverse.T, transform=axes.transAxes, color=sentinel(line.token), linewidth=0.7, zorder=4.0)[
+            0
+        ].set_gid(f"class:{line.style or 'leader'}")
     text = axes.text(
         ((box[0] + box[2]) / 2 - frame.x0) / frame.width,
         (box[1] + 3.2 - frame.y0) / height,

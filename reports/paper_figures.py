@@ -12,7 +12,7 @@ from compare.results import Curve, DecayComparison, Statement
 from reports.block import Block, Readout, block
 from reports.canvas import Canvas, Line, draw, linear, padded, titles
 from reports.labels import place
-from reports.time_figures import Clock, plane_block, tracks_block, traces_of
+from reports.time_figures import Clock, plane_block, traces_of, tracks_block
 from reports.wording import number, relative
 
 

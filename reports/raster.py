@@ -39,10 +39,10 @@ def grey(level_db: NDArray[np.float64], floor_db: float) -> NDArray[np.uint8]:
 
 
 def png(pixels: NDArray[np.uint8]) -> bytes:
-    """Encode an 8-bit grey image, first row on top (PNG specification, colour type 0).
+    r"""Encode an 8-bit grey image, first row on top (PNG specification, colour type 0).
 
     >>> png(np.zeros((1, 1), dtype=np.uint8))[:8]
-    b'\\x89PNG\\r\\n\\x1a\\n'
+    b'\x89PNG\r\n\x1a\n'
     """
     height, width = pixels.shape
     header = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)

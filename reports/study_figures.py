@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -45,15 +46,15 @@ def spread(count: int, keep: int, most: int = 5) -> list[int]:
     """Choose at most ``most`` of ``count`` indices: first, last, ``keep`` and evenly between.
 
     >>> spread(10, 3, 5), spread(3, 1)
-    ([0, 3, 5, 7, 9], [0, 1, 2])
+    ([0, 3, 4, 7, 9], [0, 1, 2])
     """
     if count <= most:
         return list(range(count))
-    chosen = {0, keep, count - 1}
-    for candidate in np.linspace(0, count - 1, most).round().astype(int).tolist():
-        if len(chosen) < most:
-            chosen.add(int(candidate))
-    return sorted(chosen)
+    even = [int(i) for i in np.linspace(0, count - 1, most).round()]
+    inner = range(1, most - 1)
+    if keep not in even:
+        even[min(inner, key=lambda i: abs(even[i] - keep))] = keep
+    return sorted(even)
 
 
 def backbone_block(study: Study, found: Range | None) -> Block:
@@ -61,7 +62,7 @@ def backbone_block(study: Study, found: Range | None) -> Block:
     chosen = _chosen(study, found)
     picked = sorted({0, chosen, len(study.orders) - 1})
     reference = Line(study.amplitudes, study.reference / study.scale, study.reference_name, "fg", width=2.6)
-    tokens = {index: token for index, token in zip([chosen, *(i for i in picked if i != chosen)], ("s2", "s1", "s3"))}
+    tokens = dict(zip([chosen, *(i for i in picked if i != chosen)], ("s2", "s1", "s3"), strict=False))
     lines = [
         Line(study.amplitudes, study.omega[i] / study.scale, f"order {study.orders[i]}", tokens[i], style=f"t{i}")
         for i in picked
@@ -261,10 +262,8 @@ def _map_markup(grid: cells.Bands, outlines: dict[float, list[tuple[int, int, in
 
 def _band_keys() -> list[Key]:
     limits = [threshold(level) for level in cells.THRESHOLDS]
-    between = [f"{a} to {b}" for a, b in zip(limits, limits[1:], strict=False)]
-    return [
-        Key(f"b{i}", text) for i, text in enumerate([f"at most {limits[0]}", *between, f"more than {limits[-1]}"])
-    ]
+    between = [f"{a} to {b}" for a, b in itertools.pairwise(limits)]
+    return [Key(f"b{i}", text) for i, text in enumerate([f"at most {limits[0]}", *between, f"more than {limits[-1]}"])]
 
 
 def order_needed(study: Study, ranges: Sequence[Range]) -> Block | None:
@@ -320,5 +319,3 @@ def _stair_sentence(study: Study, target: float, x: Array, y: Array) -> str:
         f"Within {threshold(target)}: order {y[0]:.0f} reaches {_letter(study)} = {number(float(x[1]), 3)}, "
         f"order {y[-1]:.0f} reaches {number(float(x[-1]), 3)}."
     )
-
-

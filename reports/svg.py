@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+from functools import partial
 
 from markupsafe import escape
 
@@ -22,10 +23,18 @@ def to_svg(canvas: Canvas, *, prefix: str, title: str, description: str) -> str:
     text = _theme(text)
     text = _classes(text)
     for key, markup in canvas.inserts.items():
-        text = re.sub(rf'<g id="{re.escape(key)}">.*?</g>', lambda _, m=markup: m, text, flags=re.DOTALL)
+        text = re.sub(rf'<g id="{re.escape(key)}">.*?</g>', partial(_constant, markup), text, flags=re.DOTALL)
     text = _own_ids(text, prefix)
     text = _compact(text)
     return _head(text, canvas, prefix=prefix, title=title, description=description)
+
+
+def _constant(text: str, _: re.Match[str]) -> str:
+    return text
+
+
+def _prefixed(prefix: str, found: re.Match[str]) -> str:
+    return prefix + found[1]
 
 
 def _raw(canvas: Canvas) -> str:
@@ -49,9 +58,7 @@ def _own_ids(text: str, prefix: str) -> str:
     used = set(_REFERENCE.findall(text))
     text = re.sub(r' id="([^"]*)"', lambda m: f' id="{prefix}-{m[1]}"' if m[1] in used else "", text)
     for opening in ("url(#", 'xlink:href="#'):
-        text = re.sub(
-            re.escape(opening) + r"(?!shared-)([^\")]+)", lambda m, o=opening: f"{o}{prefix}-{m[1]}", text
-        )
+        text = re.sub(re.escape(opening) + r"(?!shared-)([^\")]+)", partial(_prefixed, f"{opening}{prefix}-"), text)
     return text.replace('xlink:href="', 'href="')
 
 
