@@ -143,7 +143,7 @@ def _images(motion: Motion, curves: tuple[Curve, ...]) -> tuple[Image, Image, Im
         wigner_image(
             run.u,
             run.rate,
-            top=4 * fastest,
+            top=3.4 * fastest,
             name="Wigner distribution of u",
             overlays=(motion.reference_curve(), *overlay),
             note="Between two components lies their cross term, which oscillates along time.",

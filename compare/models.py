@@ -39,10 +39,10 @@ def _conservative_curves(motion: Motion, exact: Exact, orders: Sequence[int]) ->
     if motion.setting.is_pendulum:
         k = motion.dynamics.natural_frequency
         for terms in SERIES_TERMS:
-            label = f"paper's (14), {terms} terms, at A(t) of (21)"
+            label = f"(14)+(21), {terms} terms"
             yield _model(motion, f"series-{terms}", label, series_frequency(peak, k=k, terms=terms))
     if motion.averaged is not None:
-        note = "J(t) = J0 exp(-2 mu t); no integration of the equation."
+        note = "J(t) = J₀ exp(−2μt); no integration of the equation."
         yield _model(motion, "averaged-action", "averaged action", motion.averaged.omega, note)
     yield _linear(motion)
     for order in orders:
@@ -53,7 +53,7 @@ def _conservative_curves(motion: Motion, exact: Exact, orders: Sequence[int]) ->
 
 def _exact_label(motion: Motion) -> str:
     if motion.setting.is_pendulum:
-        return "paper's model: (14) in closed form at A(t) of (21)"
+        return "paper's (14)+(21), closed form"
     return "exact backbone at V(A) = E(t)"
 
 
@@ -65,7 +65,7 @@ def _model(motion: Motion, name: str, label: str, omega: Array, note: str = "") 
 def _linear(motion: Motion) -> Curve:
     k, mu = motion.dynamics.natural_frequency, motion.dynamics.damping
     omega = np.full(motion.time.size, np.sqrt(max(k * k - mu * mu, 0.0)))
-    return _model(motion, "linear", "linear omega_c, eq. (3)", omega)
+    return _model(motion, "linear", "linear ω_c, eq. (3)", omega)
 
 
 def _expansion(motion: Motion, exact: Exact, order: int, x: Array) -> Curve:

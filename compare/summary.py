@@ -60,7 +60,7 @@ def cards(study: Study, found: Range, timings: Sequence[Timing]) -> tuple[Card, 
 
 def _range_card(study: Study, found: Range) -> Card:
     symbol = _symbol(study)
-    value = "none" if found.up_to is None else f"{symbol} ≤ {amplitude(found.up_to, study.amplitude_unit)}"
+    value = "none" if found.up_to is None else f"{symbol} ≤ {found.up_to:.3g} {study.amplitude_unit}".strip()
     ends = (
         ""
         if study.limit is None

@@ -16,20 +16,23 @@ from reports.time_figures import Clock, curve_line, relative_to, time_span, trac
 from reports.wording import listing, number, relative
 
 KINDS = ("model", "estimate", "expansion")
+PREFERRED = ("closed-form", "lindstedt-2", "wigner", "smoothed-pseudo-wigner", "harmonic-least-squares")
+"""The curves that tell the story: the paper's model, its low-order expansion, its estimators, and a better one."""
 
 
 def leading(curves: Sequence[Curve], most: int = 5) -> list[Curve]:
-    """Choose at most ``most`` curves, taking kinds in turn, kept in their own order.
+    """Choose at most ``most`` curves: the preferred ones, then others by kind in turn; kept in their own order.
 
     >>> leading([])
     []
     """
-    queues = [[curve for curve in usable(curves) if curve.kind == kind] for kind in KINDS]
-    taken: list[str] = []
-    while len(taken) < most and any(queues):
-        for queue in queues:
+    queues = [[curve.name for curve in usable(curves) if curve.kind == kind] for kind in KINDS]
+    taken = [name for name in PREFERRED if any(name in queue for queue in queues)][:most]
+    rest = [[name for name in queue if name not in taken] for queue in queues]
+    while len(taken) < most and any(rest):
+        for queue in rest:
             if queue and len(taken) < most:
-                taken.append(queue.pop(0).name)
+                taken.append(queue.pop(0))
     return [curve for curve in curves if curve.name in taken]
 
 
@@ -182,8 +185,7 @@ def budget_figure(decay: DecayComparison) -> Block | None:
     low, high = 10.0 ** np.floor(np.log10(values.min())), 10.0 ** np.ceil(np.log10(values.max()))
 
     def drawing(canvas: Canvas) -> None:
-        left = 20.0 if canvas.narrow else 190.0
-        (axes,) = canvas.stack(left=left)
+        (axes,) = canvas.stack(left=20.0 if canvas.narrow else 210.0)
         axes.grid(visible=False)
         decades(axes, "x", float(low), float(max(high, 100 * low)), ticks=5 if canvas.narrow else 9)
         axes.grid(visible=True, axis="x", color=sentinel("grid"))

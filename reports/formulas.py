@@ -23,6 +23,7 @@ _ATTRIBUTES = frozenset(
     "minsize movablelimits rspace scriptlevel separator stretchy symmetric width".split()
 )
 _ACCENTS = frozenset("¨˙~ˆ¯^→")
+_DOTS = {"˙": ".", "¨": ".."}
 _PRIMES = frozenset("′″‴")
 
 
@@ -82,7 +83,21 @@ def _polish(tree: ET.Element) -> None:
         if parent.tag in ("mrow", "math", "mtd", "mstyle"):
             _space_functions(parent)
         if parent.tag == "mover" and len(parent) == 2 and (parent[1].text or "") in _ACCENTS:
-            parent.set("accent", "true")
+            _set_accent(parent)
+
+
+def _set_accent(over: ET.Element) -> None:
+    """Time derivatives as full stops stacked over the letter.
+
+    Without an OpenType mathematics font a browser draws the accents U+02D9 and U+00A8 into the letter; stacked scripts
+    it sets clear of it with any font.
+    """
+    dots = _DOTS.get(over[1].text or "")
+    over.set("accent", "false" if dots else "true")
+    if dots:
+        over[1].text = dots
+        over[1].attrib.clear()
+        over[1].attrib.update({"stretchy": "false", "lspace": "0", "rspace": "0"})
 
 
 def _set_token(element: ET.Element) -> None:

@@ -77,8 +77,7 @@ def backbone_block(study: Study, found: Range | None) -> Block:
         taken = _mark_range(axes, study, found)
         for line in (reference, *lines):
             draw(axes, line)
-        short = replace(reference, label="exact" if canvas.narrow else reference.label)
-        place(axes, [*lines, short], taken=taken)
+        place(axes, [*lines, replace(reference, label="exact")], taken=taken)
 
     traces = tuple(Trace(line.label, line.x, line.y, line.style, line.token) for line in (reference, *lines))
     turning = "softening" if reference.y[-1] < reference.y[0] else "hardening"

@@ -192,4 +192,4 @@ def _plane_markup(canvas: Canvas, key: str, low: float, high: float) -> str:
 
 
 def _level_keys(floor_db: float) -> tuple[Key, ...]:
-    return tuple(Key(f"ink{i}", f"{floor_db * (4 - i) / 4:.0f} dB".replace("-", "−")) for i in range(5))
+    return tuple(Key(f"ink{i}", f"{floor_db * (4 - i) / 4 + 0.0:.0f} dB".replace("-", "−")) for i in range(5))
