@@ -147,21 +147,29 @@ class LagKernel:
 
     def spans(self, n_fft: int) -> Iterator[tuple[int, int]]:
         """Consecutive (start, stop) that cover the record, in blocks that fit into the working memory."""
-        column, size = self.signal.dtype.itemsize * n_fft, self.signal.size
-        block = max(4, BLOCK_BYTES // column)
+        size, block = self.signal.size, self._rows(n_fft)
         if self.half_smoothing:
+            column = self.signal.dtype.itemsize * 2 * (self.half_lags + 1)
             block = max(2 * self.half_smoothing, min(8 * self.half_smoothing, SMOOTHING_BYTES // column))
         for start in range(0, size, block):
             yield start, min(start + block, size)
 
-    def spectra(self, start: int, stop: int, n_fft: int) -> Floats:
-        """W of the columns from ``start`` to ``stop`` on ``n_fft`` bins, shape ``(columns, n_fft)``."""
-        return np.asarray(fft.hfft(self.columns(start, stop, width=n_fft // 2 + 1), n=n_fft, axis=1))
+    def _rows(self, n_fft: int) -> int:
+        """How many columns are transformed at a time."""
+        return max(4, BLOCK_BYTES // (self.signal.dtype.itemsize * n_fft))
+
+    def spectra(self, start: int, stop: int, n_fft: int) -> Iterator[tuple[int, int, Floats]]:
+        """W of the columns from ``start`` to ``stop`` on ``n_fft`` bins: (first, last, ``(last - first, n_fft)``)."""
+        rows = self._rows(n_fft)
+        columns = self.columns(start, stop, width=n_fft // 2 + 1 if stop - start <= rows else None)
+        for first in range(0, stop - start, rows):
+            part = columns[first : first + rows]
+            yield start + first, start + first + len(part), np.asarray(fft.hfft(part, n=n_fft, axis=1))
 
     def searched(self) -> Iterator[tuple[int, int, Floats]]:
         """All spectra on OVERSAMPLING bins per lag or a few more; near the border, where lags are few, bins are few."""
         for start, stop in self.spans(self.search_length(self.half_lags)):
-            yield start, stop, self.spectra(start, stop, self.search_length(self.reach(start, stop)))
+            yield from self.spectra(start, stop, self.search_length(self.reach(start, stop)))
 
     @staticmethod
     def search_length(lags: int) -> int:

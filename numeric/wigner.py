@@ -90,8 +90,9 @@ def plane(kernel: LagKernel, name: str, *, start: float, memory: int) -> Distrib
         real.itemsize * size * kernel.n_fft, memory, f"{name} of {size} samples by {kernel.n_fft} bins", remedy
     )
     columns = np.empty((size, kernel.n_fft), dtype=real)
-    for first, last in kernel.spans(kernel.n_fft):
-        columns[first:last] = kernel.spectra(first, last, kernel.n_fft)
+    for start_block, stop_block in kernel.spans(kernel.n_fft):
+        for first, last, spectra in kernel.spectra(start_block, stop_block, kernel.n_fft):
+            columns[first:last] = spectra
     settings = {
         "rate": kernel.rate,
         "n_fft": kernel.n_fft,
