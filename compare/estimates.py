@@ -29,14 +29,12 @@ RECIPES = (
     Recipe("wigner", "Wigner peak of u", "wigner", options={"bias": False}),
     Recipe("wigner-velocity", "Wigner peak of u'", "wigner", velocity=True, options={"bias": False}),
     Recipe("pseudo-wigner", "pseudo-Wigner peak of u", "pseudo-wigner"),
-    Recipe(
-        "pseudo-wigner-corrected", "pseudo-Wigner peak, bias removed", "pseudo-wigner", options={"remove_bias": True}
-    ),
-    Recipe("smoothed-pseudo-wigner", "smoothed pseudo-Wigner peak of u", "smoothed-pseudo-wigner"),
+    Recipe("pseudo-wigner-corrected", "pseudo-Wigner, bias removed", "pseudo-wigner", options={"remove_bias": True}),
+    Recipe("smoothed-pseudo-wigner", "smoothed pseudo-Wigner", "smoothed-pseudo-wigner"),
     Recipe("spectrogram", "spectrogram peak of u", "spectrogram"),
     Recipe("hilbert", "Hilbert phase of u", "hilbert"),
     Recipe("harmonic-least-squares", "harmonic least squares on u", "harmonic-least-squares"),
-    Recipe("zero-crossing", "zero crossings of the samples of u", "zero-crossing"),
+    Recipe("zero-crossing", "zero crossings of u", "zero-crossing"),
 )
 
 

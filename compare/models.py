@@ -53,7 +53,7 @@ def _conservative_curves(motion: Motion, exact: Exact, orders: Sequence[int]) ->
 
 def _exact_label(motion: Motion) -> str:
     if motion.setting.is_pendulum:
-        return "paper's (14)+(21), closed form"
+        return "(14)+(21), closed form"
     return "exact backbone at V(A) = E(t)"
 
 
@@ -65,7 +65,7 @@ def _model(motion: Motion, name: str, label: str, omega: Array, note: str = "") 
 def _linear(motion: Motion) -> Curve:
     k, mu = motion.dynamics.natural_frequency, motion.dynamics.damping
     omega = np.full(motion.time.size, np.sqrt(max(k * k - mu * mu, 0.0)))
-    return _model(motion, "linear", "linear ω_c, eq. (3)", omega)
+    return _model(motion, "linear", "linear, eq. (3)", omega)
 
 
 def _expansion(motion: Motion, exact: Exact, order: int, x: Array) -> Curve:
@@ -120,7 +120,7 @@ def slow_flow_curve(motion: Motion, flow: SlowFlow) -> Curve:
     omega = np.asarray(flow.frequency_at(solution.y[0], *small), dtype=float)
     return Curve(
         f"multiple-scales-{flow.order}",
-        f"multiple scales, weighted order {flow.order}",
+        f"multiple scales, order {flow.order}",
         "expansion",
         motion.time[: omega.size],
         omega,

@@ -66,8 +66,12 @@ def _compact(text: str) -> str:
     def rounded(match: re.Match[str]) -> str:
         return f"{round(float(match.group()), 2) + 0.0:.2f}".rstrip("0").rstrip(".")
 
+    def tenths(match: re.Match[str]) -> str:
+        """Paths to a tenth of a point, a seventh of a pixel: finer than the line is wide by an order."""
+        return f"{round(float(match.group()), 1) + 0.0:.1f}".removesuffix(".0")
+
     def attribute(match: re.Match[str]) -> str:
-        value = re.sub(r"-?\d+\.\d+", rounded, match[2])
+        value = re.sub(r"-?\d+\.\d+", tenths if match[1] == "d" else rounded, match[2])
         if match[1] == "d":
             value = re.sub(r"\s*([MLHVCQZz])\s*", r"\1", value).strip()
         if match[1] == "style":

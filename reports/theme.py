@@ -57,7 +57,7 @@ DRAWING: Mapping[str, object] = MappingProxyType(
         "grid.linewidth": 0.6,
         "hatch.linewidth": 0.6,
         "path.simplify": True,
-        "path.simplify_threshold": 0.1,
+        "path.simplify_threshold": 0.3,
         "agg.path.chunksize": 0,
         "text.usetex": False,
         "figure.dpi": 72.0,
