@@ -24,6 +24,8 @@ OVERSAMPLING = 1.5
 HALF = 26
 """Neighbours on each side of the highest bin."""
 DEGREE = 16
+STRIP = 128
+"""Rows multiplied at a time: few enough that no matrix product wakes threads, which costs more than it saves."""
 NEWTON_STEPS = 8
 SETTLED = 1e-11
 """Step, in bins, below which the iteration ends."""
@@ -64,6 +66,15 @@ def neighbours(spectra: NDArray[np.floating], at: NDArray[np.intp]) -> Array:
     return np.asarray(spectra.ravel()[places], dtype=np.float64)
 
 
+def slopes_around(around: Array) -> Array:
+    """Neighbours times :func:`derivative_weights`, shape ``(rows, 2 DEGREE - 1)``."""
+    weights = derivative_weights()
+    out = np.empty((around.shape[0], weights.shape[1]))
+    for first in range(0, out.shape[0], STRIP):
+        np.matmul(around[first : first + STRIP], weights, out=out[first : first + STRIP])
+    return out
+
+
 def parabola_vertex(left: Array, centre: Array, right: Array) -> Array:
     """Offset (in bins, -1/2 .. 1/2) of the vertex through three neighbouring values; 0 where they do not bend down.
 
@@ -78,11 +89,11 @@ def parabola_vertex(left: Array, centre: Array, right: Array) -> Array:
 def maximum(derivatives: Array, offset: Array) -> Array:
     """Offset in bins, -1 .. 1, of the maximum near ``offset`` of each row, by Newton's method for all rows at once.
 
-    ``derivatives`` holds the neighbours times :func:`derivative_weights`, shape ``(rows, 2 DEGREE - 1)``.  Where the
-    spectrum does not bend down a quarter of a bin is walked uphill instead.
+    ``derivatives`` comes from :func:`slopes_around`.  Where the spectrum does not bend down, a quarter of a bin is
+    walked uphill instead.
 
     >>> around = np.cos(0.5 * (np.arange(-HALF, HALF + 1.0) - 0.3))[None]
-    >>> round(float(maximum(around @ derivative_weights(), np.zeros(1))[0]), 10)
+    >>> round(float(maximum(slopes_around(around), np.zeros(1))[0]), 10)
     0.3
     """
     coefficients = np.ascontiguousarray(derivatives.T)

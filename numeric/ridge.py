@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from numeric.bin_interpolation import HALF, derivative_weights, maximum, neighbours, parabola_vertex
+from numeric.bin_interpolation import DEGREE, HALF, maximum, neighbours, parabola_vertex, slopes_around
 from numeric.samples import Array, Mask
 
 
@@ -70,15 +70,15 @@ def highest(values: NDArray[np.floating], spacing: float, low: Array, high: Arra
 def follow(kernel: Kernel, low: Array, high: Array) -> Ridge:
     """Return the ridge of ``kernel`` between ``low[n]`` and ``high[n]`` (rad per time unit, one value per column)."""
     low, high = low - kernel.origin, high - kernel.origin
-    size, weights = low.size, derivative_weights()
-    derivatives, three = np.empty((size, weights.shape[1])), np.empty((size, 3))
+    size = low.size
+    derivatives, three = np.empty((size, 2 * DEGREE - 1)), np.empty((size, 3))
     at, spacing = np.empty(size, dtype=np.intp), np.empty(size)
     for begin, end, values in kernel.searched():
         part = slice(begin, end)
         spacing[part] = kernel.period / values.shape[1]
         at[part] = highest(values, spacing[begin], low[part], high[part])
         around = neighbours(values, at[part])
-        derivatives[part] = around @ weights
+        derivatives[part] = slopes_around(around)
         three[part] = around[:, HALF - 1 : HALF + 2]
     left, centre, right = three.T
     coarse = at * spacing

@@ -13,7 +13,7 @@ from numeric.bin_interpolation import DEGREE, derivative_weights, neighbour_weig
 from numeric.curvature import chirp, curvature_coefficient, formula_bias, reestimated_bias, smooth_fit
 from numeric.errors import InputError
 from numeric.lag_kernel import LagKernel
-from numeric.ridge import follow
+from numeric.ridge import follow, highest
 from numeric.search_band import continuous_path, find_corridor
 from numeric.short_time import ShortTimeKernel
 from numeric.track import Track
@@ -78,6 +78,32 @@ def test_refinement_finds_the_maximum_between_the_bins() -> None:
     turned = column * m * np.exp(-2j * ridge.omega[50] * m / rate)
     slope, bend = 2 / rate * 2 * turned.imag.sum(), -((2 / rate) ** 2) * 2 * (m * turned).real.sum()
     assert abs(slope / bend) < 1e-10
+
+
+@given(st.integers(0, 200))
+@settings(deadline=None, max_examples=60)
+def test_highest_bin_is_that_of_the_masked_row(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    values = rng.normal(size=(5, 40))
+    before, spacing = values.copy(), 0.3
+    low, width = rng.uniform(0.0, 9.0, size=5), rng.uniform(0.6, 8.0, size=5)
+    if seed % 3 == 0:
+        low, width = np.full(5, low[0]), np.full(5, width[0])
+    omega = spacing * np.arange(40)
+    allowed = (omega >= low[:, None]) & (omega <= (low + width)[:, None])
+    expected = np.where(allowed, values, -np.inf).argmax(axis=1)
+    assert highest(values, spacing, low, low + width).tolist() == expected.tolist()
+    assert np.array_equal(values, before)
+
+
+def test_columns_without_a_bin_in_their_band_are_not_inside() -> None:
+    rate = 16.0
+    z = np.exp(2j * np.pi * 3.0 * np.arange(64) / rate)
+    kernel = wigner_kernel(z, rate, lag_seconds=1.0)
+    spacing = kernel.period / LagKernel.search_length(kernel.half_lags)
+    ones = np.ones(64)
+    ridge = follow(kernel, 7.2 * spacing * ones, 7.8 * spacing * ones)
+    assert not ridge.inside[16:-16].any()
 
 
 def test_spectrogram_ridge_of_a_tone_is_exact_between_the_bins() -> None:

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from numeric.errors import InputError
+from numeric.lag_kernel import LagKernel
 from numeric.ridge import follow
 from numeric.wigner import as_analytic, pseudo_wigner, smoothed_pseudo_wigner, wigner, wigner_kernel
 from numeric.windows import window
@@ -57,6 +58,34 @@ def test_smoothed_and_plain_pseudo_wigner_are_the_sums_written_out(size: int, ha
     expected = slow_twin(z, rate, h, np.ones(1), 24)
     plane = pseudo_wigner(z, rate, lag_seconds=2 * half / rate, lag_window="hann", n_fft=24)
     assert np.abs(plane.values - expected).max() < 1e-12 * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("decimation", [1, 3])
+@pytest.mark.parametrize(("half", "smooth"), [(48, 0), (20, 0), (20, 3)])
+def test_small_blocks_and_short_lags_near_the_border_leave_nothing_out(
+    monkeypatch: pytest.MonkeyPatch, half: int, smooth: int, decimation: int
+) -> None:
+    monkeypatch.setattr("numeric.lag_kernel.BLOCK_BYTES", 1)
+    monkeypatch.setattr("numeric.lag_kernel.SMOOTHING_BYTES", 1)
+    z, h, g = noise(97), window("blackman", half)[half:], window("hann", smooth)
+    kernel = LagKernel(z, 5.0, h[::decimation], g, 200, decimation)
+    n = np.arange(97)
+    product = np.zeros((97, kernel.half_lags + 1), dtype=complex)
+    for m in range(kernel.half_lags + 1):
+        ahead, behind = n + decimation * m, n - decimation * m
+        both = (ahead < 97) & (behind >= 0)
+        product[both, m] = z[ahead[both]] * z[behind[both]].conj()
+    smoothed = np.stack([np.convolve(column, g, mode="same") for column in product.T], axis=1)
+    exact = 2.0 * decimation / 5.0 * smoothed * h[::decimation]
+    m = np.arange(1, kernel.half_lags + 1)
+    seen = 0
+    for first, last, spectra in kernel.searched():
+        assert first == seen
+        seen, bins = last, spectra.shape[1]
+        turns = np.exp(-2j * np.pi * np.outer(m, np.arange(bins)) / bins)
+        expected = exact[first:last, :1].real + 2.0 * (exact[first:last, 1:] @ turns).real
+        assert np.abs(spectra - expected).max() < 1e-12 * np.abs(exact).sum(axis=1).max()
+    assert seen == 97
 
 
 @pytest.mark.parametrize("size", [1, 2, 5, 8, 97, 100, 641])
