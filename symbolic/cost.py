@@ -13,12 +13,14 @@ from dataclasses import dataclass
 from symbolic.errors import InputError
 
 # method: (seconds, power of the order, bytes), calibrated at pendulum A^200, van der Pol eps^96; multiple scales at the
-# damped pendulum 100, two dampings 60, three 48, van der Pol 100, damped Helmholtz-Duffing with symbols 40.
+# damped pendulum 100, two dampings 60, three 48, van der Pol 100, damped Helmholtz-Duffing with symbols 40; balls at
+# van der Pol 200 and 400.
 _LAWS = {
     "lindstedt": (3e-9, 4.0, 60.0),
     "limit-cycle": (5e-8, 4.0, 60.0),
     "multiple-scales": (4e-9, 4.0, 2.5),
     "energy-integral": (1e-8, 3.0, 60.0),
+    "balls": (7e-8, 3.5, 3.0),
 }
 
 

@@ -63,10 +63,13 @@ class RelaxedProduct(Product):
         if self.plain:
             plain: Trig = super().step(n)
             return plain
+        ends = self._ends(n)
+        for factor in (self.x, self.y) if n > 1 else ():
+            factor.get(n - 1)  # a replay must ask for the same, or a factor would miss its corrections
         if len(self.tape) < len(self.replayed):
             self.tape.append(self.replayed[len(self.tape)])
         else:
-            self.tape.append(plus(self._ends(n), self._middle(n)))
+            self.tape.append(plus(ends, self._middle(n)))
         return Trig(self.space, self.tape[-1])
 
     def _ends(self, n: int) -> Parts:
