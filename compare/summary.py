@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from compare.results import Card, DecayComparison, Range, Score, Study, Timing
-from compare.wording import amplitude, frequency, in_pi, nanoseconds, offset, relative, scientific
+from compare.wording import amplitude, frequency, in_pi, nanoseconds, offset, relative, rounded_down, scientific
 
 
 def study_title(study: Study, found: Range) -> str:
@@ -19,7 +19,7 @@ def study_title(study: Study, found: Range) -> str:
     if found.up_to is None:
         return f"Order {found.order} misses {target} at every amplitude studied for {study.title}"
     symbol = _symbol(study)
-    reach = amplitude(found.up_to, study.amplitude_unit)
+    reach = amplitude(rounded_down(found.up_to, 4), study.amplitude_unit)
     extent = "on all of the range studied, up to" if found.up_to >= study.amplitudes[-1] else "up to"
     return f"Order {found.order} stays within {target} {extent} {symbol} = {reach}"
 
@@ -37,12 +37,16 @@ def _study_sentences(study: Study, found: Sequence[Range]) -> Iterator[str]:
     symbol = _symbol(study)
     reached = [item for item in found if item.up_to is not None]
     target = relative(found[0].target)
-    listed = ", ".join(f"order {item.order} up to {symbol} = {item.up_to:.3g}" for item in _sample(reached))
+    listed = ", ".join(f"order {item.order} up to {symbol} = {_reach(item)}" for item in _sample(reached))
     yield f"The relative error stays within {target}, counted to the first violation, for {listed or 'no order'}."
     known = scientific(float(study.reference_error.max()), digits=1)
     yield f"The exact frequency is the {study.reference_name}, known to {known}."
     if study.convergence_note:
         yield study.convergence_note
+
+
+def _reach(found: Range) -> str:
+    return "0" if found.up_to is None else f"{rounded_down(found.up_to, 3):g}"
 
 
 def _sample(found: Sequence[Range]) -> Sequence[Range]:
@@ -60,7 +64,7 @@ def cards(study: Study, found: Range, timings: Sequence[Timing]) -> tuple[Card, 
 
 def _range_card(study: Study, found: Range) -> Card:
     symbol = _symbol(study)
-    value = "none" if found.up_to is None else f"{symbol} ≤ {found.up_to:.3g} {study.amplitude_unit}".strip()
+    value = "none" if found.up_to is None else f"{symbol} ≤ {_reach(found)} {study.amplitude_unit}".strip()
     ends = (
         ""
         if study.limit is None

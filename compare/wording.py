@@ -73,6 +73,16 @@ def amplitude(value: float, unit: str) -> str:
     return f"{text} rad ({in_pi(value)})" if unit == "rad" else f"{text} {unit}".strip()
 
 
+def rounded_down(value: float, digits: int) -> float:
+    """Round a positive limit down to significant digits, so that what is printed still holds.
+
+    >>> rounded_down(2.1991, 3), rounded_down(0.5, 3), rounded_down(2.64, 3)
+    (2.19, 0.5, 2.64)
+    """
+    scale = 10.0 ** (digits - 1 - math.floor(math.log10(value)))
+    return math.floor(value * scale * (1 + 1e-12)) / scale
+
+
 def frequency(omega: float, time_unit: str) -> str:
     """Angular frequency as a reader meets it: hertz when time is in seconds, else rad per time unit.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
@@ -72,7 +73,9 @@ def block(
 ) -> Block:
     """Draw a figure twice, wide and narrow, and gather what the page needs of it."""
     canvases, drawings = [], []
-    with matplotlib.style.context(["default", dict(DRAWING)]):
+    with matplotlib.style.context(["default", dict(DRAWING)]), warnings.catch_warnings():
+        # A letter that the measuring font lacks is measured as a box; the browser has other fonts to draw it with.
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font", category=UserWarning)
         for variant, height in zip((WIDE, NARROW), heights, strict=True):
             canvas = _drawn(variant, height, draw)
             canvases.append(canvas)

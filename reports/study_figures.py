@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from compare.results import Range, Study
+from compare.wording import rounded_down
 from reports import cells
 from reports.block import Block, Key, Readout, Toggle, block
 from reports.canvas import Array, Canvas, Line, Trace, decades, draw, limit_line, linear, padded, shade, titles, whole
@@ -108,7 +109,7 @@ def _mark_range(axes: Axes, study: Study, found: Range | None) -> list[tuple[flo
         shade(axes, found.up_to, end)
         limit_line(axes, found.up_to)
         at = (found.up_to - axes.get_xlim()[0]) / (end - axes.get_xlim()[0])
-        text = f"{threshold(found.target)} up to {number(found.up_to, 3)}"
+        text = f"{threshold(found.target)} up to {number(rounded_down(found.up_to, 3), 3)}"
         right = at < 0.62
         taken.append(note(axes, text, at + (0.015 if right else -0.015), 0.05, align="left" if right else "right"))
     return taken
@@ -119,7 +120,7 @@ def _range_sentence(study: Study, found: Range | None) -> str:
         return ""
     if found.up_to is None:
         return f"Order {found.order} meets {threshold(found.target)} at none of the amplitudes studied."
-    where = f"{_letter(study)} = {number(found.up_to)}"
+    where = f"{_letter(study)} = {number(rounded_down(found.up_to, 4))}"
     if found.up_to >= study.amplitudes[-1]:
         return f"Order {found.order} stays within {threshold(found.target)} over the whole range studied, to {where}."
     return f"Order {found.order} stays within {threshold(found.target)} up to {where}; beyond, shaded."

@@ -12,6 +12,8 @@ from reports.canvas import Canvas
 from reports.theme import SENTINELS
 
 _NO_METADATA = dict.fromkeys(("Creator", "Date", "Format", "Type"))
+# Written as references inside texts, so that no label can look like an attribute, a colour or a style.
+_GUARD = {ord(letter): f"&#{ord(letter)};" for letter in '"#:'}
 _REFERENCE = re.compile(r'(?:url\(#|xlink:href="#|href="#)([^")]+)')
 
 
@@ -40,7 +42,7 @@ def _prefixed(prefix: str, found: re.Match[str]) -> str:
 def _raw(canvas: Canvas) -> str:
     stream = io.StringIO()
     canvas.figure.savefig(stream, format="svg", metadata=_NO_METADATA)
-    return stream.getvalue()
+    return re.sub(r">[^<]+<", lambda found: found[0].translate(_GUARD), stream.getvalue())
 
 
 def _theme(text: str) -> str:

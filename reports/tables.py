@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from compare.results import BudgetRow, Certified, Range, Score, Timing
+from compare.wording import rounded_down
 from reports.wording import NONE, number, relative, threshold
 
 
@@ -97,7 +98,7 @@ def _reach(reach: dict[tuple[int, float], float | None], order: int, target: flo
     if (order, target) not in reach:
         return NONE
     up_to = reach[order, target]
-    return "nowhere" if up_to is None else number(up_to)
+    return "nowhere" if up_to is None else number(rounded_down(up_to, 4))
 
 
 def certified_table(found: Certified, unit: str) -> Table:

@@ -22,7 +22,7 @@ TOKENS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "s1": ("#0F3C6E", "#4A86C5"),
         "s2": ("#B5501A", "#E09A55"),
         "s3": ("#1D7B6D", "#7BE8CA"),
-        "s4": ("#9A5BC4", "#CBBCE6"),
+        "s4": ("#985AC3", "#CBBCE6"),
         "s5": ("#501829", "#E5497F"),
         "b0": ("#F3F7FA", "#1B232B"),
         "b1": ("#CFE3EE", "#20405C"),
@@ -60,6 +60,7 @@ DRAWING: Mapping[str, object] = MappingProxyType(
         "path.simplify_threshold": 0.3,
         "agg.path.chunksize": 0,
         "text.usetex": False,
+        "text.parse_math": False,  # a dollar in a name is a dollar
         "figure.dpi": 72.0,
         "savefig.dpi": 72.0,
     }
