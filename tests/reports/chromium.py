@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import fcntl
 import json
 import os
 import select
 import shutil
+import signal
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -16,9 +19,23 @@ from typing import Any
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
 FLAGS = (
-    "--headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
-    "--disable-component-update --disable-sync --disable-dev-shm-usage --hide-scrollbars --remote-debugging-pipe"
-).split()
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--disable-dev-shm-usage",
+    "--hide-scrollbars",
+    "--remote-debugging-pipe",
+)
+PATIENCE = 60.0
+
+# Chromium wants its pipe at descriptors 3 and 4; a tiny Python puts them there and becomes Chromium.  (A preexec_fn
+# would do the same in a forked copy of a test worker, which may have threads.)
+LAUNCH = "import os,sys; r,w=map(int,sys.argv[1:3]); os.dup2(r,3); os.dup2(w,4); os.execv(sys.argv[3],sys.argv[3:])"
 
 
 def binary() -> str | None:
@@ -29,65 +46,71 @@ class Browser:
     """Chromium with one tab; records console messages, exceptions and requests."""
 
     def __init__(self, path: str) -> None:
-        self.profile = tempfile.TemporaryDirectory(prefix="chromium-")
+        self.profile = tempfile.TemporaryDirectory(prefix="chromium-", ignore_cleanup_errors=True)
         command_read, self.write_end = _pipe()
         self.read_end, answer_write = _pipe()
-
-        def descriptors() -> None:
-            os.dup2(command_read, 3)
-            os.dup2(answer_write, 4)
-
         self.process = subprocess.Popen(
-            [path, *FLAGS, f"--user-data-dir={self.profile.name}", "about:blank"],
-            preexec_fn=descriptors,
-            pass_fds=(3, 4),
+            [
+                sys.executable,
+                *("-I", "-S", "-c", LAUNCH, str(command_read), str(answer_write)),
+                *(path, *FLAGS, f"--user-data-dir={self.profile.name}", "about:blank"),
+            ],
+            pass_fds=(command_read, answer_write),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
+            start_new_session=True,
         )
         os.close(command_read)
         os.close(answer_write)
-        self.buffer, self.count, self.events = b"", 0, []
+        self.session: str | None = None
+        self.buffer, self.count = b"", 0
+        self.events: list[dict[str, Any]] = []
+
+    def attach(self) -> None:
+        """Open the tab and have it report what it does."""
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
-
-    session: str | None = None
 
     def call(self, method: str, **parameters: Any) -> dict[str, Any]:
         self.count += 1
         message: dict[str, Any] = {"id": self.count, "method": method, "params": parameters}
         if self.session and not method.startswith("Target."):
             message["sessionId"] = self.session
-        os.write(self.write_end, b"") if False else _write_all(self.write_end, json.dumps(message).encode() + b"\0")
+        _write_all(self.write_end, json.dumps(message).encode() + b"\0")
         while True:
-            answer = self._receive(60.0)
+            answer = self._receive()
             if answer.get("id") == self.count:
                 if "error" in answer:
                     raise RuntimeError(f"{method}: {answer['error']}")
-                return answer["result"]
+                return dict(answer["result"])
             self.events.append(answer)
 
-    def _receive(self, patience: float) -> dict[str, Any]:
-        deadline = time.monotonic() + patience
+    def _receive(self) -> dict[str, Any]:
+        deadline = time.monotonic() + PATIENCE
         while b"\0" not in self.buffer:
             ready, _, _ = select.select([self.read_end], [], [], max(0.0, deadline - time.monotonic()))
             chunk = os.read(self.read_end, 1 << 20) if ready else b""
             if not chunk:
-                raise RuntimeError("Chromium does not answer" if not ready else "Chromium has ended")
+                raise RuntimeError("Chromium has ended" if ready else f"Chromium was silent for {PATIENCE:.0f} s")
             self.buffer += chunk
         message, _, self.buffer = self.buffer.partition(b"\0")
-        return json.loads(message)
+        return dict(json.loads(message))
 
     def wait(self, method: str) -> None:
         while not any(event.get("method") == method for event in self.events):
-            self.events.append(self._receive(60.0))
+            self.events.append(self._receive())
+
+    def media(self, *, dark: bool = False, kind: str = "") -> None:
+        """Set the colour scheme and the medium (``print``, or empty for the screen)."""
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self.call("Emulation.setEmulatedMedia", media=kind, features=[scheme])
 
     def open(self, path: Path, *, width: int = 1280, dark: bool = False, scripts: bool = True) -> None:
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=False)
-        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
-        self.call("Emulation.setEmulatedMedia", media="", features=[scheme])
+        self.media(dark=dark)
         self.call("Emulation.setScriptExecutionDisabled", value=not scripts)
         self.events = []
         self.call("Page.navigate", url=path.as_uri())
@@ -99,8 +122,12 @@ class Browser:
             raise RuntimeError(str(answer["exceptionDetails"]))
         return answer["result"].get("value")
 
+    def press(self, key: str) -> None:
+        for kind in ("keyDown", "keyUp"):
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=key)
+
     def complaints(self) -> list[str]:
-        """Console messages of level warning and error, and uncaught exceptions."""
+        """Console messages, log entries and uncaught exceptions."""
         found = []
         for event in self.events:
             parameters = event.get("params", {})
@@ -114,31 +141,22 @@ class Browser:
         return found
 
     def requests(self) -> list[str]:
+        """Addresses asked for, ``data:`` ones (which are in the file) left out."""
         sent = (e for e in self.events if e.get("method") == "Network.requestWillBeSent")
         urls = [e["params"]["request"]["url"] for e in sent]
         return [url for url in urls if not url.startswith("data:")]
-
-    def screenshot(self, *, top: float = 0.0, height: float | None = None, scale: float = 1.0) -> bytes:
-        size = self.call("Page.getLayoutMetrics")["cssContentSize"]
-        clip = {"x": 0, "y": top, "width": size["width"], "height": height or size["height"] - top, "scale": scale}
-        answer = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=True, clip=clip)
-        return base64.b64decode(answer["data"])
 
     def pdf(self) -> bytes:
         answer = self.call("Page.printToPDF", printBackground=False, preferCSSPageSize=True)
         return base64.b64decode(answer["data"])
 
     def close(self) -> None:
-        for end in (self.write_end,):
-            os.close(end)
-        try:
-            self.process.wait(timeout=5)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
+        """End the browser with all its helpers, whatever state it is in."""
+        os.close(self.write_end)
         os.close(self.read_end)
-        time.sleep(0.1)
-        self.profile._ignore_cleanup_errors = True  # helpers of the browser may still be writing
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.wait()
         self.profile.cleanup()
 
 

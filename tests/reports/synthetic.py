@@ -6,8 +6,10 @@ A damped pendulum is integrated quickly; tracks are its exact frequency with pla
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.signal import stft
 from scipy.special import ellipk
@@ -17,11 +19,14 @@ from compare.results import (
     BudgetRow,
     Card,
     Case,
+    Certified,
+    CertifiedRow,
     Curve,
     DecayComparison,
     Derivation,
     Formula,
     Image,
+    Kind,
     Provenance,
     Range,
     Reconstruction,
@@ -33,21 +38,23 @@ from compare.results import (
     Timing,
 )
 
+Array = NDArray[np.float64]
+
 K, MU, END, RATE = 4 * np.pi, 0.01, 20.0, 64.0
 SERIES = {0: 1.0, 2: -1 / 16, 4: 1 / 3072, 6: -23 / 737280, 8: -2519 / 1321205760}
+FAILURE = "the signal is too short for it"
 
 
-def exact(peak):
-    return np.pi / (2 * ellipk(np.sin(np.asarray(peak) / 2) ** 2))
+def exact(peak: Array) -> Array:
+    return np.asarray(np.pi / (2 * ellipk(np.sin(peak / 2) ** 2)))
 
 
-def series(peak, order):
-    return sum(c * np.asarray(peak) ** n for n, c in SERIES.items() if n <= order)
+def series(peak: Array, order: int) -> Array:
+    return np.sum([c * peak**n for n, c in SERIES.items() if n <= order], axis=0)
 
 
-def make_study(count: int = 40) -> Study:
+def make_study(count: int = 40, orders: tuple[int, ...] = (2, 4, 6, 8, 12, 16, 20, 30)) -> Study:
     amplitudes = np.linspace(0.1, 3.0, count)
-    orders = (2, 4, 6, 8, 12, 16, 20, 30)
     reference = exact(amplitudes)
     rows = []
     for order in orders:
@@ -84,38 +91,51 @@ def make_ranges(study: Study) -> tuple[Range, ...]:
     return tuple(found)
 
 
-def _run():
-    rhs = lambda t, y: [y[1], -2 * MU * y[1] - K**2 * np.sin(y[0])]  # noqa: E731
+def make_certified() -> Certified:
+    rows = (CertifiedRow("series", (1e-9, 2.1e-3), 1e-30), CertifiedRow("Padé [4/4]", (1e-11, None), 1e-30))
+    return Certified(8, np.array([1.0, 2.9]), rows)
+
+
+def _run() -> tuple[Array, Array, Array]:
     time = np.arange(0, END + 1e-9, 1 / RATE)
-    solved = solve_ivp(rhs, (0, END), [0.95 * np.pi, 0.0], t_eval=time, rtol=1e-9, atol=1e-9)
+    solved = solve_ivp(
+        lambda _, y: [y[1], -2 * MU * y[1] - K**2 * np.sin(y[0])],
+        (0, END),
+        [0.95 * np.pi, 0.0],
+        t_eval=time,
+        rtol=1e-9,
+        atol=1e-9,
+    )
     return time, solved.y[0], solved.y[1]
 
 
-def _image(name: str, time, signal) -> Image:
-    f, t, z = stft(signal, fs=RATE, nperseg=192, noverlap=186, nfft=512, boundary="even")
+def _image(name: str, signal: Array) -> Image:
+    f, t, z = stft(signal, fs=RATE, nperseg=192, noverlap=168, nfft=512, boundary="even")
     level = 20 * np.log10(np.abs(z) / np.abs(z).max() + 1e-12)
     return Image(name, t, 2 * np.pi * f, np.maximum(level, -80.0), -60.0, note="Hann window of 3 s.")
 
 
-def _curve(name, label, kind, time, omega, **more) -> Curve:
+def _curve(name: str, label: str, kind: Kind, time: Array, omega: Array, **more: Any) -> Curve:
     return Curve(name, label, kind, time, omega, more.pop("valid", np.ones(time.size, bool)), **more)
 
 
-def _reference(time):
-    energy = K**2 * (1 - np.cos(0.95 * np.pi))
-    peak = np.linspace(0.95 * np.pi, 0.659 * np.pi, time.size) + 0 * energy
-    peak = 0.95 * np.pi - (0.95 - 0.659) * np.pi * (1 - np.exp(-time / 14)) / (1 - np.exp(-END / 14))
-    return peak, K * exact(peak)
+def _peak(time: Array) -> Array:
+    """Peak amplitude from 0.95 pi to 0.659 pi."""
+    return 0.95 * np.pi - (0.95 - 0.659) * np.pi * (1 - np.exp(-time / 14)) / (1 - np.exp(-END / 14))
 
 
-def make_decay() -> DecayComparison:
-    time, u, velocity = _run()
-    peak, omega = _reference(time)
+def _ripple(time: Array, omega: Array) -> Array:
+    return 0.015 * np.exp(-time / 4) * np.cos(2 * np.cumsum(omega) / RATE)
+
+
+def _fine(time: Array) -> Array:
+    return 3e-4 * np.random.default_rng(1).standard_normal(time.size)
+
+
+def _tracks(time: Array, peak: Array, omega: Array) -> tuple[Curve, ...]:
     border = 0.03 * (np.exp(-time / 0.5) + np.exp((time - END) / 0.5))
-    ripple = 0.015 * np.exp(-time / 4) * np.cos(2 * np.cumsum(omega) / RATE)
-    rng = np.random.default_rng(1)
-    fine = 3e-4 * rng.standard_normal(time.size)
-    curves = (
+    ripple = _ripple(time, omega)
+    return (
         _curve("closed-form", "paper (14), closed form", "model", time, omega * (1 + ripple)),
         _curve("series-5", "paper (14), 5 terms", "model", time, omega * (1 + ripple + 0.06 * np.exp(-time / 3))),
         _curve("averaged-action", "averaged action", "model", time, omega * (1 + 5e-4 * np.exp(-time / 3))),
@@ -123,67 +143,118 @@ def make_decay() -> DecayComparison:
         _curve("order-20", "expansion, order 20", "expansion", time, omega * (1 + 2e-2 * (peak / np.pi) ** 22)),
         _curve("wigner-u", "Wigner peak of θ", "estimate", time, omega * (0.99 - border)),
         _curve("wigner-velocity", "Wigner peak of θ′", "estimate", time, omega * (0.991 + border)),
-        _curve("pseudo-wigner-u", "pseudo-Wigner, 3 s", "estimate", time, omega * (1 + fine + 1e-3 - border)),
+        _curve("pseudo-wigner-u", "pseudo-Wigner, 3 s", "estimate", time, omega * (1 + _fine(time) + 1e-3 - border)),
         _curve("spw-velocity", "smoothed pseudo-Wigner of θ′", "estimate", time, omega * (1.002 + 2 * border)),
     )
+
+
+def _harmonics(time: Array, omega: Array) -> tuple[Curve, ...]:
+    wander = 1 + 0.05 * np.sin(9 * time) * np.exp(-time / 8)
+    return (
+        _curve("prediction-3", "3 × ω₀", "model", time, 3 * omega),
+        _curve("harmonic-3", "third harmonic, phase-locked", "estimate", time, 3 * omega * (1 + _fine(time))),
+        _curve("raw-3", "raw Wigner peak near 3 ω₀", "estimate", time, 3 * omega * wander),
+    )
+
+
+def _scores(curves: tuple[Curve, ...]) -> tuple[Score, ...]:
+    return (
+        *(
+            Score(c.name, c.label, c.kind, 9.5e-3 / (i + 1) ** 2, 2e-2 / (i + 1), -9e-3 / (i + 1) ** 2, 0.03, 2e-3)
+            for i, c in enumerate(curves)
+        ),
+        Score("hilbert", "Hilbert phase", "estimate", None, None, None, None, None, failed=FAILURE),
+    )
+
+
+def _budget() -> tuple[BudgetRow, ...]:
+    ripple, curvature = "The ripple of (21).", "Curvature of omega0(t)."
+    return (
+        BudgetRow("closed-form", "paper (14), closed form", 0.0, 1.9e-3, None, 1e-6, 1.9e-3, 1e-5, ripple),
+        BudgetRow("series-5", "paper (14), 5 terms", 2.1e-2, 1.9e-3, None, 1e-6, 2.2e-2, 1e-5),
+        BudgetRow("wigner-u", "Wigner peak of θ", None, None, 9.4e-3, 1e-6, 9.5e-3, 2e-4, curvature),
+        BudgetRow("order-4", "expansion, order 4", 4.1e-2, 3e-4, None, 1e-6, 4.2e-2, 1e-4),
+    )
+
+
+def _statements() -> tuple[Statement, ...]:
+    said, found = "What the paper says of it, paraphrased in one sentence.", "What was measured: 0.95 % rms."
+    figures: tuple[tuple[int, str, tuple[str, ...]], ...] = (
+        (1, "The oscillation", ()),
+        (2, "Spectrogram of θ", ()),
+        (3, "Spectrogram of θ′", ()),
+        (4, "Amplitude by the energy", ()),
+        (5, "Frequency, predicted and estimated", ("wigner-u", "closed-form", "order-4")),
+        (6, "The simple model", ()),
+        (7, "Wigner of θ and θ′", ("wigner-u", "wigner-velocity")),
+        (8, "Wigner and smoothed pseudo-Wigner", ("wigner-u", "spw-velocity")),
+        (9, "The third harmonic", ("prediction-3", "harmonic-3", "raw-3")),
+    )
+    return tuple(Statement(n, title, said, found, names) for n, title, names in figures)
+
+
+def make_case() -> Case:
+    return Case(
+        system="damped-pendulum",
+        title="the damped pendulum",
+        equation="u'' + 2*mu*u' + k**2*sin(u) = 0",
+        equation_latex=r"\ddot{\theta} + 2\mu\dot{\theta} + k^2 \sin\theta = 0",
+        symbol=r"\theta",
+        unit="rad",
+        time_unit="s",
+        reference="Galleani and Cohen, eq. (1)",
+        parameters={"k": K, "mu": MU},
+        initial=(0.95 * np.pi, 0.0),
+        duration=END,
+        rate=RATE,
+    )
+
+
+def make_decay() -> DecayComparison:
+    time, u, velocity = _run()
+    peak = _peak(time)
+    omega = K * exact(peak)
     reference = _curve("cycle", "cycle frequency from zero crossings", "reference", time, omega)
+    curves = _tracks(time, peak, omega)
     turning = np.flatnonzero(np.diff(np.sign(velocity)) != 0)
-    wigner = _image("Wigner distribution of θ", time, u)
+    energy = peak * (1 + _ripple(time, omega) / 3)
+    single = peak * np.cos(np.cumsum(omega) / RATE)
     return DecayComparison(
-        case=Case(
-            "damped-pendulum", "the damped pendulum", "u'' + 2*mu*u' + k**2*sin(u) = 0",
-            r"\ddot{\theta} + 2\mu\dot{\theta} + k^2 \sin\theta = 0", r"\theta", "rad", "s", "Galleani and Cohen, eq. (1)",
-            {"k": K, "mu": MU}, (0.95 * np.pi, 0.0), END, RATE,
-        ),
-        time=time, u=u, velocity=velocity,
-        integrators=("DOP853, rtol 1e-12", "Taylor, 30 digits"), disagreement=3.1e-11,
-        amplitudes=Amplitudes(time, peak * (1 + ripple / 3), peak, time[turning], u[turning], "It ripples twice per cycle."),
-        reference=reference, interior=(2.0, 18.0), curves=curves,
-        scores=(
-            *(
-                Score(c.name, c.label, c.kind, 9.5e-3 / (i + 1) ** 2, 2e-2 / (i + 1), -9e-3 / (i + 1) ** 2, 0.03, 2e-3)
-                for i, c in enumerate(curves)
-            ),
-            Score("hilbert", "Hilbert phase", "estimate", None, None, None, None, None, failed="the signal is too short for it"),
-        ),
-        budget=(
-            BudgetRow("closed-form", "paper (14), closed form", 0.0, 1.9e-3, None, 1e-6, 1.9e-3, 1e-5, "The ripple of (21)."),
-            BudgetRow("series-5", "paper (14), 5 terms", 2.1e-2, 1.9e-3, None, 1e-6, 2.2e-2, 1e-5),
-            BudgetRow("wigner-u", "Wigner peak of θ", None, None, 9.4e-3, 1e-6, 9.5e-3, 2e-4, "Curvature of omega0(t)."),
-            BudgetRow("order-4", "expansion, order 4", 4.1e-2, 3e-4, None, 1e-6, 4.2e-2, 1e-4),
-        ),
-        reconstruction=Reconstruction(time, u, peak * np.cos(np.cumsum(omega) / RATE), u * 0.99, 4, 0.12, 0.01, "Phase by (23)."),
-        spectrogram_u=_image("Spectrogram of θ", time, u),
-        spectrogram_velocity=_image("Spectrogram of θ′", time, velocity),
-        wigner_u=replace(wigner, overlays=(reference,)),
-        harmonics=(
-            _curve("prediction-3", "3 × ω₀", "model", time, 3 * omega),
-            _curve("harmonic-3", "third harmonic, phase-locked", "estimate", time, 3 * omega * (1 + fine)),
-            _curve("raw-3", "raw Wigner peak near 3 ω₀", "estimate", time, 3 * omega * (1 + 0.05 * np.sin(9 * time) * np.exp(-time / 8))),
-        ),
-        statements=tuple(
-            Statement(n, title, "What the paper says of it, paraphrased in one sentence.", "What was measured: 0.95 % rms.", names)
-            for n, title, names in (
-                (1, "The oscillation", ()), (2, "Spectrogram of θ", ()), (3, "Spectrogram of θ′", ()),
-                (4, "Amplitude by the energy", ()), (5, "Frequency, predicted and estimated", ("wigner-u", "closed-form", "order-4")),
-                (6, "The simple model", ()), (7, "Wigner of θ and θ′", ("wigner-u", "wigner-velocity")),
-                (8, "Wigner and smoothed pseudo-Wigner", ("wigner-u", "spw-velocity")),
-                (9, "The third harmonic", ("prediction-3", "harmonic-3", "raw-3")),
-            )
-        ),
+        case=make_case(),
+        time=time,
+        u=u,
+        velocity=velocity,
+        integrators=("DOP853, rtol 1e-12", "Taylor, 30 digits"),
+        disagreement=3.1e-11,
+        amplitudes=Amplitudes(time, energy, peak, time[turning], u[turning], "It ripples twice per cycle."),
+        reference=reference,
+        interior=(2.0, 18.0),
+        curves=curves,
+        scores=_scores(curves),
+        budget=_budget(),
+        reconstruction=Reconstruction(time, u, single, u * 0.99, 4, 0.12, 0.01, "Phase by (23)."),
+        spectrogram_u=_image("Spectrogram of θ", u),
+        spectrogram_velocity=_image("Spectrogram of θ′", velocity),
+        wigner_u=replace(_image("Wigner distribution of θ", u), overlays=(reference,)),
+        harmonics=_harmonics(time, omega),
+        statements=_statements(),
     )
 
 
 def make_derivation() -> Derivation:
-    terms = ("1", r"-\frac{1}{16} A^{2}", r"+\frac{1}{3072} A^{4}", r"-\frac{23}{737280} A^{6}", r"-\frac{2519}{1321205760} A^{8}")
+    terms = ("1", r"-\frac{1}{16} A^{2}", r"+\frac{1}{3072} A^{4}", r"-\frac{23}{737280} A^{6}")
+    slow = (r"-\mu", r"-\frac{1}{16}\mu a^{2}")
     return Derivation(
-        "pendulum",
-        (
-            Formula("Fundamental frequency, order 8, peak amplitude", r"\frac{\omega_0}{k}", terms, "Lindstedt-Poincaré, exact.", "1 - A**2/16"),
-            Formula("Slow flow", r"\frac{a'}{a}", (r"-\mu", r"-\frac{1}{16}\mu a^{2}"), "Multiple scales; weight of μ is 2."),
+        system="pendulum",
+        formulas=(
+            Formula("Fundamental frequency", r"\frac{\omega_0}{k}", terms, "Lindstedt-Poincaré.", "1 - A**2/16"),
+            Formula("Slow flow", r"\frac{a'}{a}", slow, "Multiple scales; weight of μ is 2."),
         ),
-        ("The residual vanishes identically through order 8.", "Equal to the energy-integral series, all 5 coefficients."),
-        {"Python": "def omega0(A):\n    return 1.0 - 0.0625 * A * A\n", "C": "double omega0(double A)\n{\n    return 1.0 - 0.0625 * A * A;\n}\n"},
+        certificate=("The residual vanishes identically through order 8.", "Equal to the energy-integral series."),
+        code={
+            "Python": "def omega0(A):\n    return 1.0 - 0.0625 * A * A\n",
+            "C": "double omega0(double A)\n{\n    return A < 1.0 && A > 0.0 ? 1.0 - 0.0625 * A * A : 1.0;\n}\n",
+        },
     )
 
 
@@ -195,18 +266,36 @@ def make_recording() -> RecordingComparison:
     f, t, z = stft(signal, fs=1 / 0.033, nperseg=256, noverlap=236, nfft=1024, boundary="even")
     level = 20 * np.log10(np.abs(z) / np.abs(z).max() + 1e-9)
     ridge = _curve("pseudo-wigner", "pseudo-Wigner, 8 s", "estimate", time, omega)
+    other = _curve("spectrogram", "spectrogram", "estimate", time, omega * 0.997)
     sd = np.full(time.size, 0.02) / np.maximum(amplitude, 0.3)
     return RecordingComparison(
-        "decay.csv", "ab" * 32, "displacement_percent", 1 / 0.033, time, signal,
-        (ridge, _curve("spectrogram", "spectrogram", "estimate", time, omega * 0.997)), "pseudo-wigner",
-        Image("Spectrogram", t, 2 * np.pi * f, np.maximum(level, -80), -60.0, (ridge,), "Hann window of 8.4 s."),
-        time, amplitude, amplitude, omega, sd, amplitude, np.full(time.size, 1 / 22), sd / 10,
-        Formula("Fitted backbone", r"\omega_0", ("7.917", r"-0.0226\, a^{2}")), ("The longest window whose bias stays below its noise was taken.",),
+        source="decay.csv",
+        sha256="ab" * 32,
+        column="displacement_percent",
+        rate=1 / 0.033,
+        time=time,
+        signal=signal,
+        curves=(ridge, other),
+        chosen="pseudo-wigner",
+        spectrogram=Image(
+            "Spectrogram", t, 2 * np.pi * f, np.maximum(level, -80), -60.0, (ridge,), "Hann window of 8.4 s."
+        ),
+        amplitude_time=time,
+        amplitude=amplitude,
+        backbone_amplitude=amplitude,
+        backbone_omega=omega,
+        backbone_omega_sd=sd,
+        damping_amplitude=amplitude,
+        damping=np.full(time.size, 1 / 22),
+        damping_sd=sd / 10,
+        fit=Formula("Fitted backbone", r"\omega_0", ("7.917", r"-0.0226\, a^{2}")),
+        notes=("The longest window whose bias stays below its noise was taken.",),
     )
 
 
 def provenance() -> Provenance:
-    return Provenance("ridgeback report", {"ridgeback": "0.1.0", "numpy": "2.4.6"}, {"orders": "2 to 30"}, "0123abcd", "", {"study": 1.25})
+    versions = {"ridgeback": "0.1.0", "numpy": "2.4.6"}
+    return Provenance("ridgeback report", versions, {"orders": "2 to 30"}, "0123abcd", "", {"study": 1.25})
 
 
 def empty_report() -> Report:
@@ -217,24 +306,33 @@ def full_report() -> Report:
     study = make_study()
     ranges = make_ranges(study)
     finding = next(r for r in ranges if r.order == 6 and r.target == 1e-3)
+    rows = [f"{r['order']},{r['amplitude']}" for r in study.rows()]
     return Report(
-        f"Order 6 stays within 0.1 % up to A = {finding.up_to:.2f} rad",
-        "The damped pendulum of Galleani and Cohen: perturbation expansions, the paper's series model and "
+        title=f"Order 6 stays within 0.1 % up to A = {finding.up_to:.2f} rad",
+        lead="The damped pendulum of Galleani and Cohen: perturbation expansions, the paper's series model and "
         "Wigner-estimated frequencies over one decay from 0.95 π.",
-        ("The Wigner peak lies 0.95 % low over 2 to 18 s; its cause is the curvature of omega0(t).", "Equation (21) ripples twice per cycle: 1.5 % before 1 s."),
-        (
+        summary=("The Wigner peak lies 0.95 % low over 2 to 18 s.", "Equation (21) ripples twice per cycle."),
+        cards=(
             Card("Range of use", "A ≤ 2.0 rad", "Order 6 within 0.1 % of the exact frequency."),
             Card("Worst error", "2.1 % at A = 3.0", "Order 6 at the largest amplitude studied."),
             Card("Cost", "6 ns per value", "Generated code; the closed form takes 45 ns."),
         ),
-        make_derivation(), study, ranges, make_decay(), None,
-        (Timing("generated, order 6", 6.1, 5.9, 7.2, 100000), Timing("closed form, agm", 45.0, 44, 51, 100000, "numpy, 6 iterations")),
-        provenance(),
-        {"study.csv": "order,amplitude\n" + "\n".join(f"{r['order']},{r['amplitude']}" for r in study.rows()) + "\n"},
-        finding,
+        derivation=make_derivation(),
+        study=study,
+        ranges=ranges,
+        decay=make_decay(),
+        recording=None,
+        timings=(
+            Timing("generated, order 6", 6.1, 5.9, 7.2, 100000),
+            Timing("closed form, agm", 45.0, 44, 51, 100000, "numpy, 6 iterations"),
+        ),
+        provenance=provenance(),
+        certified=make_certified(),
+        csv={"study.csv": "order,amplitude\n" + "\n".join(rows) + "\n"},
+        finding=finding,
     )
 
 
 def recording_report() -> Report:
-    base = empty_report()
-    return replace(base, title="The recording softens: 1.18 Hz at amplitude 4.7, 1.26 Hz at 0.3", lead="A free decay.", recording=make_recording())
+    title = "The recording softens: 1.18 Hz at amplitude 4.7, 1.26 Hz at 0.3"
+    return replace(empty_report(), title=title, lead="A free decay.", recording=make_recording())
