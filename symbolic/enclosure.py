@@ -46,7 +46,6 @@ CHECK_BITS: Final = 64
 """Precision of a limit that is only printed."""
 
 
-
 @dataclass(frozen=True)
 class Enclosure:
     """omega0 at one amplitude: ``omega`` is a ball that contains it, in rad per time unit.
