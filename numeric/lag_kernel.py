@@ -34,8 +34,8 @@ BLOCK_BYTES = 2_000_000
 """Working memory of one block of columns with its spectra: about what a core's own cache holds (measured best)."""
 SMOOTHING_BYTES = 4_000_000
 """The same where columns are smoothed along time: a block must be long against the smoothing window."""
-REACHES = 16
-"""Steps in which the number of lags grows from the border inwards: each is one length of transform."""
+REACHES = 8
+"""Steps in which the number of lags grows from the border inwards: each is one length of transform, with its own plan."""
 
 
 def lagged(z: Complexes, reach: int, *, spare: int = 0) -> Complexes:
