@@ -35,7 +35,7 @@ BLOCK_BYTES = 2_000_000
 SMOOTHING_BYTES = 4_000_000
 """The same where columns are smoothed along time: a block must be long against the smoothing window."""
 REACHES = 8
-"""Steps in which the number of lags grows from the border inwards: each is one length of transform, with its own plan."""
+"""Steps in which the number of lags grows from the border inwards: each is one length of transform, with one plan."""
 
 
 def lagged(z: Complexes, reach: int, *, spare: int = 0) -> Complexes:
