@@ -17,6 +17,7 @@ from symbolic.codegen import generate
 from symbolic.expansion import Expansion
 from symbolic.lindstedt import lindstedt
 from symbolic.multiple_scales import multiple_scales
+from symbolic.ordering import small_parameters
 from symbolic.oscillator import Oscillator
 from symbolic.rendering import as_sympy
 from symbolic.slow_flow import SlowFlow, Term
@@ -36,13 +37,15 @@ class Exact:
 
 
 def undamped(oscillator: Oscillator) -> Oscillator:
-    """Return the oscillator with its linear damping set to zero: the one that has a backbone curve.
+    """Return the oscillator with its damping set to zero: the one that has a backbone curve; limit cycles as they are.
 
     >>> from symbolic.systems import find
     >>> undamped(find("damped-pendulum")).is_conservative
     True
     """
-    return oscillator.with_parameters({oscillator.damping: 0}) if oscillator.damping else oscillator
+    if oscillator.kind == "limit-cycle":
+        return oscillator
+    return oscillator.with_parameters(dict.fromkeys(small_parameters(oscillator), 0))
 
 
 def derive(oscillator: Oscillator, order: int, *, flow_order: int | None = None) -> Exact:
@@ -52,7 +55,7 @@ def derive(oscillator: Oscillator, order: int, *, flow_order: int | None = None)
     """
     expansion = lindstedt(undamped(oscillator), order)
     flow = None
-    if oscillator.damping is not None or oscillator.kind != "damped":
+    if small_parameters(oscillator) or oscillator.kind != "damped":
         flow = multiple_scales(oscillator, min(order, 8) if flow_order is None else flow_order)
     return Exact(oscillator, expansion, flow)
 
