@@ -53,6 +53,8 @@ ESTIMATORS: Mapping[str, Callable[[Request], Track]] = MappingProxyType(
     }
 )
 METHODS = tuple(ESTIMATORS)
+OF_ONE_KERNEL = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner")
+"""Methods whose lag kernel can be limited to a band or held in single precision."""
 
 
 def estimate(
@@ -69,6 +71,7 @@ def estimate(
     harmonic: int = 1,
     order: int = 6,
     band_limited: bool = False,
+    single: bool = False,
     bias: bool = True,
     remove_bias: bool = False,
 ) -> Track:
@@ -81,7 +84,8 @@ def estimate(
     ``order`` is that of the polynomial Wigner distribution, 4 or 6.
     ``band_limited=True`` limits the signal to the band before a Wigner, pseudo- or smoothed pseudo-Wigner distribution
     and decimates its lags: faster, free of cross terms with what lies outside, and less exact near the ends,
-    where the filter rings (not counted as valid).
+    where the filter rings (not counted as valid).  ``single=True`` computes these three in complex64: an error near
+    1e-8 of omega for a clean signal.  Other methods refuse both.
     ``harmonic`` above 1 asks for the track of that harmonic, phase-locked to the fundamental found by ``method``.
     ``bias=False`` leaves the bias estimate out; ``remove_bias=True`` takes it off.  The mean is removed.
 
@@ -97,6 +101,10 @@ def estimate(
     """
     if method not in ESTIMATORS:
         raise InputError(f"method {method!r} is unknown; use one of {', '.join(METHODS)}")
+    if (band_limited or single) and method not in OF_ONE_KERNEL:
+        raise InputError(
+            f"method {method!r} has no band-limited or single-precision form; {', '.join(OF_ONE_KERNEL)} have"
+        )
     request = prepared(
         x,
         rate,
@@ -109,6 +117,7 @@ def estimate(
         order=order,
         bias=bias or remove_bias,
         band_limited=band_limited,
+        single=single,
     )
     track = finish(ESTIMATORS[method](request), remove_bias)
     return track if harmonic == 1 else harmonic_track(request.x, request.rate, track, multiple=harmonic)

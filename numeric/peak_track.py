@@ -47,7 +47,7 @@ def peak_estimate(
         bias = formula_bias(time, ridge.omega, valid, kernel=formula)
     elif request.bias:
         bias = reestimated_bias(time, ridge.omega, valid, resolution=2.0 * border, estimator=again)
-    how: dict[str, object] = {"band_limited": request.band_limited}
+    how: dict[str, object] = {"band_limited": request.band_limited, "single": request.single}
     how |= {"bias_by": "formula" if formula is not None else "estimating again on the fitted chirp and amplitude"}
     return Track(
         time, ridge.omega, valid, method, deviation(level), bias, request.settings(noise=level.noise, **how, **settings)
@@ -68,7 +68,7 @@ def by_wigner(request: Request) -> Track:
     """Peak of the full-length Wigner distribution; biased by the curvature of omega(t), to all orders."""
 
     def make(z: ComplexArray) -> LagKernel:
-        return wigner_kernel(z, request.rate, band=request.band)
+        return wigner_kernel(z, request.rate, band=request.band, single=request.single)
 
     return peak_estimate(
         request,
@@ -85,7 +85,12 @@ def by_pseudo_wigner(request: Request) -> Track:
 
     def make(z: ComplexArray) -> LagKernel:
         return wigner_kernel(
-            z, request.rate, lag_seconds=request.lag_seconds, lag_window=request.lag_window, band=request.band
+            z,
+            request.rate,
+            lag_seconds=request.lag_seconds,
+            lag_window=request.lag_window,
+            band=request.band,
+            single=request.single,
         )
 
     kernel = make(request.z)
@@ -113,6 +118,7 @@ def by_smoothed_pseudo_wigner(request: Request) -> Track:
             lag_window=request.lag_window,
             smoothing_seconds=request.smoothing_seconds,
             band=request.band,
+            single=request.single,
         )
 
     kernel = make(request.z)

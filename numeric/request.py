@@ -41,6 +41,7 @@ class Request:
     bias: bool
     offset: float
     band_limited: bool = False
+    single: bool = False
 
     @property
     def time(self) -> Array:
@@ -103,6 +104,7 @@ def prepared(
     order: int,
     bias: bool,
     band_limited: bool = False,
+    single: bool = False,
 ) -> Request:
     """Check a signal, take its mean off, find its corridor and set the default windows."""
     samples, rate = checked_real_samples(x, what="estimate", at_least=FEWEST_SAMPLES), checked_rate(rate)
@@ -134,6 +136,7 @@ def prepared(
         bias=bias,
         offset=offset,
         band_limited=band_limited,
+        single=single,
     )
 
 

@@ -97,6 +97,16 @@ def test_band_limited_track_is_the_track_where_the_band_holds_all(method: str) -
     assert limited.standard_deviation[middle] == pytest.approx(bare.standard_deviation[middle], rel=1e-3)
 
 
+@pytest.mark.parametrize("method", ["wigner", "pseudo-wigner", "smoothed-pseudo-wigner"])
+def test_single_precision_track_is_the_track_to_six_digits(method: str) -> None:
+    t, x, _ = chirp()
+    double = estimate(x, 32.0, method=method, bias=False)
+    single = estimate(x, 32.0, method=method, bias=False, single=True)
+    assert single.settings["single"] is True
+    middle = (t > 4.0) & (t < 16.0)
+    assert 1e-13 < np.abs(single.omega / double.omega - 1.0)[middle].max() < 1e-6
+
+
 def test_harmonic_least_squares_reaches_the_borders(pendulum_decay: Source) -> None:
     decay = pendulum_decay()
     track = estimate(decay.u, 32.0, method="harmonic-least-squares")
@@ -202,6 +212,8 @@ def test_harmonic_is_followed_on_request(pendulum_decay: Source) -> None:
         (chirp()[1], {"lag_seconds": 20.0, "method": "pseudo-wigner"}, "pseudo-wigner: .* give a longer record"),
         (chirp()[1], {"lag_window": "flat", "method": "pseudo-wigner"}, "window 'flat' is unknown"),
         (chirp()[1], {"lag_window": "gaussian", "method": "synchrosqueezed"}, "window 'gaussian' does not end at zero"),
+        (chirp()[1], {"band_limited": True, "method": "spectrogram"}, "'spectrogram' has no band-limited or single"),
+        (chirp()[1], {"single": True}, "'auto' has no band-limited or single-precision form"),
         (chirp()[1], {"harmonic": 30}, "harmonic 30 reaches .* Nyquist"),
         (chirp()[1], {"harmonics": 40}, "window of .* samples is too short"),
         (np.arange(64.0), {"band": (1.0, 2.0)}, r"signal spans .* cycles .* 4 are needed"),
