@@ -7,13 +7,17 @@ and these multiply as polynomials in E^2:
 
 A block of consecutive orders is multiplied at once, packed into one polynomial with room between the orders (Kronecker
 substitution).  FLINT's ball product scales its blocks, so that small coefficients keep their digits.
+
+The parts are packed apart, but for one case that halves the work: when cosines and sines alternate from order to order
+(van der Pol), u_n = i^(-t) G_n / 2 with t = n or n + 1 and real G_n = +-F_n, and then all the orders multiply as one
+real polynomial.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from flint import arb, arb_poly, fmpq
@@ -23,12 +27,16 @@ from symbolic.spaces import Parts
 
 @dataclass(frozen=True)
 class Rows:
-    """The orders that hold one part, at first, first + step, ...: their Laurent coefficients, none where missing."""
+    """The orders that hold one part, at first, first + step, ...: their Laurent coefficients, none where missing.
+
+    With ``turning``, cosines and sines in turn, ``part`` the first of them: row r has t = r, or r + 1 if it is a sine.
+    """
 
     part: int
     first: int
     step: int
     laurent: tuple[list[arb], ...]
+    turning: bool = False
 
     def lengths(self) -> list[int]:
         """Number of coefficients of each row."""
@@ -68,12 +76,31 @@ def products(left: Sequence[Parts], right: Sequence[Parts]) -> list[Parts]:
     0.500000000000000*x + 0.500000000000000
     """
     result: list[list[arb_poly | None]] = [[None] * 4 for _ in range(len(left) + len(right) - 1)]
-    for x in filter(None, (rows(left, part) for part in range(4))):
-        for y in filter(None, (rows(right, part) for part in range(4))):
-            for n, p in _product(x, y):
-                old = result[n][x.part ^ y.part]
-                result[n][x.part ^ y.part] = p if old is None else old + p
+    for x, y in _pairs(left, right):
+        for n, part, p in _product(x, y):
+            old = result[n][part]
+            result[n][part] = p if old is None else old + p
     return [(a, b, c, d) for a, b, c, d in result]
+
+
+def _pairs(left: Sequence[Parts], right: Sequence[Parts]) -> list[tuple[Rows, Rows]]:
+    """What has to be multiplied: all in one, or part by part."""
+    x, y = alternating(left), alternating(right)
+    if x is not None and y is not None:
+        return [(x, y)]
+    apart = [[r for part in range(4) if (r := rows(block, part)) is not None] for block in (left, right)]
+    return [(x, y) for x in apart[0] for y in apart[1]]
+
+
+def alternating(block: Sequence[Parts]) -> Rows | None:
+    """Collect a block in which every order has just one part, cosine and sine of one parity in turn; else None."""
+    present = [[(i, p) for i, p in enumerate(row) if p is not None and p.length()] for row in block]
+    first = present[0][0][0] if present[0] else 0
+    if len(block) < 2 or any([i for i, _ in row] != [3 - first if n % 2 else first] for n, row in enumerate(present)):
+        return None
+    coefficients = [laurent(p, i) for ((i, p),) in present]
+    turned = [c if ((first >> 1) + n) % 4 < 2 else [-v for v in c] for n, c in enumerate(coefficients)]
+    return Rows(first, 0, 1, tuple(turned), turning=True)
 
 
 def rows(block: Sequence[Parts], part: int) -> Rows | None:
@@ -87,8 +114,8 @@ def rows(block: Sequence[Parts], part: int) -> Rows | None:
     return Rows(part, first, step, tuple([] if p is None else laurent(p, part) for p in found))
 
 
-def _product(x: Rows, y: Rows) -> list[tuple[int, arb_poly]]:
-    """Multiply the rows of two parts; every order of the result with its polynomial."""
+def _product(x: Rows, y: Rows) -> list[tuple[int, int, arb_poly]]:
+    """Multiply the rows of two parts; every order of the result with its part and polynomial."""
     x, y = _same_step(x, y)
     room = max(x.lengths()) + max(y.lengths()) - 1
     coefficients = (x.packed(room) * y.packed(room)).coeffs()
@@ -98,8 +125,18 @@ def _product(x: Rows, y: Rows) -> list[tuple[int, arb_poly]]:
             start = r * room + (room - length) // 2
             window = coefficients[start : start + length]
             window += [arb(0)] * (length - len(window))
-            found.append((x.first + y.first + r * x.step, _folded(window, x.part, y.part)))
+            part, sign = _part_and_sign(x, y, r)
+            found.append((x.first + y.first + r * x.step, part, _folded(window, sine=part > 1, sign=sign)))
     return found
+
+
+def _part_and_sign(x: Rows, y: Rows, r: int) -> tuple[int, int]:
+    """The part of row r of a product, and the sign of 4 times it, or 4i times it, in F G."""
+    if not x.turning:
+        return x.part ^ y.part, -1 if x.part & y.part & 2 else 1
+    turns = (x.part >> 1) + (y.part >> 1) + r
+    cosine = 1 if (x.part in (1, 2)) != (y.part in (1, 2)) else 0  # 1: odd harmonics
+    return 3 - cosine if turns % 2 else cosine, -1 if turns % 4 > 1 else 1
 
 
 def _same_step(x: Rows, y: Rows) -> tuple[Rows, Rows]:
@@ -115,7 +152,7 @@ def _refined(x: Rows, step: int) -> Rows:
     factor = x.step // step if len(x.laurent) > 1 else 1
     full: list[list[arb]] = [[] for _ in range((len(x.laurent) - 1) * factor + 1)]
     full[::factor] = x.laurent
-    return Rows(x.part, x.first, step, tuple(full))
+    return replace(x, step=step, laurent=tuple(full))
 
 
 def _lengths(x: list[int], y: list[int]) -> list[int]:
@@ -131,11 +168,10 @@ def _lengths(x: list[int], y: list[int]) -> list[int]:
     return result
 
 
-def _folded(window: list[arb], i: int, j: int) -> arb_poly:
-    """The part i ^ j of a product from its Laurent coefficients F G."""
+def _folded(window: list[arb], *, sine: bool, sign: int) -> arb_poly:
+    """One part of a product from its Laurent coefficients F G, which are ``sign`` times 4 or 4i times it."""
     middle, odd = divmod(len(window), 2)
-    cosine = not (i ^ j) & 2
-    upper = window[middle + (1 if odd and not cosine else 0) :]
-    if odd and cosine:
+    upper = window[middle + (1 if odd and sine else 0) :]
+    if odd and not sine:
         upper[0] = upper[0] / 2
-    return arb_poly(upper) * fmpq(-1 if i & j & 2 else 1, 2)
+    return arb_poly(upper) * fmpq(sign, 2)

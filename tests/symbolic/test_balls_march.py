@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -29,7 +29,7 @@ from symbolic.laurent import products
 from symbolic.lindstedt import lindstedt
 from symbolic.oscillator import Oscillator
 from symbolic.relaxed import blocks
-from symbolic.spaces import Space, space_for
+from symbolic.spaces import Parts, Space, space_for
 from symbolic.systems import find
 
 VDP = "van-der-pol"
@@ -101,8 +101,8 @@ def test_a_ball_beside_the_truth_is_detected() -> None:
 def test_an_error_in_the_products_breaks_solvability(monkeypatch: pytest.MonkeyPatch) -> None:
     real = laurent_module._folded
 
-    def wrong(window: list[arb], i: int, j: int) -> arb_poly:
-        return real(window, i, j) * (1 + arb(2) ** -100)
+    def wrong(window: list[arb], *, sine: bool, sign: int) -> arb_poly:
+        return real(window, sine=sine, sign=sign) * (1 + arb(2) ** -100)
 
     monkeypatch.setattr(laurent_module, "_folded", wrong)
     with pytest.raises(AssertionError, match="secular sine left"):
@@ -175,12 +175,12 @@ def test_a_resumed_march_gives_the_same_balls_bit_by_bit(name: str, order: int, 
 def test_an_interrupt_in_the_middle_of_an_order_falls_back_to_its_beginning(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    path, real, calls = tmp_path / "march", relaxed_module.products, iter(range(10**6))
+    path, calls = tmp_path / "march", iter(range(10**6))
 
-    def products_until(left, right):  # type: ignore[no-untyped-def]
+    def products_until(left: Sequence[Parts], right: Sequence[Parts]) -> list[Parts]:
         if next(calls) == 57:
             raise KeyboardInterrupt
-        return real(left, right)
+        return products(left, right)
 
     with monkeypatch.context() as patched:
         patched.setattr(relaxed_module, "products", products_until)
@@ -192,8 +192,13 @@ def test_an_interrupt_in_the_middle_of_an_order_falls_back_to_its_beginning(
 
 
 def test_a_resumed_march_does_not_repeat_its_products(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path, real, calls = tmp_path / "march", relaxed_module.products, []
-    monkeypatch.setattr(relaxed_module, "products", lambda x, y: calls.append(1) or real(x, y))
+    path, calls = tmp_path / "march", list[int]()
+
+    def counted(left: Sequence[Parts], right: Sequence[Parts]) -> list[Parts]:
+        calls.append(len(left))
+        return products(left, right)
+
+    monkeypatch.setattr(relaxed_module, "products", counted)
     with pytest.raises(KeyboardInterrupt):
         lindstedt_in_balls(find(VDP), 24, checkpoint=path, progress=interrupted_at(20))
     first = len(calls)
@@ -353,6 +358,30 @@ def test_a_packed_block_holds_the_products_one_by_one(a: list[list[int]], b: lis
         total = constant(exact, fmpq(0))
         for i in range(max(0, n - len(b) + 1), min(n + 1, len(a))):
             total = total + build(exact, a[i]) * build(exact, b[n - i])
+        assert agree(Trig(balls, parts), total)
+
+
+@given(
+    st.lists(st.integers(1, 9), min_size=2, max_size=6),
+    st.lists(st.integers(1, 9), min_size=2, max_size=6),
+    st.tuples(*[st.integers(0, 1)] * 4),
+)
+@settings(max_examples=60, deadline=None)
+def test_cosines_and_sines_in_turn_are_multiplied_as_one(a: list[int], b: list[int], kinds: tuple[int, ...]) -> None:
+    def row(space: Space, factor: int, n: int, sine_first: int, odd: int) -> Trig:
+        c, s = cosine(space), sine(space)
+        wave = s if (n + sine_first) % 2 else c
+        return (wave + wave * c * c).scale(fmpq(factor)) if odd else (wave * c).scale(fmpq(factor))
+
+    balls, exact = Balls(1), space_for(())
+    x, p = ([row(space, v, n, kinds[0], kinds[1]) for n, v in enumerate(a)] for space in (balls, exact))
+    y, q = ([row(space, v, n, kinds[2], kinds[3]) for n, v in enumerate(b)] for space in (balls, exact))
+    blocks_of = [[t.parts for t in rows] for rows in (x, y)]
+    assert all(laurent_module.alternating(block) is not None for block in blocks_of)
+    for n, parts in enumerate(products(*blocks_of)):
+        total = constant(exact, fmpq(0))
+        for i in range(max(0, n - len(b) + 1), min(n + 1, len(a))):
+            total = total + p[i] * q[n - i]
         assert agree(Trig(balls, parts), total)
 
 
