@@ -152,7 +152,7 @@ def _panel_title(axes: Axes, label: str, value: str) -> None:
             break
     while measured(axes, label, size)[0] > room and len(label) > 4:
         label = label[:-2].rstrip() + "…"
-    for text, height in ((label, 17.0), (value, 5.0)):
+    for text, height in ((label, 15.0), (value, 4.0)):
         axes.annotate(
             text,
             (0.0, 1.0),

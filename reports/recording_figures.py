@@ -43,7 +43,7 @@ def signal_figure(recording: RecordingComparison) -> Block:
         place(axes, lines[1:])
 
     return block(
-        "signal",
+        "recording-signal",
         title="Recording",
         description=f"{recording.column} over time with its amplitude.",
         caption=f"{recording.column}, {recording.time.size} samples at {number(recording.rate)} Hz, with the "
@@ -58,7 +58,7 @@ def spectrogram_figure(recording: RecordingComparison) -> Block:
     """The plane with the ridge that the track follows."""
     image = recording.spectrogram
     return plane_block(
-        "plane",
+        "recording-plane",
         image,
         CLOCK,
         title="Spectrogram and ridge",
@@ -72,7 +72,7 @@ def tracks_figure(recording: RecordingComparison) -> Block:
     others = [curve for curve in recording.curves if curve.name != recording.chosen]
     name = chosen[0].label if chosen else recording.chosen
     return tracks_block(
-        "tracks",
+        "recording-tracks",
         [*chosen, *others, *recording.theory],
         CLOCK,
         title="Frequency along the recording",
@@ -128,15 +128,15 @@ def backbone_figure(recording: RecordingComparison) -> Block:
     caption = f"Backbone: fundamental frequency against amplitude, {ends}Band: two standard deviations either side."
     texts = ("Backbone of the recording", CLOCK.y_title("ω₀"), caption, "backbone")
     sd = recording.backbone_omega_sd * CLOCK.factor
-    return _band_block("backbone", recording, x, y, sd, texts=texts, unit="Hz")
+    return _band_block("recording-backbone", recording, x, y, sd, texts=texts, unit="Hz")
 
 
 def damping_figure(recording: RecordingComparison) -> Block:
-    """Logarithmic decay rate -a'/a against amplitude with its band."""
+    """Logarithmic rate of change a'/a against amplitude with its band."""
     caption = "Rate of change a′/a of the amplitude, negative in a decay. Band: two standard deviations either side."
     texts = ("Damping of the recording", "a′/a / (1/s)", caption, "damping")
     return _band_block(
-        "damping",
+        "recording-damping",
         recording,
         recording.damping_amplitude,
         recording.damping,

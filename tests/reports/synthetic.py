@@ -5,7 +5,8 @@ A damped pendulum is integrated quickly; tracks are its exact frequency with pla
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -336,3 +337,40 @@ def full_report() -> Report:
 def recording_report() -> Report:
     title = "The recording softens: 1.18 Hz at amplitude 4.7, 1.26 Hz at 0.3"
     return replace(empty_report(), title=title, lead="A free decay.", recording=make_recording())
+
+
+def small_report() -> Report:
+    """Everything a page can show, of little size."""
+    study, decay = make_study(8, (2, 4, 8)), make_decay()
+    statements = tuple(s for s in decay.statements if s.figure in (2, 4, 9))
+    return replace(
+        full_report(),
+        study=study,
+        ranges=make_ranges(study),
+        decay=replace(decay, curves=decay.curves[::4], statements=statements),
+        recording=make_recording(),
+    )
+
+
+# Strings that choose among meanings instead of being shown.
+FIXED = {"variable", "kind", "name", "chosen", "symbol", "curves", "time_unit", "csv"}
+
+
+def poisoned(value: Any, text: str, key: str = "") -> Any:
+    """The same value with ``text`` appended to every string that is shown."""
+    if isinstance(value, str):
+        return value if key in FIXED else value + text
+    if is_dataclass(value) and not isinstance(value, type):
+        return replace(
+            value, **{f.name: poisoned(getattr(value, f.name), text, _key(value, f.name)) for f in fields(value)}
+        )
+    if isinstance(value, Mapping):
+        return {name + text: poisoned(inner, text, key) for name, inner in value.items()}
+    if isinstance(value, tuple):
+        return tuple(poisoned(inner, text, key) for inner in value)
+    return value
+
+
+def _key(owner: object, name: str) -> str:
+    """``curves`` of a statement are names; of anything else they are curves with labels."""
+    return "" if name == "curves" and not isinstance(owner, Statement) else name

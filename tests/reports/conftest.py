@@ -1,0 +1,24 @@
+"""The synthetic pages, drawn once for all tests of a process."""
+
+from __future__ import annotations
+
+import pytest
+
+from compare.results import Report
+from reports.page import render
+from tests.reports import synthetic
+
+
+@pytest.fixture(scope="session")
+def full() -> Report:
+    return synthetic.full_report()
+
+
+@pytest.fixture(scope="session")
+def full_page(full: Report) -> str:
+    return render(full)
+
+
+@pytest.fixture(scope="session")
+def recording_page() -> str:
+    return render(synthetic.recording_report())
