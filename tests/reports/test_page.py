@@ -4,28 +4,19 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import itertools
 import json
 import os
 import re
 import subprocess
 import sys
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
-from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
 
-from compare.derivation import derivation, derive
 from compare.results import Formula, Report
-from reports.formulas import formula_latex, formula_mathml
 from reports.page import WARN_BYTES, render, size_warning
-from reports.theme import SERIES, TOKENS, variables_css
-from symbolic.oscillator import Oscillator
-from symbolic.systems import catalogue
 from tests.reports import synthetic
 from tests.reports.markup import Element, parse
 
@@ -285,129 +276,6 @@ def test_ids_are_unique_and_references_resolve(full_page: str, tree: Element) ->
     }
     assert used
     assert used <= set(ids)
-
-
-# --- figures and formulas
-
-
-def _svgs(full_page: str) -> Iterator[ET.Element]:
-    for text in re.findall(r"<svg\b.*?</svg>", full_page, flags=re.DOTALL):
-        yield ET.fromstring(text)  # noqa: S314
-
-
-def test_every_drawing_is_sound_xml_with_a_name_and_a_description(full_page: str) -> None:
-    drawings = [svg for svg in _svgs(full_page) if svg.get("class") != "store"]
-    assert len(drawings) == 2 * full_page.count("<figure ")
-    for svg in drawings:
-        assert svg.get("role") == "img"
-        named = {e.get("id"): e.text for e in svg.iter() if e.tag in ("title", "desc")}
-        assert all(named[key] for key in (svg.get("aria-labelledby") or "").split())
-
-
-def test_colours_are_variables_that_the_style_declares(full_page: str) -> None:
-    assert "#01fe" not in full_page
-    declared = set(re.findall(r"--([a-z0-9]+):", variables_css()))
-    assert set(re.findall(r"var\(--([a-z0-9]+)\)", full_page)) <= declared == set(TOKENS)
-    for svg in _svgs(full_page):
-        for element in svg.iter():
-            colours = re.findall(r"(?:fill|stroke):\s*([^;]+)", element.get("style", ""))
-            assert all(colour.startswith(("var(", "none", "url(")) for colour in colours), element.attrib
-
-
-MATHML = frozenset(
-    [
-        *("math", "mrow", "mi", "mn", "mo", "mtext", "mspace", "mfrac", "msqrt", "mroot", "msub", "msup", "msubsup"),
-        *("mover", "munder", "munderover", "mstyle", "mtable", "mtr", "mtd", "mpadded", "mphantom"),
-    ]
-)
-
-
-@pytest.mark.parametrize("oscillator", catalogue(), ids=lambda o: o.name)
-def test_equations_and_derived_formulas_lose_nothing(oscillator: Oscillator) -> None:
-    """All that the catalogue can print becomes sound MathML with every number of its LaTeX, in order."""
-    exact = derive(oscillator, 4, flow_order=2)
-    formulas = (*derivation(exact).formulas, Formula("equation", "", (oscillator.equation_latex,)))
-    for formula in formulas:
-        latex = re.sub(r"\\[a-zA-Z]+", " ", formula_latex(formula))
-        text = "".join(" ".join(ET.fromstring(math).itertext()) for math in formula_mathml(formula))  # noqa: S314
-        assert "\\" not in text
-        assert re.findall(r"\d+", text) == re.findall(r"\d+", latex)
-
-
-def test_every_formula_is_sound_mathml(full_page: str, full: Report) -> None:
-    assert full.derivation is not None
-    found = re.findall(r"<math\b.*?</math>", full_page, flags=re.DOTALL)
-    assert len(found) == 1 + sum(1 + len(formula.terms) for formula in full.derivation.formulas)
-    for text in found:
-        root = ET.fromstring(text)  # noqa: S314
-        assert {element.tag for element in root.iter()} <= MATHML
-        assert "\\" not in "".join(root.itertext())
-
-
-def test_the_readout_knows_where_the_curves_are(full_page: str) -> None:
-    """The first point of each curve, by the axes that the script is given, is where its path begins."""
-    root = parse(full_page)
-    figure = next(f for f in root.all("figure") if f.attributes["id"] == "backbone")
-    data = json.loads(figure.all("script")[0].text)
-    named = [series for series in data["series"] if series["c"]]
-    assert len(named) == 3
-    for variant, series in itertools.product(("wide", "narrow"), named):
-        (svg,) = (s for s in figure.all("svg") if s.attributes.get("class") == variant)
-        curve = next(g for g in svg.all("g") if g.attributes.get("class") == series["c"]).all("path")[0]
-        drawn = _path_start(curve.attributes["d"])
-        assert drawn == pytest.approx(
-            _pixel(data["axes"][variant][0], data["xs"][series["x"]][0], series["y"][0]), abs=0.1
-        )
-
-
-def _path_start(path: str) -> tuple[float, float]:
-    x, y = re.findall(r"-?\d+(?:\.\d+)?", path)[:2]
-    return float(x), float(y)
-
-
-def _pixel(axes: dict[str, Any], x: float, y: float) -> tuple[float, float]:
-    left, top, right, bottom = axes["box"]
-    (x0, x1), (y0, y1) = axes["x"], axes["y"]
-    return left + (right - left) * (x - x0) / (x1 - x0), bottom - (bottom - top) * (y - y0) / (y1 - y0)
-
-
-# --- colours that can be read
-
-
-def _contrast(first: str, second: str) -> float:
-    """WCAG 2.1, relative luminance and contrast ratio, written out apart from the theme's own."""
-
-    def luminance(colour: str) -> float:
-        red, green, blue = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
-        channel = [v / 12.92 if v <= 0.03928 else ((v + 0.055) / 1.055) ** 2.4 for v in (red, green, blue)]
-        return 0.2126 * channel[0] + 0.7152 * channel[1] + 0.0722 * channel[2]
-
-    low, high = sorted((luminance(first), luminance(second)))
-    return (high + 0.05) / (low + 0.05)
-
-
-def test_contrast_has_the_published_values() -> None:
-    """#767676 is the lightest grey that passes AA on white, #777777 the first that does not."""
-    assert _contrast("#767676", "#FFFFFF") >= 4.5 > _contrast("#777777", "#FFFFFF")
-
-
-@pytest.mark.parametrize("theme", [0, 1])
-@pytest.mark.parametrize(
-    ("text", "ground"),
-    [
-        *((text, ground) for text in ("fg", "muted", "link") for ground in ("bg", "card")),
-        *((series, "bg") for series in SERIES),
-    ],
-)
-def test_text_meets_wcag_aa(theme: int, text: str, ground: str) -> None:
-    assert _contrast(TOKENS[text][theme], TOKENS[ground][theme]) >= 4.5
-
-
-@pytest.mark.parametrize("theme", [0, 1])
-def test_bands_grow_from_the_page_towards_the_ink(theme: int) -> None:
-    steps = [_contrast(TOKENS[f"b{i}"][theme], TOKENS["bg"][theme]) for i in range(6)]
-    assert steps == sorted(steps)
-    assert all(later > 1.15 * earlier for earlier, later in itertools.pairwise(steps))
 
 
 # --- weight
