@@ -110,11 +110,18 @@ def _family_step(march: March, n: int, amplitude: str, oscillator: Oscillator) -
     program.supply(V, march.velocity(n, n - 2) if program.uses_velocity else zero)
     right = -program.root.get(n) - march.inertia(n, 1, n - 2)
     particular, p, q = solve_oscillator(right)
-    if not is_zero(q):
-        raise InputError(_no_family(oscillator))
+    if not is_zero(q):  # a ball around 0 is no proof that sin tau vanishes
+        raise InputError(_no_family(oscillator) if q != 0 else _undecided(oscillator))
     march.extend_omega(-p)  # right + w_(n-1) cos tau must hold no cos tau
     march.append(normalise(particular, amplitude, size=True))
     program.correct(n, march.u[n], march.slope[n] + march.slope[1].scale(march.omega[n - 1]))
+
+
+def _undecided(oscillator: Oscillator) -> str:
+    return (
+        f"{oscillator.name}: balls cannot prove that no secular sin tau survives, since no symmetry of the force "
+        "removes it; use the exact series"
+    )
 
 
 def _no_family(oscillator: Oscillator) -> str:

@@ -301,6 +301,13 @@ def test_what_balls_cannot_do_is_refused_in_one_line() -> None:
         lindstedt_in_balls(Oscillator.from_equation("u'' + 2*mu*u' + u + u**3", parameters={"mu": "0.01"}), 4)
 
 
+def test_a_family_that_only_exact_arithmetic_can_prove_is_refused_as_such() -> None:
+    centre = Oscillator.from_equation("u'' + u + u*u'")
+    assert len(lindstedt(centre, 4).terms()) == 3
+    with pytest.raises(InputError, match="balls cannot prove"):
+        lindstedt_in_balls(centre, 4)
+
+
 def test_order_859_is_within_an_hour_by_prediction_but_not_within_ten_minutes() -> None:
     assert predict("balls", 859).within(Budget(seconds=3600.0))
     with pytest.raises(InputError, match=r"order 859 by balls would take about .* fits"):
