@@ -241,8 +241,7 @@ def test_a_checkpoint_of_another_computation_is_refused(
     assert saved.read_bytes() == before
 
 
-def test_another_value_of_a_parameter_is_another_computation(saved: Path) -> None:
-    lindstedt_in_balls(find(VDP).with_parameters({"k": 3}), 2)  # fine by itself
+def test_another_equation_under_the_same_name_is_another_computation(saved: Path) -> None:
     other = Oscillator.from_equation("u'' - eps*(1 - u**4)*u' + u", parameters={"eps": 1}, name=VDP)
     with pytest.raises(InputError, match="belongs to the equation"):
         lindstedt_in_balls(other, 12, checkpoint=saved)
@@ -390,6 +389,14 @@ def test_cosines_and_sines_in_turn_are_multiplied_as_one(a: list[int], b: list[i
         for i in range(max(0, n - len(b) + 1), min(n + 1, len(a))):
             total = total + p[i] * q[n - i]
         assert agree(Trig(balls, parts), total)
+
+
+def test_blocks_too_large_to_pack_are_cut(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole_march = lindstedt_in_balls(find(VDP), 30)
+    monkeypatch.setattr(laurent_module, "TILE", 3)
+    cut = lindstedt_in_balls(find(VDP), 30)
+    assert all(x.overlaps(y) for x, y in zip(whole_march.coefficients, cut.coefficients, strict=True))
+    assert cut.misses(lindstedt(find(VDP), 30)) == []
 
 
 def test_the_blocks_meet_every_pair_once_and_in_time() -> None:
