@@ -6,12 +6,15 @@ exact rationals they are, whatever decimal k was given.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import sympy
 
+from compare.bind import bind
 from compare.results import Derivation, Formula
+from numeric.potential import peak_limit
 from symbolic.certificate import Check, certify
 from symbolic.codegen import generate
 from symbolic.expansion import Expansion
@@ -201,7 +204,34 @@ def _line(prefix: str, check: Check) -> str:
     return f"{failed}{name[0].upper()}{name[1:]}: {check.statement}."
 
 
+def described(oscillator: Oscillator) -> str:
+    """The equation with its numbers.
+
+    >>> from symbolic.systems import find
+    >>> described(find("duffing"))
+    "u'' + 2*mu*u' + k**2*u + eps*u**3 = 0 with mu = 0, k = 1, eps = 1"
+    """
+    values = ", ".join(f"{name} = {value}" for name, value in oscillator.parameters.items())
+    return f"{oscillator.equation} with {values}" if values else oscillator.equation
+
+
+def limit_of(oscillator: Oscillator) -> float | None:
+    """The peak amplitude at which the oscillation itself ends, where there is one.
+
+    >>> from symbolic.systems import find
+    >>> limit_of(find("pendulum")), limit_of(find("van-der-pol"))
+    (3.141592653589793, None)
+    """
+    if oscillator.kind != "conservative" or oscillator.potential is None:
+        return None
+    limit = peak_limit(bind(oscillator))
+    return limit if math.isfinite(limit) else None
+
+
 def _code(exact: Exact) -> dict[str, str]:
-    equation = exact.oscillator.equation
+    oscillator = undamped(exact.oscillator)
+    equation, limit = described(oscillator), limit_of(oscillator)
     names = {"Python": "python", "C": "c"}
-    return {title: generate(exact.expansion, language, equation=equation) for title, language in names.items()}
+    return {
+        title: generate(exact.expansion, language, equation=equation, limit=limit) for title, language in names.items()
+    }

@@ -191,6 +191,7 @@ def integrate_motion(chosen: Setting, *, digits: int = DIGITS) -> Motion:
     Raises InputError where the motion leaves the well, and where it has too few cycles to compare anything.
     """
     dynamics = bind(chosen.oscillator)
+    _check_underdamped(dynamics)
     duration, rate = chosen.duration, chosen.rate
     trajectory = integrate(dynamics, chosen.initial, duration=duration, rate=rate)
     _check_cycles(chosen, trajectory)
@@ -213,6 +214,14 @@ def integrate_motion(chosen: Setting, *, digits: int = DIGITS) -> Motion:
 def _disagreement(trajectory: Trajectory, precise: Trajectory) -> float:
     shared = trajectory.u[::CHECKED][: precise.u.size]
     return float(np.max(np.abs(shared - precise.u[: shared.size])))
+
+
+def _check_underdamped(dynamics: Dynamics) -> None:
+    if dynamics.damping >= dynamics.natural_frequency:
+        raise InputError(
+            f"{dynamics.name}: mu = {dynamics.damping:.6g} is not below k = {dynamics.natural_frequency:.6g}, so the "
+            "motion is overdamped and does not oscillate; use less damping"
+        )
 
 
 def _check_cycles(chosen: Setting, trajectory: Trajectory) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import struct
 import warnings
 import zipfile
 from collections.abc import Callable, Mapping
@@ -70,7 +71,7 @@ def from_wav(data: bytes, source: str) -> Columns:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", wavfile.WavFileWarning)  # chunks beside the samples
             rate, samples = wavfile.read(io.BytesIO(data))
-    except (ValueError, EOFError) as error:
+    except (ValueError, EOFError, struct.error) as error:
         raise InputError(f"{source} is not a readable WAV file: {error}") from None
     scaled, note = full_scale(samples.reshape(samples.shape[0], -1))
     names = tuple(f"channel {i + 1}" for i in range(scaled.shape[1]))

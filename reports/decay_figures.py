@@ -12,7 +12,7 @@ from reports.block import Block, Readout, Toggle, block
 from reports.canvas import Array, Canvas, Line, decades, draw, linear, padded, shade, titles
 from reports.labels import measured, place
 from reports.theme import SERIES, sentinel
-from reports.time_figures import Clock, curve_line, relative_to, time_span, traces_of, usable
+from reports.time_figures import Clock, curve_line, relative_to, traces_of, usable
 from reports.wording import listing, number, relative
 
 KINDS = ("model", "estimate", "expansion")
@@ -230,8 +230,3 @@ def _budget_row(axes: Axes, row: BudgetRow, i: int, *, inside: bool) -> None:
         ha=align,
         color=sentinel("fg"),
     )
-
-
-def whole_span(decay: DecayComparison) -> tuple[float, float]:
-    """Return the time axis of everything along a decay."""
-    return time_span([decay.time])

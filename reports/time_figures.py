@@ -95,12 +95,9 @@ def tracks_block(
     height: tuple[float, float] = (3.4, 3.2),
 ) -> Block:
     """Draw up to five tracks over time; the first is drawn as the reference when it is one."""
-    free = iter(SERIES)
-    lines = [
-        curve_line(curve, clock, "fg" if reference else next(free), width=2.6 if reference else 1.8)
-        for curve in usable(curves)[:6]
-        for reference in (curve.kind == "reference",)
-    ]
+    references = [curve_line(c, clock, "fg", width=2.6) for c in usable(curves) if c.kind == "reference"][:1]
+    others = [c for c in usable(curves) if c.kind != "reference"]
+    lines = [*references, *(curve_line(c, clock, token) for c, token in zip(others, SERIES, strict=False))]
 
     def drawing(canvas: Canvas) -> None:
         (axes,) = canvas.stack()

@@ -116,7 +116,7 @@ def orders(text: str) -> tuple[int, ...]:
     words = [word.strip() for word in text.split(",")]
     wrong = [word for word in words if not re.fullmatch(r"\d{1,5}", word, re.ASCII)]
     if wrong:
-        raise ValueError(f"{shown(wrong[0])} is not an order; give integers of 0 or more, for example 2,4,8,16")
+        raise ValueError(f"{shown(wrong[0])} is not an order; give integers from 0 to 99999, for example 2,4,8,16")
     if len(words) > MAX_ORDERS:
         raise ValueError(f"{len(words)} orders are more than {MAX_ORDERS}; give fewer")
     return tuple(sorted({int(word) for word in words}))

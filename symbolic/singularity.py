@@ -41,6 +41,7 @@ _LAST: Final = 4
 """How many coefficients, of the upper half, stand for the size of those left out."""
 
 
+CONSTANT = "every coefficient beyond the first is zero"
 _POWERS = {2: "²", 3: "³"}
 
 
@@ -94,13 +95,15 @@ class Limits:
 
     def sentence(self) -> str:
         """Say the limits in one line."""
+        if self.why == CONSTANT:
+            return "omega0 is constant through this order: no limit shows."
         if self.radius is None or self.uncertainty is None:
             return f"The range of convergence is not known: {self.why}."
         first = self.singularities[0]
         return (
             f"The series converges for |{self.variable}| < {_with_error(self.radius, self.uncertainty)} (estimated: "
             f"{first.kind} of the {first.of} at {self._place(first)}); truncated at order {self.order} it errs by less "
-            f"than about {100 * TOLERANCE:g} % up to {self.variable} = {self.range_of_use:.3g}."
+            f"than about {100 * TOLERANCE:g} % up to {self.variable} = {self.range_of_use:.3g} or further."
         )
 
     def _place(self, s: Singularity) -> str:
@@ -124,7 +127,7 @@ def limits(expansion: Expansion, *, longer: Expansion | None = None) -> Limits:
     >>> limits(energy_integral(find("pendulum"), 40)).sentence()
     'The series converges for |A| < 3.142 ± 0.002 (estimated: logarithm of the period at A² = 9.87 ± 0.02); ...'
     >>> limits(energy_integral(find("linear"), 40)).sentence()
-    'The range of convergence is not known: every coefficient beyond the first is zero.'
+    'omega0 is constant through this order: no limit shows.'
     """
     try:
         step, series = stripped(longer or expansion)
@@ -166,7 +169,7 @@ def stripped(expansion: Expansion) -> tuple[int, list[fmpq]]:
         raise InputError(f"the coefficients hold {', '.join(expansion.names)} as symbols; set them to numbers")
     present = [n for n, value in enumerate(c) if n and value != 0]
     if not present:
-        raise InputError("every coefficient beyond the first is zero")
+        raise InputError(CONSTANT)
     step = math.gcd(*present)
     series = list(c[::step])
     if len(series) > 2 * (present[-1] // step) + 4:

@@ -69,8 +69,8 @@ def command(
 ) -> None:
     """Estimate the fundamental frequency of the signal in FILE (CSV, NPZ or WAV) over time.
 
-    Rows of time_s, omega_rad_s and frequency_hz, with the standard deviation and the bias where the estimator knows
-    them; "valid" is false near the borders, where it does not see a whole window.
+    Rows of time_s, omega_rad_s and frequency_hz, with the standard deviation that noise causes and the bias, where
+    the estimator knows them; "valid" is false near the borders, where it does not see a whole window.
 
     \b
     ridgeback estimate run.csv --column u --method pseudo-wigner

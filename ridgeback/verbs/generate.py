@@ -9,11 +9,11 @@ import click
 from ridgeback.arguments import ORDER
 from ridgeback.choice import Choice, choosing
 from ridgeback.derivation import derived
-from ridgeback.options import expansion_options, output_option
-from ridgeback.output import write_text
+from ridgeback.options import expansion_options, format_option, output_option
+from ridgeback.output import json_text, write_text
 
 if TYPE_CHECKING:
-    from symbolic.oscillator import Oscillator
+    pass
 
 
 @click.command("generate", short_help="Write an expansion as Python or C.")
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 )
 @click.option("--order", type=ORDER, default="8", show_default=True, metavar="N", help="Highest power kept.")
 @expansion_options
+@format_option("source", "json", default="source")
 @output_option
 def command(
     *,
@@ -36,6 +37,7 @@ def command(
     method: str | None,
     amplitude: str | None,
     weight: int | None,
+    style: str,
     output: str,
 ) -> None:
     """Write the frequency of SYSTEM as source text: a Python module, or C99 functions.
@@ -47,28 +49,12 @@ def command(
     ridgeback generate pendulum --order 12 --language c -o pendulum.c
     ridgeback generate damped-pendulum --order 6          omega0(a, mu) and damping(a, mu)
     """
+    from compare.derivation import described, limit_of
     from symbolic.codegen import generate
 
     oscillator = choice.oscillator()
     result = derived(oscillator, order, method=method, amplitude=amplitude, weight=weight)
-    limit = peak_limit_of(oscillator) if result.amplitude == "peak" else None
-    write_text(output, generate(result, language, equation=described(oscillator), limit=limit))
-
-
-def described(oscillator: Oscillator) -> str:
-    """The equation with its numbers."""
-    values = ", ".join(f"{name} = {value}" for name, value in oscillator.parameters.items())
-    return f"{oscillator.equation} with {values}" if values else oscillator.equation
-
-
-def peak_limit_of(oscillator: Oscillator) -> float | None:
-    """The peak amplitude at which the oscillation itself ends, where there is one."""
-    if oscillator.kind != "conservative" or oscillator.potential is None:
-        return None
-    from math import isfinite
-
-    from compare.bind import bind
-    from numeric.period import peak_limit
-
-    limit = peak_limit(bind(oscillator))
-    return limit if isfinite(limit) else None
+    limit = limit_of(oscillator) if result.amplitude == "peak" else None
+    source = generate(result, language, equation=described(oscillator), limit=limit)
+    described_so = {"language": language, **result.to_dict(), "source": source}
+    write_text(output, json_text(described_so) if style == "json" else source)

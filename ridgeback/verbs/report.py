@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
 import click
@@ -12,8 +12,8 @@ import click
 from ridgeback.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
 from ridgeback.choice import Choice, choosing
 from ridgeback.failure import PartialError, say
-from ridgeback.options import unique
-from ridgeback.output import STDOUT, output_path, write_text
+from ridgeback.options import format_option, unique
+from ridgeback.output import STDOUT, json_text, output_path, write_text
 from ridgeback.progress import Progress
 
 if TYPE_CHECKING:
@@ -75,6 +75,7 @@ class Source:
     metavar="FILE",
     help="Where to write the page; - is standard output.",
 )
+@format_option("text", "json", default="text")
 @click.pass_context
 def command(
     context: click.Context,
@@ -90,6 +91,7 @@ def command(
     recording: str | None,
     column: str | None,
     time_column: str | None,
+    style: str,
     output: str,
 ) -> None:
     """Compare expansions, models and estimated frequencies of SYSTEM, or of a recording, on one HTML page.
@@ -111,7 +113,7 @@ def command(
             report = of_motion(motion, scope, shown, progress)
         else:
             report = of_recording(Source(recording, column, time_column), motion, scope, shown, progress)
-    publish(report, output)
+    publish(report, output, style)
 
 
 def refuse(given: dict[str, object], why: str) -> None:
@@ -190,20 +192,39 @@ def as_typed(arguments: Sequence[str]) -> str:
     return shlex.join(["ridgeback", *kept])
 
 
-def publish(report: Report, output: str) -> None:
+def publish(report: Report, output: str, style: str) -> None:
     """Write the page, say where it is and what it found, and own up to what is missing."""
     from reports.page import render, size_warning
 
     page = render(report)
     write_text(output, page)
     if output != STDOUT:
-        write_text(STDOUT, findings(report, output, len(page.encode())))
+        write_text(STDOUT, printed(report, output, len(page.encode()), style))
     warning = size_warning(page)
     if warning is not None:
         say(warning)
     missing = [score.label for score in report.decay.scores if score.failed] if report.decay else []
     if missing:
         raise PartialError(f"the page is written, but gave no result: {', '.join(missing)}; it says why")
+
+
+def printed(report: Report, output: str, size: int, style: str) -> str:
+    """The findings as text or JSON: what the page says first, and the scores and budget of every method."""
+    if style == "text":
+        return findings(report, output, size)
+    decay = report.decay
+    return json_text(
+        {
+            "output": output,
+            "bytes": size,
+            "title": report.title,
+            "cards": [asdict(card) for card in report.cards],
+            "summary": list(report.summary),
+            "scores": [asdict(score) for score in decay.scores] if decay else [],
+            "budget": [asdict(row) for row in decay.budget] if decay else [],
+            "statements": [asdict(said) for said in decay.statements] if decay else [],
+        }
+    )
 
 
 def findings(report: Report, output: str, size: int) -> str:

@@ -67,9 +67,10 @@ def command(
         return
     from compare.study import study
 
-    result = study(choice.oscillator(), orders, amplitudes, method=method)
+    oscillator = choice.oscillator()
+    result = study(oscillator, orders, amplitudes, method=method)
     rows = result.rows()
-    write_text(output, printed(result, rows, style))
+    write_text(output, printed(result, rows, style, damped=oscillator.kind == "damped"))
     unknown = sum(not math.isfinite(float(row["omega_reference"])) for row in rows)
     if unknown:
         raise PartialError(f"{unknown} of {len(rows)} cells have no reference; they are left empty in the output")
@@ -89,14 +90,14 @@ def proved(oscillator: Oscillator, orders: tuple[int, ...], amplitudes: tuple[fl
     return aligned(columns, rows) + "\n"
 
 
-def printed(result: Study, rows: list[dict[str, float | int | str]], style: str) -> str:
+def printed(result: Study, rows: list[dict[str, float | int | str]], style: str, *, damped: bool = False) -> str:
     """The rows in the form asked for."""
     columns = list(rows[0])
     if style == "csv":
         return csv_text(columns, rows)
     if style == "json":
         return json_text(rows)
-    return heading(result) + "\n\n" + aligned(columns, as_rows(rows)) + "\n"
+    return heading(result, damped=damped) + "\n\n" + aligned(columns, as_rows(rows)) + "\n"
 
 
 def as_rows(rows: list[dict[str, float | int | str]]) -> list[Row]:
@@ -104,13 +105,15 @@ def as_rows(rows: list[dict[str, float | int | str]]) -> list[Row]:
     return list(rows)
 
 
-def heading(result: Study) -> str:
+def heading(result: Study, *, damped: bool = False) -> str:
     """What the rows hold, and against what."""
     variable = f"{result.variable} ({result.amplitude_definition})" if result.variable == "A" else result.variable
     lines = [
         f"{result.title}: omega0 in rad per time unit over {variable}, {result.method}",
         f"reference: {result.reference_name}",
     ]
+    if damped:
+        lines.append("the study is of the undamped motion, mu = 0")
     if result.limit is not None:
         lines.append(f"the oscillation ends at {result.variable} = {result.limit:.6g}")
     if result.convergence_radius is not None:

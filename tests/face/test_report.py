@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import json
 import math
 from collections.abc import Callable
 from pathlib import Path
@@ -107,5 +108,26 @@ def test_missing_results_are_owned_up_to(tmp_path: Path, monkeypatch: pytest.Mon
     made = SimpleNamespace(title="t", cards=(), summary=(), decay=SimpleNamespace(scores=scores))
     page = tmp_path / "page.html"
     with pytest.raises(PartialError, match="Wigner peak"):
-        report.publish(made, str(page))  # type: ignore[arg-type]
+        report.publish(made, str(page), "text")  # type: ignore[arg-type]
     assert page.exists()
+
+
+def test_a_recording_with_a_system_and_its_findings_as_json(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    """Five estimates and one curve of theory are six tracks: all must find a colour or stay out."""
+    samples = [math.exp(-0.05 * i / 32) * math.cos(2 * math.pi * 1.25 * i / 32) for i in range(960)]
+    recording = tmp_path / "decay.csv"
+    recording.write_text("t,x\n" + "".join(f"{i / 32!r},{x!r}\n" for i, x in enumerate(samples)), encoding="utf-8")
+    page = tmp_path / "decay.html"
+    words = ["--recording", str(recording), "--column", "x", "linear", "--set", "k=7.85398", "--format", "json"]
+    done = ridgeback("report", *words, "-o", str(page))
+    assert (done.code, done.err) == (0, "")
+    found = json.loads(done.out)
+    assert found["output"] == str(page)
+    assert "1.25" in found["title"]
+    assert page.exists()
+
+
+def test_an_overdamped_motion_is_refused_by_name(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    done = ridgeback("report", "--set", "mu=20", "-o", str(tmp_path / "x.html"))
+    assert done.code == 2
+    assert "overdamped" in done.err

@@ -310,3 +310,15 @@ def test_a_certified_study_proves_each_error(ridgeback: Ridgeback) -> None:
 def test_the_range_of_use_is_printed_with_every_expansion(ridgeback: Ridgeback) -> None:
     assert "converges for |A| < 3.14" in ridgeback("derive", "pendulum", "--order", "4").out
     assert "converges for |eps| < 1.849" in ridgeback("derive", "van-der-pol", "--order", "4").out
+
+
+def test_generated_code_as_json_carries_the_series_it_is_made_from(ridgeback: Ridgeback) -> None:
+    found = json.loads(ridgeback("generate", "pendulum", "--order", "4", "--format", "json").out)
+    assert found["language"] == "python"
+    assert found["frequency"][1] == {"powers": {"A": 2}, "coefficient": "-1/16"}
+    assert found["source"] == ridgeback("generate", "pendulum", "--order", "4").out
+
+
+def test_a_study_of_a_damped_system_says_that_it_is_undamped(ridgeback: Ridgeback) -> None:
+    assert "mu = 0" in ridgeback("study", "damped-pendulum", "--orders", "4", "--amplitudes", "1").out
+    assert "mu = 0" not in ridgeback("study", "pendulum", "--orders", "4", "--amplitudes", "1").out

@@ -52,7 +52,7 @@ def test_points_in_the_noise_are_left_out_and_counted() -> None:
     x = 2.0 * np.exp(-0.15 * T) * np.cos(8.0 * T) + 0.05 * np.random.default_rng(1).normal(size=T.size)
     found = backbone(estimate(x, RATE, band=(6.0, 10.0)), x, RATE)
     assert found.amplitude.min() > 5 * 0.005
-    assert "not 5 times above their noise" in found.notes[-1]
+    assert "not 5 times above noise" in found.notes[-1]
 
 
 def test_rows_carry_the_names_of_their_columns() -> None:

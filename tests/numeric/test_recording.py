@@ -182,3 +182,10 @@ def test_any_text_is_a_table_or_an_input_error(text: str) -> None:
     except InputError as error:
         message = str(error)
     assert "\n" not in message
+
+
+def test_a_truncated_wav_file_is_bad_input(tmp_path: Path) -> None:
+    file = tmp_path / "bad.wav"
+    file.write_bytes(b"RIFFxx")
+    with pytest.raises(InputError, match="not a readable WAV"):
+        read_recording(file)
