@@ -114,6 +114,7 @@ def test_hostile_formulas_stay_text(latex: str) -> None:
     assert len(root.all("script")) == 1
     assert not [e for e in root.all() for name in e.attributes if name.startswith("on")]
     assert not [e for e in root.all("math") for inner in e.all() if "href" in inner.attributes]
+    assert not any("\\" in math.text for math in root.all("math"))
     assert any(latex in code.text for code in root.all("code"))
 
 
