@@ -20,7 +20,7 @@ _LAWS = {
     "limit-cycle": (5e-8, 4.0, 60.0),
     "multiple-scales": (4e-9, 4.0, 2.5),
     "energy-integral": (1e-8, 3.0, 60.0),
-    "balls": (7e-8, 3.5, 3.0),
+    "balls": (8e-8, 3.5, 5.0),
 }
 
 
