@@ -136,10 +136,10 @@ def _images(motion: Motion, curves: tuple[Curve, ...]) -> tuple[Image, Image, Im
     run = motion.trajectory
     fastest, slowest = float(motion.known_omega.max()), float(motion.known_omega.min())
     top, period = TOP_MULTIPLE * fastest, 2 * np.pi / slowest
-    overlay = tuple(c for c in curves if c.name == "wigner")
+    overlay, unit = tuple(c for c in curves if c.name == "wigner"), motion.setting.time_unit
     return (
-        spectrogram_image(run.u, run.rate, period=period, top=top, name="Spectrogram of u"),
-        spectrogram_image(run.velocity, run.rate, period=period, top=top, name="Spectrogram of u'"),
+        spectrogram_image(run.u, run.rate, period=period, top=top, name="Spectrogram of u", unit=unit),
+        spectrogram_image(run.velocity, run.rate, period=period, top=top, name="Spectrogram of u'", unit=unit),
         wigner_image(
             run.u,
             run.rate,

@@ -27,14 +27,16 @@ def spectrogram_image(
     name: str,
     overlays: tuple[Curve, ...] = (),
     start: float = 0.0,
+    unit: str = "",
 ) -> Image:
-    """Spectrogram of ``x`` with a window of a few periods, up to the angular frequency ``top``."""
+    """Spectrogram of ``x`` with a window of a few periods, up to the angular frequency ``top``; ``unit`` is of time."""
     seconds = min(WINDOW_CYCLES * period, 0.5 * x.size / rate)
     plane = spectrogram(x, rate, window_seconds=seconds, hop=max(1, x.size // COLUMNS), start=start)
     first, last = start + seconds / 2, start + (x.size - 1) / rate - seconds / 2
     whole = columns(plane, (plane.time >= first) & (plane.time <= last))
     note = (
-        f"Hann window of {seconds:.3g} time units; {rate:g} samples per time unit.  Shown from half a window inside "
+        f"Hann window of {seconds:.3g} {unit or 'time units'}; {rate:g} samples per {unit or 'time unit'}.  Shown from "
+        "half a window inside "
         "the record: nearer its ends the window would see past them."
     )
     return image(whole, top=top, name=name, overlays=overlays, note=note)

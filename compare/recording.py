@@ -110,6 +110,7 @@ def _assembled(
             name=f"Spectrogram of {recording.name}",
             overlays=curves[:1],
             start=float(recording.time[0]),
+            unit="s",
         ),
         amplitude_time=measured.time,
         amplitude=measured.amplitude,
