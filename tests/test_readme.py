@@ -26,8 +26,6 @@ def test_console_examples_print_what_they_say(example: tuple[str, str], capsys: 
     command, output = example
     program, *arguments = shlex.split(command)
     assert program == "ridgeback"
-    if "sloshing" in command:
-        pytest.skip("needs a published recording that is not part of the project")
     assert main(arguments) == 0
     assert words(capsys.readouterr().out) == words(output)
 
