@@ -74,10 +74,12 @@ def trajectory(
         from numeric.taylor import integrate_taylor
 
         return integrate_taylor(dynamics, initial, duration=duration, rate=rate, digits=digits or 30)
+    from numeric.trajectory import METHODS, integrate
+
+    if method not in METHODS:
+        raise click.UsageError(f"unknown method {method!r}; use one of {', '.join(METHODS)} or taylor")
     if digits is not None:
         raise click.UsageError(f"--digits belongs to --method taylor; {method} works in double precision")
-    from numeric.trajectory import integrate
-
     return integrate(dynamics, initial, duration=duration, rate=rate, method=method)
 
 
