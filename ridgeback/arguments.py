@@ -181,7 +181,25 @@ def order(text: str) -> int:
 
 
 ASSIGNMENT = written(assignment)
+
+
+def weights(text: str) -> dict[str, int]:
+    """Weights of small parameters by name.
+
+    >>> weights("mu=2,c3=1")
+    {'mu': 2, 'c3': 1}
+    """
+    found: dict[str, int] = {}
+    for word in text.split(","):
+        name, _, value = (part.strip() for part in word.partition("="))
+        if not NAME.fullmatch(name) or not re.fullmatch(r"\d{1,3}", value, re.ASCII) or name in found:
+            raise ValueError(f"{shown(text)} does not give each name one whole weight; write e.g. mu=2,c3=1")
+        found[name] = int(value)
+    return found
+
+
 PAIR = written(pair)
+WEIGHTS = written(weights)
 BAND = written(band)
 ORDERS = written(orders)
 GRID = written(grid)

@@ -13,7 +13,13 @@ if TYPE_CHECKING:
 
 
 def derived(
-    oscillator: Oscillator, order: int, *, method: str | None, amplitude: str | None, weight: int | None
+    oscillator: Oscillator,
+    order: int,
+    *,
+    method: str | None,
+    amplitude: str | None,
+    weight: int | None,
+    weights: dict[str, int] | None = None,
 ) -> Expansion | SlowFlow:
     """Derive by the method asked for, or by the one that suits the oscillator.
 
@@ -24,10 +30,11 @@ def derived(
     'lindstedt'
     """
     name = method or ("multiple-scales" if oscillator.kind == "damped" else "lindstedt")
-    if weight is not None and name != "multiple-scales":
-        raise click.UsageError(f"--weight belongs to multiple-scales, not to {name}; leave it out")
+    if name != "multiple-scales" and (weight is not None or weights is not None):
+        option = "--weight" if weight is not None else "--weights"
+        raise click.UsageError(f"{option} belongs to multiple-scales, not to {name}; leave it out")
     if name == "multiple-scales":
-        return slow_flow(oscillator, order, amplitude=amplitude, weight=weight)
+        return slow_flow(oscillator, order, amplitude=amplitude, weight=weight, weights=weights)
     if name == "energy-integral":
         from symbolic.energy_integral import energy_integral
 
@@ -37,7 +44,9 @@ def derived(
     return lindstedt(oscillator, order, amplitude=amplitude or "peak")
 
 
-def slow_flow(oscillator: Oscillator, order: int, *, amplitude: str | None, weight: int | None) -> SlowFlow:
+def slow_flow(
+    oscillator: Oscillator, order: int, *, amplitude: str | None, weight: int | None, weights: dict[str, int] | None
+) -> SlowFlow:
     """Multiple scales, whose amplitude is that of the first harmonic."""
     if amplitude not in (None, "fundamental"):
         raise click.UsageError(
@@ -46,4 +55,4 @@ def slow_flow(oscillator: Oscillator, order: int, *, amplitude: str | None, weig
         )
     from symbolic.multiple_scales import multiple_scales
 
-    return multiple_scales(oscillator, order, weight=2 if weight is None else weight)
+    return multiple_scales(oscillator, order, weight=2 if weight is None else weight, weights=weights)

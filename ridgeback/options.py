@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ridgeback.arguments import ASSIGNMENT
+from ridgeback.arguments import ASSIGNMENT, WEIGHTS
 from ridgeback.output import STDOUT, output_path
 
 if TYPE_CHECKING:
@@ -63,13 +63,20 @@ def format_option(*formats: str, default: str) -> Callable[[Decorated], Decorate
 
 
 def expansion_options(command: Decorated) -> Decorated:
-    """``--method``, ``--amplitude``, ``--weight``: which derivation, in which variables."""
+    """``--method``, ``--amplitude``, ``--weight``, ``--weights``: which derivation, in which variables."""
     for option in (
         click.option(
             "--weight",
             type=click.IntRange(1, 1000),
             default=None,
             help="Weight of mu in the order of multiple scales: mu counts like a^WEIGHT.  Default: 2.",
+        ),
+        click.option(
+            "--weights",
+            type=WEIGHTS,
+            default=None,
+            metavar="NAME=W,...",
+            help="Weights of single small parameters, e.g. mu=2,c3=1; weight 0 makes one a coefficient.",
         ),
         click.option(
             "--amplitude",

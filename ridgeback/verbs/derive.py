@@ -38,6 +38,7 @@ def command(
     method: str | None,
     amplitude: str | None,
     weight: int | None,
+    weights: dict[str, int] | None,
     verify: bool,
     style: str,
     output: str,
@@ -55,7 +56,7 @@ def command(
     ridgeback derive --equation "u'' - u + u**3 = 0" --about 1
     """
     oscillator = choice.oscillator()
-    result = derived(oscillator, order, method=method, amplitude=amplitude, weight=weight)
+    result = derived(oscillator, order, method=method, amplitude=amplitude, weight=weight, weights=weights)
     checks = certificate(oscillator, result) if verify else None
     write_text(output, printed(oscillator, result, style, checks))
     if checks and not all(check.passed for check in checks if check.passed is not None):
@@ -85,11 +86,32 @@ def printed(oscillator: Oscillator, result: Result, style: str, checks: tuple[Ch
 
 
 def range_of_use(oscillator: Oscillator, result: Result) -> str:
-    """Where the series converges and how far it may be used, in one line; nothing for a slow flow."""
+    """Where a series converges and how far it may be used, in one line; a slow flow's limit cycles."""
     from symbolic.accuracy import settled_limits
     from symbolic.expansion import Expansion
 
-    return f"\n{settled_limits(oscillator, result).sentence()}\n" if isinstance(result, Expansion) else ""
+    if isinstance(result, Expansion):
+        return f"\n{settled_limits(oscillator, result).sentence()}\n"
+    return limit_cycles(oscillator, result)
+
+
+def limit_cycles(oscillator: Oscillator, flow: SlowFlow) -> str:
+    """The fixed points of a self-excited slow flow that belong to a series, at the oscillator's own parameters."""
+    if oscillator.kind != "limit-cycle" or any(oscillator.parameters.get(name) is None for name in flow.weights):
+        return ""
+    from symbolic.fixed_points import fixed_points
+
+    values = {name: oscillator.parameters[name] for name in flow.weights}
+    found = [point for point in fixed_points(flow, values) if point.square_series is not None]
+    at = ", ".join(f"{name} = {value}" for name, value in values.items())
+    return "".join(
+        f"\nlimit cycle of this order at {at}: a = {float(p.amplitude.mid()):.10g}, "
+        f"omega0 = {float(p.frequency.mid()):.10g}, {_STABILITY[p.stable]}\n"
+        for p in found
+    )
+
+
+_STABILITY = {True: "stable", False: "unstable", None: "of undecided stability"}
 
 
 def certified(checks: tuple[Check, ...] | None) -> str:

@@ -37,6 +37,7 @@ def command(
     method: str | None,
     amplitude: str | None,
     weight: int | None,
+    weights: dict[str, int] | None,
     style: str,
     output: str,
 ) -> None:
@@ -53,7 +54,7 @@ def command(
     from symbolic.codegen import generate
 
     oscillator = choice.oscillator()
-    result = derived(oscillator, order, method=method, amplitude=amplitude, weight=weight)
+    result = derived(oscillator, order, method=method, amplitude=amplitude, weight=weight, weights=weights)
     limit = limit_of(oscillator) if result.amplitude == "peak" else None
     source = generate(result, language, equation=described(oscillator), limit=limit)
     described_so = {"language": language, **result.to_dict(), "source": source}

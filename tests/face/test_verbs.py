@@ -322,3 +322,24 @@ def test_generated_code_as_json_carries_the_series_it_is_made_from(ridgeback: Ri
 def test_a_study_of_a_damped_system_says_that_it_is_undamped(ridgeback: Ridgeback) -> None:
     assert "mu = 0" in ridgeback("study", "damped-pendulum", "--orders", "4", "--amplitudes", "1").out
     assert "mu = 0" not in ridgeback("study", "pendulum", "--orders", "4", "--amplitudes", "1").out
+
+
+def test_weights_order_several_small_parameters(ridgeback: Ridgeback) -> None:
+    equation = "u'' + 2*mu*u' + c3*u'**3 + u = 0"
+    words = ["--method", "multiple-scales", "--weights", "mu=2,c3=1", "--order", "4", "--format", "json"]
+    found = json.loads(ridgeback("derive", "--equation", equation, *words).out)
+    assert found["variables"] == ["a", "mu", "c3"]
+    assert found["weights"] == {"mu": 2, "c3": 1}
+    # Cubic damping alone: a' = -3/8 c3 a^3 (averaging of u'^3 over cos).
+    assert {"powers": {"a": 2, "mu": 0, "c3": 1}, "coefficient": "-3/8"} in found["damping"]
+    assert ridgeback("derive", "pendulum", "--weights", "mu=2").code == 2
+    assert ridgeback("derive", "damped-pendulum", "--weights", "mu").code == 2
+
+
+def test_a_self_excited_slow_flow_names_its_limit_cycle(ridgeback: Ridgeback) -> None:
+    words = ["--set", "eps=1/10", "--method", "multiple-scales", "--weight", "1", "--order", "12"]
+    line = ridgeback("derive", "van-der-pol", *words).out.splitlines()[-1]
+    amplitude, omega = (float(line.split(f"{name} = ")[1].split(",")[0]) for name in ("a", "omega0"))
+    assert line.endswith("stable")
+    assert amplitude == pytest.approx(2 + 0.1**2 / 64, abs=1e-7)  # first harmonic, through eps^2
+    assert omega == pytest.approx(1 - 0.1**2 / 16 + 17 * 0.1**4 / 3072, abs=1e-9)
