@@ -203,7 +203,7 @@ def harmonic_fit(
     if length < shape.size + 4:
         raise InputError(
             f"window of {length} samples is too short for the {shape.size} parameters of the harmonics asked for; "
-            f"use at least {shape.size + 4} samples ({(shape.size + 4) / rate:.4g} time units) or fewer harmonics"
+            f"use at least {shape.size + 4} samples ({(shape.size + 4) / rate:.4g} time units), e.g. by a longer lag, fewer harmonics, or another method"
         )
     centres = np.arange(x.size) if centres is None else centres
     work = float(centres.size) * length * shape.size**2 * ITERATIONS
