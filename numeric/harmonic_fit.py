@@ -202,8 +202,9 @@ def harmonic_fit(
         raise InputError(f"signal has {x.size} samples, the window of harmonic least squares needs {length}")
     if length < shape.size + 4:
         raise InputError(
-            f"window of {length} samples is too short for the {shape.size} parameters of the harmonics asked for; "
-            f"use at least {shape.size + 4} samples ({(shape.size + 4) / rate:.4g} time units), e.g. by a longer lag, fewer harmonics, or another method"
+            f"window of {length} samples is too short for the {shape.size} parameters of the harmonics fitted; "
+            f"use at least {shape.size + 4} samples ({(shape.size + 4) / rate:.4g} time units) by a longer lag, "
+            "fewer harmonics, or another method"
         )
     centres = np.arange(x.size) if centres is None else centres
     work = float(centres.size) * length * shape.size**2 * ITERATIONS
