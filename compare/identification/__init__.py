@@ -1,0 +1,1 @@
+"""What made it?  Oscillator classes fitted to one decay, ranked, and used to predict it."""

@@ -1,0 +1,180 @@
+"""What an identification hands over: frozen values, complete at construction, ready to print, store or draw.
+
+Angular frequency in rad per time unit; amplitudes are ``fundamental`` (that of the first harmonic), in the signal's
+own unit; bands are 95 % intervals.  Arrays are one-dimensional float64 and read-only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from types import MappingProxyType
+
+import numpy as np
+
+from compare.results import Array
+from numeric.arrays import frozen
+
+NORMAL_95 = 1.959963984540054
+"""The 97.5 % point of the normal distribution: half the width of a 95 % interval in standard deviations."""
+
+
+class _Values:
+    """Arrays are copied and made read-only, mappings read-only; ``record`` gives what JSON knows."""
+
+    def __post_init__(self) -> None:
+        for item in fields(self):  # type: ignore[arg-type]
+            value = getattr(self, item.name)
+            if isinstance(value, np.ndarray):
+                object.__setattr__(self, item.name, frozen(value))
+            elif isinstance(value, Mapping):
+                object.__setattr__(self, item.name, MappingProxyType(dict(value)))
+
+    def record(self) -> dict[str, object]:
+        """All fields by name, as lists, numbers, text and mappings of them."""
+        return {item.name: _plain(getattr(self, item.name)) for item in fields(self)}  # type: ignore[arg-type]
+
+
+def _plain(value: object) -> object:
+    match value:
+        case _Values():
+            return value.record()
+        case np.ndarray():
+            return value.tolist()
+        case tuple():
+            return [_plain(item) for item in value]
+        case Mapping():
+            return {str(key): _plain(item) for key, item in value.items()}
+    return value
+
+
+@dataclass(frozen=True)
+class Parameter(_Values):
+    """One fitted number of an equation.
+
+    >>> tuple(round(x, 3) for x in Parameter("k", 2.0, 0.1, "rad/s", "natural frequency").interval())
+    (1.804, 2.196)
+    """
+
+    name: str
+    """As it stands in the candidate's equation, or ``a0`` and ``phase0`` of the start, ``offset`` of the sensor."""
+    value: float
+    standard_deviation: float
+    unit: str = ""
+    meaning: str = ""
+
+    def interval(self) -> tuple[float, float]:
+        """The 95 % interval."""
+        half = NORMAL_95 * self.standard_deviation
+        return self.value - half, self.value + half
+
+
+@dataclass(frozen=True)
+class Candidate(_Values):
+    """One oscillator class with its best parameters; ``omega`` and ``damping`` against ``amplitude``, with bands.
+
+    ``criterion`` is the information criterion, less is better; ``delta`` its distance from the best candidate's, and
+    ``weight`` proportional to exp(-delta / 2), with sum 1 over all candidates.  ``residual`` is the root mean square of
+    the samples less the model.  ``damping`` is a'/a per time unit, negative in a decay.
+    """
+
+    name: str
+    """Such as ``duffing-softening``; the class."""
+    title: str
+    equation: str
+    """As text, with the fitted parameters by name."""
+    damping_law: str
+    """``linear``, ``linear + quadratic``, ``linear + cubic`` or ``van der Pol``."""
+    parameters: tuple[Parameter, ...]
+    criterion: float
+    delta: float
+    weight: float
+    residual: float
+    amplitude: Array
+    omega: Array
+    omega_low: Array
+    omega_high: Array
+    damping: Array
+    damping_low: Array
+    damping_high: Array
+    note: str = ""
+
+    def parameter(self, name: str) -> Parameter:
+        """The parameter of this name; KeyError without one."""
+        for item in self.parameters:
+            if item.name == name:
+                return item
+        raise KeyError(name)
+
+
+@dataclass(frozen=True)
+class MeasuredBackbone(_Values):
+    """What was measured, without any class in mind: frequency and damping by amplitude, with one-sigma deviations."""
+
+    amplitude: Array
+    omega: Array
+    omega_sd: Array
+    damping: Array
+    damping_sd: Array
+
+
+@dataclass(frozen=True)
+class Prediction(_Values):
+    """The rest of a decay as foretold from its first cycles, against what was then measured.
+
+    ``*_low`` and ``*_high`` are 95 % bands; ``measured_*`` are local harmonic least squares on the part that the fit
+    did not see.  ``phase_error`` is measured less predicted, in rad, unwrapped; ``phase_band`` is half its band.
+    """
+
+    candidate: str
+    cycles: float
+    """Cycles that the fit saw."""
+    until: float
+    """Time of the last sample that the fit saw."""
+    time: Array
+    amplitude: Array
+    amplitude_low: Array
+    amplitude_high: Array
+    measured_amplitude: Array
+    omega: Array
+    omega_low: Array
+    omega_high: Array
+    measured_omega: Array
+    phase_error: Array
+    phase_band: Array
+    coverage: Mapping[str, float]
+    """Share of the measured ``amplitude``, ``omega`` and ``phase`` inside the bands."""
+    errors: Mapping[str, float]
+    """Root mean square of measured less predicted: ``amplitude`` and ``omega`` relative, ``phase`` in rad."""
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Identification(_Values):
+    """Candidates, best first, of one recording."""
+
+    source: str
+    column: str
+    unit: str
+    """Unit of the signal and of its amplitudes; may be empty."""
+    rate: float
+    samples: int
+    effective_samples: float
+    """Independent samples that the best candidate's residual is worth; the criterion counts these."""
+    criterion_name: str
+    candidates: tuple[Candidate, ...]
+    data: MeasuredBackbone
+    verdict: str
+    """One or two sentences: which class, how sure, and which others cannot be told apart from it."""
+    indistinguishable: tuple[str, ...]
+    """Names of the candidates that the data cannot tell apart from the best, which comes first."""
+    settings: Mapping[str, object] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    failed: tuple[str, ...] = ()
+    """Candidates that could not be fitted, each with the reason."""
+    prediction: Prediction | None = None
+
+    @property
+    def best(self) -> Candidate:
+        """The candidate with the least criterion."""
+        return self.candidates[0]
