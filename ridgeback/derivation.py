@@ -2,57 +2,101 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from functools import wraps
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from ridgeback.arguments import ORDER
+from ridgeback.long_run import budget_option
+from ridgeback.options import expansion_options
+
 if TYPE_CHECKING:
+    from symbolic.cost import Budget
     from symbolic.expansion import Expansion
     from symbolic.oscillator import Oscillator
     from symbolic.slow_flow import SlowFlow
 
+Command = Callable[..., None]
 
-def derived(
-    oscillator: Oscillator,
-    order: int,
-    *,
-    method: str | None,
-    amplitude: str | None,
-    weight: int | None,
-    weights: dict[str, int] | None = None,
-) -> Expansion | SlowFlow:
+
+@dataclass(frozen=True)
+class Request:
+    """Which expansion is asked for, as it was said on the command line."""
+
+    order: int
+    method: str | None = None
+    amplitude: str | None = None
+    weight: int | None = None
+    weights: dict[str, int] | None = None
+    budget: Budget | None = None
+
+    def method_for(self, oscillator: Oscillator) -> str:
+        """The method asked for, or the one that suits the oscillator."""
+        return self.method or ("multiple-scales" if oscillator.kind == "damped" else "lindstedt")
+
+
+def requesting(command: Command) -> Command:
+    """Give a verb the options of a derivation, as one ``request``."""
+
+    @wraps(command)
+    def wrapped(**options: Any) -> None:
+        own = {item.name: options.pop(item.name) for item in fields(Request)}
+        command(request=Request(**own), **options)
+
+    for option in (
+        budget_option,
+        expansion_options,
+        click.option("--order", type=ORDER, default="8", show_default=True, metavar="N", help="Highest power kept."),
+    ):
+        wrapped = option(wrapped)
+    return wrapped
+
+
+def derived(oscillator: Oscillator, request: Request) -> Expansion | SlowFlow:
     """Derive by the method asked for, or by the one that suits the oscillator.
 
     Raises click.UsageError for options that the method does not have, InputError from the derivation.
 
     >>> from symbolic.systems import find
-    >>> derived(find("pendulum"), 2, method=None, amplitude=None, weight=None).method
+    >>> derived(find("pendulum"), Request(2)).method
     'lindstedt'
     """
-    name = method or ("multiple-scales" if oscillator.kind == "damped" else "lindstedt")
-    if name != "multiple-scales" and (weight is not None or weights is not None):
-        option = "--weight" if weight is not None else "--weights"
-        raise click.UsageError(f"{option} belongs to multiple-scales, not to {name}; leave it out")
+    name = request.method_for(oscillator)
     if name == "multiple-scales":
-        return slow_flow(oscillator, order, amplitude=amplitude, weight=weight, weights=weights)
+        return slow_flow(oscillator, request)
+    refuse_weights(request, name)
     if name == "energy-integral":
         from symbolic.energy_integral import energy_integral
 
-        return energy_integral(oscillator, order, amplitude=amplitude or "peak")
+        return energy_integral(oscillator, request.order, amplitude=request.amplitude or "peak", budget=request.budget)
     from symbolic.lindstedt import lindstedt
 
-    return lindstedt(oscillator, order, amplitude=amplitude or "peak")
+    return lindstedt(oscillator, request.order, amplitude=request.amplitude or "peak", budget=request.budget)
 
 
-def slow_flow(
-    oscillator: Oscillator, order: int, *, amplitude: str | None, weight: int | None, weights: dict[str, int] | None
-) -> SlowFlow:
+def refuse_weights(request: Request, name: str) -> None:
+    """Raise click.UsageError for weights where there are none."""
+    if request.weight is not None or request.weights is not None:
+        option = "--weight" if request.weight is not None else "--weights"
+        raise click.UsageError(f"{option} belongs to multiple-scales, not to {name}; leave it out")
+
+
+def slow_flow(oscillator: Oscillator, request: Request) -> SlowFlow:
     """Multiple scales, whose amplitude is that of the first harmonic."""
-    if amplitude not in (None, "fundamental"):
+    if request.amplitude not in (None, "fundamental"):
         raise click.UsageError(
-            f"multiple-scales has the fundamental amplitude, not {amplitude}; use --amplitude fundamental, "
+            f"multiple-scales has the fundamental amplitude, not {request.amplitude}; use --amplitude fundamental, "
             "or another method"
         )
     from symbolic.multiple_scales import multiple_scales
 
-    return multiple_scales(oscillator, order, weight=2 if weight is None else weight, weights=weights)
+    return multiple_scales(
+        oscillator,
+        request.order,
+        weight=2 if request.weight is None else request.weight,
+        weights=request.weights,
+        budget=request.budget,
+    )

@@ -65,7 +65,7 @@ def verdict(error: BaseException) -> tuple[Exit, str]:
         case click.ClickException():
             return Exit.BAD_INPUT, usage_message(error)
         case KeyboardInterrupt() | click.Abort():
-            return Exit.INTERRUPTED, "interrupted; nothing was written"
+            return Exit.INTERRUPTED, str(error) or "interrupted; nothing was written"
         case PartialError():
             return Exit.PARTIAL, str(error)
         case OSError():

@@ -10,6 +10,7 @@ from typing import TypeAlias
 
 from flint import arb, ctx
 
+from symbolic.ball_expansion import BallExpansion
 from symbolic.balls import rational
 from symbolic.enclosure import DEFINITIONS, Amplitude, enclose
 from symbolic.energy_integral import energy_integral
@@ -95,15 +96,19 @@ def _first_terms(oscillator: Oscillator, definition: str) -> tuple[Scalar, ...]:
     return energy_integral(oscillator, FIRST_TERMS, amplitude=definition).coefficients
 
 
-def settled_limits(oscillator: Oscillator, expansion: Expansion) -> Limits:
+def settled_limits(oscillator: Oscillator, expansion: Expansion | BallExpansion) -> Limits:
     """Return the limits of an expansion; a short one is settled by the same expansion carried further.
+
+    So is one in balls that are too wide to settle their own.
 
     >>> from symbolic.systems import find
     >>> settled_limits(find("pendulum"), energy_integral(find("pendulum"), 8)).sentence()
     'The series converges for |A| < 3.14159 ± ...'
     """
     if expansion.names or expansion.order >= _SETTLING:
-        return limits(expansion)
+        found = limits(expansion)
+        if found.radius is not None or isinstance(expansion, Expansion):
+            return found
     return limits(expansion, longer=lindstedt(oscillator, _SETTLING, amplitude=expansion.amplitude))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
@@ -42,6 +43,8 @@ class BallExpansion:
     """Limit cycles: the amplitude as a series in the variable, in units where k = 1."""
 
     method = "lindstedt"
+    names = ()
+    """Balls have no parameters left symbolic."""
 
     @property
     def frequency(self) -> tuple[arb, ...]:
@@ -94,13 +97,18 @@ class BallExpansion:
         return sorted(set(found))
 
     def to_dict(self) -> dict[str, object]:
-        """The public JSON form: enclosures as text with the digits that are certain, exact zeros left out."""
+        """The public JSON form: balls as text, exact zeros left out.
+
+        ``coefficient`` is decimal, the true value is within ``radius`` of it, ``ball`` is both; ``certain_digits`` is
+        what the ball itself holds, of which ``digits`` are printed (None: the number is exact).
+        """
         result: dict[str, object] = {
             "system": self.system,
             "method": self.method,
             "arithmetic": "balls",
             "amplitude": self.amplitude,
             "order": self.order,
+            "digits": self.digits,
             "variables": [self.variable],
             "frequency": self._rows(self.frequency),
         }
@@ -110,10 +118,34 @@ class BallExpansion:
 
     def _rows(self, values: tuple[arb, ...]) -> list[dict[str, object]]:
         return [
-            {"powers": {self.variable: n}, "coefficient": c.str(self.digits, radius=False), "ball": c.str(self.digits)}
-            for n, c in enumerate(values)
-            if not c.is_zero()
+            {"powers": {self.variable: n}, **ball_row(c, self.digits)} for n, c in enumerate(values) if not c.is_zero()
         ]
+
+
+def ball_row(x: arb, digits: int) -> dict[str, object]:
+    """A ball in the public JSON form: midpoint, radius (with that of printing), both, and its certain digits.
+
+    >>> with ctx.workprec(100):
+    ...     ball_row(arb(17) / 3072, 12)["coefficient"], ball_row(arb(17) / 3072, 12)["radius"]
+    ('0.00553385416667', '3.34e-15')
+    """
+    text = x.str(digits)
+    _, sign, radius = text.strip("[]").partition(" +/- ")
+    return {
+        "coefficient": x.str(digits, radius=False),
+        "radius": radius if sign else "0",
+        "ball": text,
+        "certain_digits": certain_digits(x),
+    }
+
+
+def certain_digits(x: arb) -> int | None:
+    """Decimal digits that a ball holds, 0 when it holds none; None when it is an exact number.
+
+    >>> certain_digits(arb(1)), certain_digits(arb(1, 1e-9)), certain_digits(arb(0, 1))
+    (None, 8, 0)
+    """
+    return None if x.is_exact() else max(0, int(x.rel_accuracy_bits() * math.log10(2)))
 
 
 def holds(x: arb, value: fmpq) -> bool:

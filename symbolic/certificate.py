@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from symbolic.amplitude import measured
+from symbolic.ball_expansion import BallExpansion
 from symbolic.energy_integral import energy_integral
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion
@@ -21,6 +23,9 @@ from symbolic.slow_flow import SlowFlow
 
 FLOW_ORDER = 24
 """Multiple scales is compared through this order at most; beyond it costs more than it tells."""
+
+BALL_ORDER = 48
+"""Balls are held against exact coefficients through this order at most."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +57,29 @@ def certify(oscillator: Oscillator, result: Expansion | SlowFlow) -> tuple[Check
         checks.append(_guarded("energy integral", lambda: _against_energy(oscillator, result)))
         checks.append(_guarded("multiple scales", lambda: _against_flow(oscillator, result)))
     return tuple(checks)
+
+
+def certify_balls(oscillator: Oscillator, balls: BallExpansion) -> tuple[Check, ...]:
+    """Hold balls against exact coefficients, by both exact routes there are, through a moderate order.
+
+    >>> from symbolic.ball_march import lindstedt_in_balls
+    >>> from symbolic.systems import find
+    >>> [c.passed for c in certify_balls(find("pendulum"), lindstedt_in_balls(find("pendulum"), 8))]
+    [True, True]
+    """
+    order = min(balls.order, BALL_ORDER)
+    checks = [("lindstedt", lambda: lindstedt(oscillator, order, amplitude=balls.amplitude))]
+    if balls.variable == "A" and balls.amplitude == "peak":
+        checks.append(("energy integral", lambda: energy_integral(oscillator, order)))
+    return tuple(_guarded(name, partial(_held, name, balls, exact)) for name, exact in checks)
+
+
+def _held(name: str, balls: BallExpansion, exact: Callable[[], Expansion]) -> Check:
+    expansion = exact()
+    wrong = balls.misses(expansion)
+    if wrong:
+        return Check(name, False, f"exact coefficients at orders {wrong} lie outside their balls")
+    return Check(name, True, f"all {expansion.order + 1} exact coefficients through this order lie in their balls")
 
 
 def _guarded(name: str, check: Callable[[], Check]) -> Check:

@@ -87,7 +87,7 @@ def check(method: str, order: int, budget: Budget, *, parameters: int = 0, weigh
         low, high = (middle, high) if fits else (low, middle)
     raise InputError(
         f"order {order} by {method} would take about {duration(cost.seconds)} and {cost.gigabytes:.2g} GB, over the "
-        f"budget of {duration(budget.seconds)} and {budget.gigabytes:.2g} GB; order {low} fits"
+        f"--budget of {duration(budget.seconds)} and {budget.gigabytes:.2g} GB; order {low} fits"
     )
 
 

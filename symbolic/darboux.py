@@ -36,6 +36,9 @@ _SCATTERED_ROWS: Final = range(1, 7)
 _TAIL: Final = 3
 """Weight of the change since 3/4 of the terms: an error that falls only like 1/n is three times that change."""
 
+_NARROW: Final = arb(2) ** -52
+"""Widest ball of a place or an exponent, relative, that is still used: coefficients that are balls may not suffice."""
+
 
 @dataclass(frozen=True)
 class Point:
@@ -57,7 +60,7 @@ class Estimate:
     """K, the number of powers of 1/n fitted."""
 
 
-def nearest_singularities(coefficients: Sequence[fmpq], count: int) -> Estimate | None:
+def nearest_singularities(coefficients: Sequence[fmpq | arb], count: int) -> Estimate | None:
     """Estimate the ``count`` (1 or 2) nearest singularities; None when no fit exists, as with too few terms.
 
     Among the fits with K = 2, 3, ... the one whose place is least uncertain is taken.
@@ -106,7 +109,7 @@ def _fit(c: Sequence[arb], count: int, degree: int, last: int) -> tuple[Point, .
         solved = arb_mat(left).solve(arb_mat([[-c[n]] for n in rows]))
     except ZeroDivisionError:
         return ()
-    values = [solved[i, 0].mid() for i in range(count * degree)]
+    values = [solved[i, 0] for i in range(count * degree)]
     return _points([values[j * degree : (j + 1) * degree] for j in range(count)])
 
 
@@ -117,9 +120,17 @@ def _points(b: list[list[arb]]) -> tuple[Point, ...]:
     for x in _zeros([row[0] for row in b]):
         slope = sum((j * b[j - 1][0] * x**j for j in powers), acb(0))
         first = sum((b[j - 1][1] * x**j for j in powers), acb(0)) if len(b[0]) > 1 else acb(0)
-        points.append(Point(_midpoint(x), _midpoint(-1 - first / slope)))
-    usable = [p for p in points if p.place.is_finite() and p.exponent.is_finite()]
+        exponent = -1 - first / slope
+        if _narrow(x, x) and _narrow(exponent, acb(1)):
+            points.append(Point(_midpoint(x), _midpoint(exponent)))
+    usable = points if len(points) == len(b) else []
     return tuple(sorted(usable, key=lambda p: float(abs(p.place))))
+
+
+def _narrow(z: acb, scale: acb) -> bool:
+    """Whether a ball is so narrow that its radius does not count beside the rounding to a float."""
+    size = abs(scale).abs_lower()
+    return bool(z.is_finite() and size > 0 and z.real.rad() <= _NARROW * size and z.imag.rad() <= _NARROW * size)
 
 
 def _zeros(b: list[arb]) -> list[acb]:

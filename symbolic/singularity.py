@@ -13,17 +13,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Final
+from dataclasses import asdict, dataclass, replace
+from typing import Any, Final, TypeAlias
 
-from flint import arb, fmpq
+from flint import arb, ctx, fmpq
 
 from symbolic import truncated
+from symbolic.ball_expansion import BallExpansion
 from symbolic.balls import natural_frequency
 from symbolic.darboux import Estimate, Point, nearest_singularities
 from symbolic.dlog import dlog_singularities
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion
+
+Series: TypeAlias = Expansion | BallExpansion
 
 TRUSTED: Final = 0.1
 """Largest relative uncertainty of a place that is still handed out."""
@@ -93,6 +96,17 @@ class Limits:
     why: str
     """How the radius was found, or why it is None."""
 
+    def to_dict(self) -> dict[str, object]:
+        """The public JSON form; places of singularities in units where the natural frequency is 1."""
+        return {
+            "radius": self.radius,
+            "uncertainty": self.uncertainty,
+            "range_of_use": self.range_of_use,
+            "step": self.step,
+            "singularities": [asdict(s) for s in self.singularities],
+            "sentence": self.sentence(),
+        }
+
     def sentence(self) -> str:
         """Say the limits in one line."""
         if self.why == CONSTANT:
@@ -117,10 +131,11 @@ class Limits:
         return f"|{x}| = {size}, arg = ±{_with_error(abs(s.argument), s.argument_uncertainty)}"
 
 
-def limits(expansion: Expansion, *, longer: Expansion | None = None) -> Limits:
+def limits(expansion: Series, *, longer: Series | None = None) -> Limits:
     """Estimate the radius of convergence of omega0 and the nature of the nearest singularities.
 
-    ``longer`` is the same expansion to a higher order: it settles the limits of one that is too short to do so itself.
+    The coefficients may be balls: then a fit counts only if they are narrow enough for it.  ``longer`` is the same
+    expansion to a higher order: it settles the limits of one that is too short to do so itself.
 
     >>> from symbolic.energy_integral import energy_integral
     >>> from symbolic.systems import find
@@ -134,11 +149,13 @@ def limits(expansion: Expansion, *, longer: Expansion | None = None) -> Limits:
         unit = natural_frequency(expansion.scale) if expansion.scaled_variable else arb(1)
     except InputError as error:
         return _unknown(expansion, str(error))
-    found = _chosen(expansion, series)
+    with ctx.workprec(_precision(longer or expansion)):
+        found = _chosen(expansion, series)
     if found is None:
         return _unknown(expansion, f"{len(series)} coefficients do not settle the nearest singularity; raise the order")
     of, estimate = found
-    second = dlog_singularities(_function(series, of), estimate)
+    exact = isinstance(longer or expansion, Expansion)
+    second = dlog_singularities(_function(series, of), estimate) if exact else None
     singularities = _singularities(estimate, of, f"recurrence of {len(estimate.points) + 1} terms")
     radius = singularities[0].modulus ** (1 / step) * float(unit)
     return Limits(
@@ -154,8 +171,12 @@ def limits(expansion: Expansion, *, longer: Expansion | None = None) -> Limits:
     )
 
 
-def stripped(expansion: Expansion) -> tuple[int, list[fmpq]]:
-    """Return the step of the powers that occur, and the coefficients of x = X^step, rational.
+def _precision(expansion: Series) -> int:
+    return expansion.bits if isinstance(expansion, BallExpansion) else int(ctx.prec)
+
+
+def stripped(expansion: Series) -> tuple[int, list[Any]]:
+    """Return the step of the powers that occur, and the coefficients of x = X^step, rational numbers or balls.
 
     Raises InputError when there is nothing to examine: symbolic coefficients, all zero, or a polynomial.
 
@@ -165,9 +186,9 @@ def stripped(expansion: Expansion) -> tuple[int, list[fmpq]]:
     (2, [1, -1/16, 1/3072])
     """
     c = expansion.coefficients
-    if not all(isinstance(value, fmpq) for value in c):
+    if not all(isinstance(value, fmpq | arb) for value in c):
         raise InputError(f"the coefficients hold {', '.join(expansion.names)} as symbols; set them to numbers")
-    present = [n for n, value in enumerate(c) if n and value != 0]
+    present = [n for n, value in enumerate(c) if n and not _is_zero(value)]
     if not present:
         raise InputError(CONSTANT)
     step = math.gcd(*present)
@@ -177,15 +198,20 @@ def stripped(expansion: Expansion) -> tuple[int, list[fmpq]]:
     return step, series
 
 
-def _unknown(expansion: Expansion, why: str) -> Limits:
+def _is_zero(value: fmpq | arb) -> bool:
+    """Exactly zero; a ball that merely holds 0 is not."""
+    return bool(value.is_zero()) if isinstance(value, arb) else bool(value == 0)
+
+
+def _unknown(expansion: Series, why: str) -> Limits:
     return Limits(expansion.variable, 1, expansion.order, None, None, (), (), None, why)
 
 
-def _function(series: list[fmpq], of: str) -> list[fmpq]:
+def _function(series: list[Any], of: str) -> list[Any]:
     return series if of == "frequency" else truncated.reciprocal(series)
 
 
-def _chosen(expansion: Expansion, series: list[fmpq]) -> tuple[str, Estimate] | None:
+def _chosen(expansion: Series, series: list[Any]) -> tuple[str, Estimate] | None:
     """The function whose singularities are plain, by the rule above, with its estimate."""
     factor = _LOGARITHMS if expansion.variable == "A" and expansion.amplitude not in ("peak", "trough") else 1
     period, frequency = (_settled(_function(series, of), factor) for of in ("period", "frequency"))
@@ -198,14 +224,14 @@ def _chosen(expansion: Expansion, series: list[fmpq]) -> tuple[str, Estimate] | 
     return min(found, key=_preference(expansion), default=None)
 
 
-def _preference(expansion: Expansion) -> Callable[[tuple[str, Estimate]], float]:
+def _preference(expansion: Series) -> Callable[[tuple[str, Estimate]], float]:
     """Nearest first for amplitudes, where the two functions differ; least uncertain first for limit cycles."""
     if expansion.variable == "A":
         return lambda found: float(abs(found[1].points[0].place))
     return lambda found: found[1].place_error
 
 
-def _settled(series: list[fmpq], factor: int) -> Estimate | None:
+def _settled(series: list[Any], factor: int) -> Estimate | None:
     """The least uncertain estimate for one singularity or two, None when none can be trusted."""
     estimates = [e for count in (1, 2) if (e := nearest_singularities(series, count)) is not None]
     best = min(estimates, key=lambda e: e.place_error, default=None)
@@ -238,7 +264,7 @@ def _singularity(point: Point, estimate: Estimate, of: str, method: str) -> Sing
     )
 
 
-def _usable(series: list[fmpq], modulus: float) -> float:
+def _usable(series: list[Any], modulus: float) -> float:
     """The largest x/modulus = r with size r^n / (1 - r) < TOLERANCE |sum|, n the first power left out, by bisection."""
     scaled = [float(arb(c) * arb(modulus) ** n) for n, c in enumerate(series)]
     size = max(abs(c) for c in scaled[-min(_LAST, len(scaled) // 2) :])

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
-from ridgeback.arguments import ORDER
 from ridgeback.choice import Choice, choosing
-from ridgeback.derivation import derived
+from ridgeback.derivation import Request, derived, requesting
 from ridgeback.failure import PartialError
-from ridgeback.options import expansion_options, format_option, output_option
+from ridgeback.high_order import ball_checks, high_order_options, in_balls
+from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
-from ridgeback.tables import aligned
+from ridgeback.wording import as_text, certified, expressions, joined, range_of_use
 
 if TYPE_CHECKING:
+    from symbolic.ball_expansion import BallExpansion
     from symbolic.certificate import Check
     from symbolic.expansion import Expansion
     from symbolic.oscillator import Oscillator
@@ -26,19 +26,17 @@ if TYPE_CHECKING:
 
 @click.command("derive", short_help="Derive the frequency as an exact series.")
 @choosing
-@click.option("--order", type=ORDER, default="8", show_default=True, metavar="N", help="Highest power kept.")
-@expansion_options
+@requesting
+@high_order_options
 @click.option("--verify", is_flag=True, help="Check the result by independent routes and print the certificate.")
 @format_option("text", "json", "latex", "mathml", "python", default="text")
 @output_option
 def command(
     *,
     choice: Choice,
-    order: int,
-    method: str | None,
-    amplitude: str | None,
-    weight: int | None,
-    weights: dict[str, int] | None,
+    request: Request,
+    digits: int | None,
+    checkpoint: str | None,
     verify: bool,
     style: str,
     output: str,
@@ -54,13 +52,38 @@ def command(
     ridgeback derive van-der-pol --order 12 --format json
     ridgeback derive --equation "u'' + u + alpha2*u**2 + alpha3*u**3 = 0" --order 4 --verify
     ridgeback derive --equation "u'' - u + u**3 = 0" --about 1
+    ridgeback derive van-der-pol --order 400 --digits 30 --checkpoint vdp.state --budget 30min
     """
+    if checkpoint is not None and digits is None:
+        raise click.UsageError("--checkpoint belongs to --digits; leave it out, or say how many digits")
     oscillator = choice.oscillator()
-    result = derived(oscillator, order, method=method, amplitude=amplitude, weight=weight, weights=weights)
-    checks = certificate(oscillator, result) if verify else None
-    write_text(output, printed(oscillator, result, style, checks))
+    if digits is not None:
+        checks = show_balls(oscillator, request, digits, checkpoint, verify=verify, style=style, output=output)
+    else:
+        result = derived(oscillator, request)
+        checks = certificate(oscillator, result) if verify else None
+        write_text(output, printed(oscillator, result, style, checks))
     if checks and not all(check.passed for check in checks if check.passed is not None):
         raise PartialError("the certificate does not hold; the output says which check failed")
+
+
+def show_balls(
+    oscillator: Oscillator,
+    request: Request,
+    digits: int,
+    checkpoint: str | None,
+    *,
+    verify: bool,
+    style: str,
+    output: str,
+) -> tuple[Check, ...] | None:
+    """Derive in balls and write them; the certificate is returned."""
+    if style not in ("text", "json"):
+        raise click.UsageError(f"--format {style} writes exact coefficients, not balls; use text or json")
+    found = in_balls(oscillator, request, digits, checkpoint)
+    checks = ball_checks(oscillator, found) if verify else None
+    write_text(output, printed_balls(oscillator, found, style, checks))
+    return checks
 
 
 def certificate(oscillator: Oscillator, result: Result) -> tuple[Check, ...]:
@@ -74,8 +97,7 @@ def printed(oscillator: Oscillator, result: Result, style: str, checks: tuple[Ch
     """The result in the form asked for, with a line end; the certificate goes with text and JSON."""
     match style:
         case "json":
-            lines = {} if checks is None else {"certificate": [check.to_dict() for check in checks]}
-            return json_text({**result.to_dict(), **lines})
+            return json_text({**result.to_dict(), **certificate_rows(checks)})
         case "latex":
             return joined(result.latex())
         case "mathml":
@@ -85,91 +107,16 @@ def printed(oscillator: Oscillator, result: Result, style: str, checks: tuple[Ch
     return as_text(oscillator, result.to_dict()) + range_of_use(oscillator, result) + certified(checks)
 
 
-def range_of_use(oscillator: Oscillator, result: Result) -> str:
-    """Where a series converges and how far it may be used, in one line; a slow flow's limit cycles."""
+def printed_balls(oscillator: Oscillator, found: BallExpansion, style: str, checks: tuple[Check, ...] | None) -> str:
+    """Balls as text or JSON, with the limits that they show."""
+    if style == "text":
+        return as_text(oscillator, found.to_dict()) + range_of_use(oscillator, found) + certified(checks)
     from symbolic.accuracy import settled_limits
-    from symbolic.expansion import Expansion
 
-    if isinstance(result, Expansion):
-        return f"\n{settled_limits(oscillator, result).sentence()}\n"
-    return limit_cycles(oscillator, result)
+    limits = settled_limits(oscillator, found).to_dict()
+    return json_text({**found.to_dict(), "limits": limits, **certificate_rows(checks)})
 
 
-def limit_cycles(oscillator: Oscillator, flow: SlowFlow) -> str:
-    """The fixed points of a self-excited slow flow that belong to a series, at the oscillator's own parameters."""
-    if oscillator.kind != "limit-cycle" or any(oscillator.parameters.get(name) is None for name in flow.weights):
-        return ""
-    from symbolic.fixed_points import fixed_points
-
-    values = {name: oscillator.parameters[name] for name in flow.weights}
-    found = [point for point in fixed_points(flow, values) if point.square_series is not None]
-    at = ", ".join(f"{name} = {value}" for name, value in values.items())
-    return "".join(
-        f"\nlimit cycle of this order at {at}: a = {float(p.amplitude.mid()):.10g}, "
-        f"omega0 = {float(p.frequency.mid()):.10g}, {_STABILITY[p.stable]}\n"
-        for p in found
-    )
-
-
-_STABILITY = {True: "stable", False: "unstable", None: "of undecided stability"}
-
-
-def certified(checks: tuple[Check, ...] | None) -> str:
-    """The certificate, a line a check."""
-    if checks is None:
-        return ""
-    words = {True: "holds", False: "FAILS", None: "-"}
-    rows = [{"check": c.name, "": words[c.passed], "statement": c.statement} for c in checks]
-    return "\ncertificate\n" + aligned(["check", "", "statement"], rows) + "\n"
-
-
-def joined(parts: str | tuple[str, ...]) -> str:
-    """One relation per line; a slow flow has two."""
-    return "".join(f"{part}\n" for part in ((parts,) if isinstance(parts, str) else parts))
-
-
-def expressions(result: Result) -> tuple[Any, ...]:
-    """The right-hand sides as SymPy expressions; printed, they are Python, exact for SymPy symbols and Fractions."""
-    from symbolic.slow_flow import SlowFlow
-
-    if isinstance(result, SlowFlow):
-        return result.frequency_expression(), result.damping_expression()
-    return (result.expression(),)
-
-
-def as_text(oscillator: Oscillator, public: dict[str, Any]) -> str:
-    """The equation, what the amplitude is, and every coefficient, exactly and as a decimal."""
-    values = ", ".join(f"{n} = {v}" if v is not None else f"{n} symbolic" for n, v in oscillator.parameters.items())
-    heading = [
-        f"{oscillator.title}: {oscillator.equation}" + (f"   ({values})" if values else ""),
-        f"{public['method']}, order {public['order']}, variables {', '.join(public['variables'])}"
-        + (f", amplitude: {public['amplitude']}" if public.get("amplitude") else ""),
-    ]
-    titles = {"frequency": "omega0", "damping": "a'/a", "amplitude_series": "amplitude"}
-    tables = [f"{title} = sum of\n{coefficients(public[key])}" for key, title in titles.items() if public.get(key)]
-    return "\n\n".join(["\n".join(heading), *tables]) + "\n"
-
-
-def coefficients(terms: list[dict[str, Any]]) -> str:
-    """One line per term: its powers, the exact coefficient and six digits of it."""
-    rows = [
-        {
-            "term": "*".join(f"{v}^{p}" if p > 1 else v for v, p in term["powers"].items() if p) or "1",
-            "decimal": decimal(term["coefficient"]),
-            "coefficient": term["coefficient"],
-        }
-        for term in terms
-    ]
-    return aligned(["term", "decimal", "coefficient"], rows)
-
-
-def decimal(exact: str) -> float | None:
-    """A rational as a float; None for what is no rational (an irrational natural frequency, a parameter).
-
-    >>> decimal("-1/16"), decimal("sqrt(2)")
-    (-0.0625, None)
-    """
-    try:
-        return float(Fraction(exact))
-    except (ValueError, OverflowError):
-        return None
+def certificate_rows(checks: tuple[Check, ...] | None) -> dict[str, list[dict[str, object]]]:
+    """The certificate in JSON, when there is one."""
+    return {} if checks is None else {"certificate": [check.to_dict() for check in checks]}

@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import click
 
-from ridgeback.arguments import ORDER
 from ridgeback.choice import Choice, choosing
-from ridgeback.derivation import derived
-from ridgeback.options import expansion_options, format_option, output_option
+from ridgeback.derivation import Request, derived, requesting
+from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
-
-if TYPE_CHECKING:
-    pass
 
 
 @click.command("generate", short_help="Write an expansion as Python or C.")
@@ -25,19 +19,14 @@ if TYPE_CHECKING:
     show_default=True,
     help="Target language.",
 )
-@click.option("--order", type=ORDER, default="8", show_default=True, metavar="N", help="Highest power kept.")
-@expansion_options
+@requesting
 @format_option("source", "json", default="source")
 @output_option
 def command(
     *,
     choice: Choice,
     language: str,
-    order: int,
-    method: str | None,
-    amplitude: str | None,
-    weight: int | None,
-    weights: dict[str, int] | None,
+    request: Request,
     style: str,
     output: str,
 ) -> None:
@@ -54,7 +43,7 @@ def command(
     from symbolic.codegen import generate
 
     oscillator = choice.oscillator()
-    result = derived(oscillator, order, method=method, amplitude=amplitude, weight=weight, weights=weights)
+    result = derived(oscillator, request)
     limit = limit_of(oscillator) if result.amplitude == "peak" else None
     source = generate(result, language, equation=described(oscillator), limit=limit)
     described_so = {"language": language, **result.to_dict(), "source": source}

@@ -1,0 +1,89 @@
+"""Very high orders from the command line: certified balls with a checkpoint."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ridgeback.derivation import Request, refuse_weights
+from ridgeback.long_run import Watch, checkpoint_path
+from ridgeback.options import Decorated
+
+if TYPE_CHECKING:
+    from symbolic.ball_expansion import BallExpansion
+    from symbolic.certificate import Check
+    from symbolic.oscillator import Oscillator
+
+STEEPNESS = 3.5
+"""Power of the order that the time of a march follows (symbolic.cost): what is left is said by it."""
+
+
+def high_order_options(command: Decorated) -> Decorated:
+    """``--digits`` and ``--checkpoint``."""
+    for option in (
+        click.option(
+            "--checkpoint",
+            type=checkpoint_path,
+            default=None,
+            metavar="FILE",
+            help="With --digits: keep the state there, every few minutes and on Ctrl-C; the same command resumes it.",
+        ),
+        click.option(
+            "--digits",
+            type=click.IntRange(1, 10_000),
+            default=None,
+            metavar="D",
+            help="Certified balls of at least D digits instead of exact coefficients: for very high orders.",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def in_balls(oscillator: Oscillator, request: Request, digits: int, checkpoint: str | None) -> BallExpansion:
+    """Derive in balls, saying how far it is; an interrupt says how to go on.
+
+    Raises click.UsageError for options that balls do not have, InputError from the march, OSError for the checkpoint.
+    """
+    if request.method not in (None, "lindstedt"):
+        raise click.UsageError(f"--digits belongs to lindstedt, not to {request.method}; leave one of the two out")
+    refuse_weights(request, "--digits")
+    from symbolic.ball_march import lindstedt_in_balls
+    from symbolic.cost import Budget, predict
+
+    cost, path = predict("balls", request.order), None if checkpoint is None else Path(checkpoint)
+    allowed = cost.within(request.budget or Budget())  # else the refusal says it
+    with Watch(f"order {request.order} in balls of {digits} digits", cost if allowed else None) as watch:
+        try:
+            return lindstedt_in_balls(
+                oscillator,
+                request.order,
+                digits=digits,
+                amplitude=request.amplitude or "peak",
+                checkpoint=path,
+                progress=lambda n, last: watch((n / last) ** STEEPNESS, f"order {n} of {last - 1}"),
+                budget=request.budget,
+            )
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(interrupted(watch.last, path)) from None
+
+
+def interrupted(step: str, path: Path | None) -> str:
+    """What to do after an interrupt.
+
+    >>> interrupted("order 7 of 20", None)
+    'interrupted before order 7 of 20; nothing was kept: with --checkpoint FILE the next run could go on from here'
+    """
+    where = f"interrupted before {step}" if step else "interrupted before the first order"
+    if path is None or not path.exists():
+        return f"{where}; nothing was kept: with --checkpoint FILE the next run could go on from here"
+    return f"{where}; the state is in {path}: run the same command again to go on from there"
+
+
+def ball_checks(oscillator: Oscillator, balls: BallExpansion) -> tuple[Check, ...]:
+    """The independent checks of balls."""
+    from symbolic.certificate import certify_balls
+
+    return certify_balls(oscillator, balls)

@@ -1,0 +1,137 @@
+"""Expansions as text for reading: headings, coefficients, limits, certificates."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from ridgeback.tables import aligned
+
+if TYPE_CHECKING:
+    from symbolic.ball_expansion import BallExpansion
+    from symbolic.certificate import Check
+    from symbolic.expansion import Expansion
+    from symbolic.oscillator import Oscillator
+    from symbolic.slow_flow import SlowFlow
+
+    Result = Expansion | SlowFlow
+
+TITLES = {"frequency": "omega0", "damping": "a'/a", "amplitude_series": "amplitude"}
+_STABILITY = {True: "stable", False: "unstable", None: "of undecided stability"}
+
+
+def as_text(oscillator: Oscillator, public: dict[str, Any]) -> str:
+    """The equation, what the amplitude is, and every coefficient, exactly and as a decimal."""
+    rows = balls if public.get("arithmetic") == "balls" else coefficients
+    tables = [f"{title} = sum of\n{rows(public[key])}" for key, title in TITLES.items() if public.get(key)]
+    return "\n\n".join([heading(oscillator, public), *tables]) + "\n"
+
+
+def heading(oscillator: Oscillator, public: dict[str, Any]) -> str:
+    """The equation with its numbers; method, order, variables, and the amplitude's definition."""
+    values = ", ".join(f"{n} = {v}" if v is not None else f"{n} symbolic" for n, v in oscillator.parameters.items())
+    digits = f", in balls of {public['digits']} digits" if "digits" in public else ""
+    return (
+        f"{oscillator.title}: {oscillator.equation}"
+        + (f"   ({values})" if values else "")
+        + f"\n{public['method']}, order {public['order']}{digits}, variables {', '.join(public['variables'])}"
+        + (f", amplitude: {public['amplitude']}" if public.get("amplitude") else "")
+    )
+
+
+def coefficients(terms: list[dict[str, Any]]) -> str:
+    """One line per term: its powers, the exact coefficient and six digits of it."""
+    rows = [
+        {"term": power(term), "decimal": decimal(term["coefficient"]), "coefficient": term["coefficient"]}
+        for term in terms
+    ]
+    return aligned(["term", "decimal", "coefficient"], rows)
+
+
+def balls(terms: list[dict[str, Any]]) -> str:
+    """One line per term: the true coefficient is within the radius of the decimal.
+
+    >>> row = {"powers": {"A": 2}, "coefficient": "-0.0625000", "radius": "0", "certain_digits": None}
+    >>> print(balls([row]))
+    term  coefficient  radius  certain digits
+    A^2   -0.0625000   0       exact
+    """
+    rows = [
+        {
+            "term": power(term),
+            **{key: term[key] for key in ("coefficient", "radius")},
+            "certain digits": "exact" if term["certain_digits"] is None else str(term["certain_digits"]),
+        }
+        for term in terms
+    ]
+    return aligned(["term", "coefficient", "radius", "certain digits"], rows)
+
+
+def power(term: dict[str, Any]) -> str:
+    """The powers of a term.
+
+    >>> power({"powers": {"a": 2, "mu": 1}}), power({"powers": {"a": 0}})
+    ('a^2*mu', '1')
+    """
+    return "*".join(f"{v}^{p}" if p > 1 else v for v, p in term["powers"].items() if p) or "1"
+
+
+def decimal(exact: str) -> float | None:
+    """A rational as a float; None for what is no rational (an irrational natural frequency, a parameter).
+
+    >>> decimal("-1/16"), decimal("sqrt(2)")
+    (-0.0625, None)
+    """
+    try:
+        return float(Fraction(exact))
+    except (ValueError, OverflowError):
+        return None
+
+
+def range_of_use(oscillator: Oscillator, result: Result | BallExpansion) -> str:
+    """Where a series converges and how far it may be used, in one line; a slow flow's limit cycles."""
+    from symbolic.accuracy import settled_limits
+    from symbolic.slow_flow import SlowFlow
+
+    if isinstance(result, SlowFlow):
+        return limit_cycles(oscillator, result)
+    return f"\n{settled_limits(oscillator, result).sentence()}\n"
+
+
+def limit_cycles(oscillator: Oscillator, flow: SlowFlow) -> str:
+    """The fixed points of a self-excited slow flow that belong to a series, at the oscillator's own parameters."""
+    if oscillator.kind != "limit-cycle" or any(oscillator.parameters.get(name) is None for name in flow.weights):
+        return ""
+    from symbolic.fixed_points import fixed_points
+
+    values = {name: oscillator.parameters[name] for name in flow.weights}
+    found = [point for point in fixed_points(flow, values) if point.square_series is not None]
+    at = ", ".join(f"{name} = {value}" for name, value in values.items())
+    return "".join(
+        f"\nlimit cycle of this order at {at}: a = {float(p.amplitude.mid()):.10g}, "
+        f"omega0 = {float(p.frequency.mid()):.10g}, {_STABILITY[p.stable]}\n"
+        for p in found
+    )
+
+
+def certified(checks: tuple[Check, ...] | None) -> str:
+    """The certificate, a line a check."""
+    if checks is None:
+        return ""
+    words = {True: "holds", False: "FAILS", None: "-"}
+    rows = [{"check": c.name, "": words[c.passed], "statement": c.statement} for c in checks]
+    return "\ncertificate\n" + aligned(["check", "", "statement"], rows) + "\n"
+
+
+def joined(parts: str | tuple[str, ...]) -> str:
+    """One relation per line; a slow flow has two."""
+    return "".join(f"{part}\n" for part in ((parts,) if isinstance(parts, str) else parts))
+
+
+def expressions(result: Result) -> tuple[Any, ...]:
+    """The right-hand sides as SymPy expressions; printed, they are Python, exact for SymPy symbols and Fractions."""
+    from symbolic.slow_flow import SlowFlow
+
+    if isinstance(result, SlowFlow):
+        return result.frequency_expression(), result.damping_expression()
+    return (result.expression(),)
