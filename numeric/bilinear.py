@@ -8,7 +8,7 @@ x = A/s - 1 and q = p/(k1^2 s), just beyond it
 
     omega0/k1 - 1 = n sqrt(2 x) q / (pi sqrt(1 + q))  for p > 0,      n (2 x)^(3/2) (k2^2/k1^2 - 1) / (3 pi)  for p = 0,
 
-n = 1, or 2 when symmetric: a preloaded stop makes omega0(A) not differentiable at A = s, a stop without preload (a force
+n = 1, or 2 when symmetric: a preloaded stop makes omega0(A) not differentiable at A = s, one without preload (a force
 that is continuous) makes it not twice differentiable (for such oscillators see S. W. Shaw and P. J. Holmes, A
 periodically forced piecewise linear oscillator, J. Sound Vib. 90 (1983) 129-155).
 
