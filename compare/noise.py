@@ -45,8 +45,8 @@ class Work:
     seed: int
     first: int
     last: int
-    lag_seconds: float | None = None
-    remove_bias: bool = False
+    options: Mapping[str, object]
+    """Those of numeric.estimate."""
 
 
 def monte_carlo(
@@ -57,6 +57,7 @@ def monte_carlo(
     snr_db: Sequence[float] = SNR_DB,
     trials: int = TRIALS,
     seed: int = 1,
+    band: tuple[float, float] | None = None,
     lag_seconds: float | None = None,
     remove_bias: bool = False,
     executor: Executor | None = None,
@@ -66,7 +67,8 @@ def monte_carlo(
     """Run every method on ``trials`` noisy copies of a record at every signal-to-noise ratio (dB).
 
     ``source`` is a :class:`Truth`, or a recording or the samples of one (at ``rate``), whose smooth harmonic model is
-    then the truth; by default the paper's case.  ``lag_seconds`` and ``remove_bias`` are those of the estimators.
+    then the truth; by default the paper's case.  ``band``, ``lag_seconds`` and ``remove_bias`` are those
+    of the estimators.
     The cost is predicted from one noise-free run of every method.  An interrupt (KeyboardInterrupt) ends the study
     with the trials done so far and ``complete=False``; before any trial is done it passes through.  Raises InputError
     for an unknown method, trials or ratios out of range, and a study that would take more than ``budget_seconds``.
@@ -79,10 +81,10 @@ def monte_carlo(
     _check(methods, snr_db, trials)
     truth = truth_of(source, rate)
     ratios = tuple(float(value) for value in snr_db)
-    options = {"lag_seconds": lag_seconds, "remove_bias": remove_bias}
+    options = {"band": band, "lag_seconds": lag_seconds, "remove_bias": remove_bias}
     _check_cost(truth, methods, len(ratios) * trials, options, budget_seconds)
     pieces = [
-        Work(truth, method, snr, seed, first, min(first + BLOCK, trials), lag_seconds, remove_bias)
+        Work(truth, method, snr, seed, first, min(first + BLOCK, trials), options)
         for first in range(0, trials, BLOCK)
         for snr in ratios
         for method in methods
@@ -169,11 +171,8 @@ def noisy(truth: Truth, snr_db: float, seed: int, trial: int) -> Array:
 
 def run(work: Work) -> list[Trial]:
     """The trials of one piece of work."""
-    options = {"lag_seconds": work.lag_seconds, "remove_bias": work.remove_bias}
-    return [
-        judged(work.truth, attempt(work.truth, noisy(work.truth, work.snr_db, work.seed, trial), work.method, options))
-        for trial in range(work.first, work.last)
-    ]
+    records = (noisy(work.truth, work.snr_db, work.seed, trial) for trial in range(work.first, work.last))
+    return [judged(work.truth, attempt(work.truth, x, work.method, work.options)) for x in records]
 
 
 def judged(truth: Truth, track: Track | InputError) -> Trial:

@@ -10,6 +10,7 @@ import click
 
 from ridgeback.arguments import BAND, POSITIVE
 from ridgeback.failure import PartialError
+from ridgeback.monte_carlo import monte_carlo_options, monte_carlo_verb, trials_and_file
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.progress import Progress
@@ -31,7 +32,7 @@ class Columns:
 
 
 @click.command("estimate", short_help="Estimate the frequency of a recording over time.")
-@click.argument("file")
+@click.argument("file", required=False)
 @click.option(
     "--column", default=None, metavar="NAME", help="The samples.  Needed when the file holds several signals."
 )
@@ -51,10 +52,11 @@ class Columns:
 )
 @click.option("--remove-bias", is_flag=True, help="Take the estimated bias off the values.")
 @click.option("--backbone", "backbone_wanted", is_flag=True, help="Frequency and damping against amplitude instead.")
+@monte_carlo_options
 @format_option("text", "json", "csv", default="text")
 @output_option
 def command(
-    file: str,
+    file: str | None,
     column: str | None,
     time_column: str | None,
     rate: float | None,
@@ -64,6 +66,9 @@ def command(
     lag: float | None,
     remove_bias: bool,
     backbone_wanted: bool,
+    monte_carlo: str | None,
+    snr: tuple[float, ...],
+    seed: int,
     style: str,
     output: str,
 ) -> None:
@@ -76,12 +81,33 @@ def command(
     ridgeback estimate run.csv --column u --method pseudo-wigner
     ridgeback estimate decay.csv --column displacement --backbone --format csv -o backbone.csv
     ridgeback estimate take.wav --method smoothed-pseudo-wigner --format json
+    ridgeback estimate --monte-carlo 100 --snr 0,10,20,30
     """
     if backbone_wanted and harmonic != 1:
         raise click.UsageError(
             f"--backbone is that of the fundamental, not of harmonic {harmonic}; leave one of them out"
         )
-    recording = read(file, Columns(column, time_column, rate))
+    where = Columns(column, time_column, rate)
+    if monte_carlo is not None:
+        if backbone_wanted or harmonic != 1:
+            raise click.UsageError("--monte-carlo is about the track of the fundamental; leave out what else is asked")
+        trials, file = trials_and_file(monte_carlo, file)
+        monte_carlo_verb(
+            None if file is None else read(file, where),
+            trials=trials,
+            method=method,
+            snr_db=snr,
+            seed=seed,
+            band=band,
+            lag=lag,
+            remove_bias=remove_bias,
+            style=style,
+            output=output,
+        )
+        return
+    if file is None:
+        raise click.UsageError("name the FILE of a recording; only --monte-carlo goes without one")
+    recording = read(file, where)
     with Progress() as progress:
         progress(0.0, f"estimating by {method}")
         track = tracked(recording, method=method, band=band, lag_seconds=lag, remove_bias=remove_bias)
