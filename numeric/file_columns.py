@@ -7,46 +7,35 @@ import struct
 import warnings
 import zipfile
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.io import wavfile
 
+from numeric.array_columns import Stored, from_arrays, in_memory
+from numeric.columns import FILE_BUDGET, Columns
 from numeric.errors import InputError
+from numeric.hdf5_file import from_hdf5
+from numeric.matlab_file import from_mat
 from numeric.samples import Array, checked_budget
-from numeric.text_table import parse_table
-
-FILE_BUDGET = 1_000_000_000
-"""Bytes that a file, unpacked, may hold."""
-
-
-@dataclass(frozen=True)
-class Columns:
-    """Named columns of a file; ``rate`` is what the file itself states (WAV), else None."""
-
-    names: tuple[str, ...]
-    values: Callable[[int], Array]
-    place: Callable[[int], str]
-    source: str
-    rate: float | None = None
-    units: str = ""
-    note: str = ""
+from numeric.text_table import TEXT_BUDGET, parse_table
 
 
 def from_text(data: bytes, source: str) -> Columns:
     """Columns of a delimited text file."""
+    checked_budget(len(data), TEXT_BUDGET, f"{source} as text", "store it as NPZ, MAT or HDF5, or cut it into parts")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise InputError(f"{source}: byte {error.start} is not UTF-8 text; save the table as UTF-8") from None
     table = parse_table(text, source=source)
-    return Columns(table.names, table.column, lambda i: f"line {table.lines[i]}", source)
+    sizes = (len(table.rows),) * len(table.names)
+    return Columns(table.names, sizes, table.column, lambda i: f"line {table.lines[i]}", source)
 
 
 def from_npz(data: bytes, source: str) -> Columns:
-    """The one-dimensional real arrays of an NPZ archive; nothing pickled is loaded."""
+    """The real arrays of an NPZ archive, each column of a matrix by itself; nothing pickled is loaded."""
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             unpacked = sum(entry.file_size for entry in archive.infolist())
@@ -55,14 +44,20 @@ def from_npz(data: bytes, source: str) -> Columns:
             arrays = {name: stored[name] for name in stored.files}
     except InputError:
         raise
-    except (ValueError, zipfile.BadZipFile, EOFError, KeyError) as error:
+    except (ValueError, zipfile.BadZipFile, EOFError, KeyError, OSError, NotImplementedError, RuntimeError) as error:
         raise InputError(f"{source} is not an NPZ archive of plain numbers: {error}") from None
-    vectors = {name: array for name, array in arrays.items() if array.ndim == 1 and array.dtype.kind in "biuf"}
-    if not vectors:
-        found = ", ".join(f"{name} {array.dtype}{list(array.shape)}" for name, array in arrays.items()) or "nothing"
-        raise InputError(f"{source} holds no one-dimensional real array; it has {found}")
-    names = tuple(vectors)
-    return Columns(names, lambda i: vectors[names[i]].astype(np.float64), lambda i: f"index {i}", source)
+    return from_arrays(in_memory(arrays), source, kind="NPZ archive")
+
+
+def from_npy(data: bytes, source: str) -> Columns:
+    """The one array of an NPY file; nothing pickled is loaded."""
+    try:
+        array = np.load(io.BytesIO(data), allow_pickle=False)
+    except (ValueError, EOFError, OSError) as error:
+        raise InputError(f"{source} is not an NPY file of plain numbers: {error}") from None
+    if not isinstance(array, np.ndarray):
+        raise InputError(f"{source} is not an NPY file but an archive; name it .npz")
+    return from_arrays((Stored("x", array.shape, array.dtype, lambda: array),), source, kind="NPY file")
 
 
 def from_wav(data: bytes, source: str) -> Columns:
@@ -73,10 +68,19 @@ def from_wav(data: bytes, source: str) -> Columns:
             rate, samples = wavfile.read(io.BytesIO(data))
     except (ValueError, EOFError, struct.error) as error:
         raise InputError(f"{source} is not a readable WAV file: {error}") from None
-    scaled, note = full_scale(samples.reshape(samples.shape[0], -1))
-    names = tuple(f"channel {i + 1}" for i in range(scaled.shape[1]))
-    units = "full scale" if note else ""
-    return Columns(names, lambda i: scaled[:, i], lambda i: f"sample {i}", source, float(rate), units, note)
+    channels = samples.reshape(samples.shape[0], -1)
+    note = full_scale(channels[:0])[1]
+    names = tuple(f"channel {i + 1}" for i in range(channels.shape[1]))
+    return Columns(
+        names=names,
+        sizes=(channels.shape[0],) * len(names),
+        values=lambda i: full_scale(channels[:, i])[0],
+        place=lambda row: f"sample {row}",
+        source=source,
+        rate=float(rate),
+        units="full scale" if note else "",
+        note=note,
+    )
 
 
 # An unsigned 8-bit sample is centred on 128; scipy hands 24-bit samples over in the high bytes of 32.
@@ -95,5 +99,17 @@ def full_scale(samples: NDArray[np.generic]) -> tuple[Array, str]:
 
 
 READERS: Mapping[str, Callable[[bytes, str], Columns]] = MappingProxyType(
-    {".csv": from_text, ".txt": from_text, ".tsv": from_text, ".dat": from_text, ".npz": from_npz, ".wav": from_wav}
+    {
+        ".csv": from_text,
+        ".txt": from_text,
+        ".tsv": from_text,
+        ".dat": from_text,
+        ".npz": from_npz,
+        ".npy": from_npy,
+        ".wav": from_wav,
+        ".mat": from_mat,
+        ".h5": from_hdf5,
+        ".hdf5": from_hdf5,
+        ".hdf": from_hdf5,
+    }
 )

@@ -1,32 +1,41 @@
-"""A recording read from CSV, NPZ or WAV: one uniformly sampled signal, checked, with the hash of its file."""
+"""A recording from a file: uniformly sampled signals without gaps, and openly what was done to make them so.
+
+A file gives one signal per channel (column) and run (file, or value of a run column).  Where values or times are
+missing a signal falls into stretches, each uniform and without a gap; nothing is filled in unless it is asked for.
+"""
 
 from __future__ import annotations
 
 import hashlib
-import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
-from numeric.arrays import frozen
+from numeric.arrays import frozen, frozen_flags
+from numeric.column_choice import find_column, name_and_units, signal_indices, time_index
+from numeric.columns import FILE_BUDGET, Columns
 from numeric.errors import InputError
-from numeric.file_columns import FILE_BUDGET, READERS, Columns
-from numeric.samples import Array, checked_budget, checked_rate
+from numeric.file_columns import READERS
+from numeric.samples import Array, Mask, checked_budget, checked_rate
+from numeric.stretches import Rows, stamped
+from numeric.treatment import FEWEST_SAMPLES, Treatment, treated
 
-TIME_NAMES = ("time", "t", "time_s", "t_s", "times", "seconds", "sec", "timestamp", "time_sec", "time_seconds")
-JITTER = 0.02
-"""Share of the step by which a time stamp may leave the uniform grid: decimal rounding, not a gap."""
-FEWEST_SAMPLES = 16
+Wanted = str | int | Sequence[str | int] | None
+MOST_SAMPLES = 50_000_000
+"""Samples of one signal: 400 MB each for its times and its values."""
 
 
 @dataclass(frozen=True)
 class Recording:
     """A uniformly sampled signal; ``time[i] = time[0] + i / rate``, ``values`` as in the file (the mean included).
 
-    ``units`` is what the column's header states in brackets, "full scale" for integer WAV, else empty.
-    ``notes`` says what was done on reading; ``sha256`` is that of the file.
+    ``units`` is what the column's header states in brackets, "full scale" for integer WAV, else empty.  ``run`` names
+    the run where there are several, ``stretch`` counts the stretches of a signal with gaps from 1 (0: there is none).
+    ``clipped`` is true at clipped samples, ``filled`` at those interpolated across missing ones.  ``notes`` says in
+    words what was found and done, ``facts`` in numbers; ``sha256`` is that of the file.
     """
 
     time: Array
@@ -37,10 +46,42 @@ class Recording:
     source: str
     sha256: str
     notes: tuple[str, ...] = ()
+    run: str = ""
+    stretch: int = 0
+    clipped: Mask = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+    filled: Mask = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+    facts: Mapping[str, object] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "time", frozen(self.time))
         object.__setattr__(self, "values", frozen(self.values))
+        for name in ("clipped", "filled"):
+            flags = getattr(self, name)
+            object.__setattr__(self, name, frozen_flags(flags if flags.size else np.zeros(self.values.size)))
+        object.__setattr__(self, "facts", MappingProxyType(dict(self.facts)))
+
+    @property
+    def channel(self) -> str:
+        """The name with its unit."""
+        return f"{self.name} [{self.units}]" if self.units else self.name
+
+    @property
+    def label(self) -> str:
+        """Source, run, channel and stretch, as far as they tell signals apart."""
+        parts = [self.source, *([self.run] if self.run not in ("", self.source) else []), self.name]
+        return ", ".join([*parts, *([f"stretch {self.stretch}"] if self.stretch else [])])
+
+
+@dataclass(frozen=True)
+class Signal:
+    """One channel of one run as the file has it: which rows of which column."""
+
+    columns: Columns
+    index: int
+    clock: int | None
+    rows: Rows
+    run: str
+    sha256: str
 
 
 def read_recording(
@@ -49,15 +90,20 @@ def read_recording(
     column: str | int | None = None,
     time_column: str | int | None = None,
     rate: float | None = None,
+    resample: float | None = None,
+    fill: float | None = None,
+    detrend: str = "none",
 ) -> Recording:
-    r"""Read one signal from a ``.csv`` (``.txt``, ``.tsv``, ``.dat``), ``.npz`` or ``.wav`` file.
+    r"""Read one signal from a CSV (.csv, .txt, .tsv, .dat), NPZ, NPY, WAV, MAT or HDF5 (.h5, .hdf5) file.
 
     ``column`` is a name or a number from 1 (WAV: the channel); it may be left out when there is only one candidate.
     The time column is found by name (time, t, time_s, ...) or given as ``time_column``; ``rate`` (samples per second)
-    replaces it.  Integer WAV samples are divided by full scale.
+    replaces it.  Integer WAV samples are divided by full scale.  Of a signal with gaps the longest stretch without one
+    is taken, and ``notes`` says so; for all stretches, channels or runs and for the further options see
+    :func:`read_recordings`.
 
-    Raises OSError when the file cannot be read, and InputError for everything in it that is not a uniformly sampled
-    signal of finite numbers: the message names the line, the column and the value.
+    Raises OSError when the file cannot be read, and InputError for everything in it that is not a signal of numbers:
+    the message names the line, the column and the value.
 
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
@@ -67,141 +113,138 @@ def read_recording(
     >>> recording.name, recording.units, round(recording.rate, 9), recording.values[:4].tolist()
     ('u', 'mm', 10.0, [0.0, 1.0, 2.0, 0.0])
     """
-    file = Path(path)
+    found = read_recordings(
+        [path], columns=column, time_column=time_column, rate=rate, resample=resample, fill=fill, detrend=detrend
+    )
+    longest = max(found, key=lambda recording: recording.values.size)
+    if len(found) == 1:
+        return longest
+    note = f"The longest of {len(found)} stretches is taken: {span(longest.time[0], longest.time[-1])}."
+    return Recording(**{**vars(longest), "notes": (*longest.notes, note)})
+
+
+def read_recordings(
+    paths: Sequence[str | Path],
+    *,
+    columns: Wanted = None,
+    time_column: str | int | None = None,
+    rate: float | None = None,
+    run_column: str | int | None = None,
+    resample: float | None = None,
+    fill: float | None = None,
+    detrend: str = "none",
+) -> tuple[Recording, ...]:
+    """Read every stretch of every channel of every run: of several files, or by the values of a ``run_column``.
+
+    ``columns`` is a name, a number, several, or "all".  Where values or times are missing (an empty cell, NaN) the
+    signal is cut; ``fill`` interpolates instead where neighbouring samples are at most so many time units apart.
+    Uneven times are refused, unless they are nearly even, or ``resample`` gives the rate to interpolate to (a lower
+    rate than that of even samples filters them first).  ``detrend`` is "none", "linear" or "slow".
+
+    Raises as :func:`read_recording` does.
+    """
+    treatment = Treatment(resample, fill, detrend)
+    several = len(paths) > 1
+    found: list[Recording] = []
+    for path in paths:
+        for signal in signals(Path(path), columns, time_column, rate, run_column, several=several):
+            found.extend(recordings_of(signal, rate, treatment))
+    if not found:
+        raise InputError("no file is given; name at least one")
+    return tuple(found)
+
+
+def signals(
+    file: Path, wanted: Wanted, time_column: str | int | None, rate: float | None, run: str | int | None, several: bool
+) -> Iterator[Signal]:
+    """The channels and runs of one file."""
     reader = READERS.get(file.suffix.lower())
     if reader is None:
         raise InputError(f"{file.name}: the suffix {file.suffix!r} is unknown; use one of {', '.join(READERS)}")
     checked_budget(file.stat().st_size, FILE_BUDGET, file.name, "cut the recording into parts")
     data = file.read_bytes()
-    columns = reader(data, file.name)
+    columns, digest = reader(data, file.name), hashlib.sha256(data).hexdigest()
     clock = time_index(columns, time_column, rate)
-    index = signal_index(columns, column, clock)
-    values = finite_column(columns, index)
-    start, found, note = sampling(columns, clock, rate)
-    if not np.ptp(values) > 0.0:
+    by = None if run is None else find_column(columns, run)
+    for index in signal_indices(columns, wanted, (clock, by)):
+        if columns.sizes[index] > MOST_SAMPLES:
+            raise InputError(
+                f"{file.name}, column {columns.names[index]} has {columns.sizes[index]} samples, over {MOST_SAMPLES}; "
+                "cut the recording into parts"
+            )
+        for name, rows in runs_of(columns, by, columns.sizes[index]):
+            yield Signal(columns, index, clock, rows, name or (file.name if several else ""), digest)
+
+
+def runs_of(columns: Columns, by: int | None, size: int) -> list[tuple[str, Rows]]:
+    """Name and rows of each run, in the order in which the runs begin; one without a name when nothing tells them."""
+    if by is None:
+        return [("", np.arange(size))]
+    marks = columns.values(by)
+    if marks.size != size:
+        raise InputError(f"{columns.source}: run column {columns.names[by]} has {marks.size} rows, the signal {size}")
+    values, first = np.unique(marks[np.isfinite(marks)], return_index=True)
+    name = name_and_units(columns.names[by])[0]
+    return [(f"{name} {values[i]:g}", np.flatnonzero(marks == values[i])) for i in np.argsort(first)]
+
+
+def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> list[Recording]:
+    """The stretches of one signal, checked and made uniform."""
+    columns = signal.columns
+    header = columns.names[signal.index]
+    name, units = name_and_units(header)
+    values = columns.values(signal.index)
+    time, note = stamps(signal, values.size, rate)
+    names = (header if signal.clock is None else columns.names[signal.clock], header)
+    samples = stamped(time, values[signal.rows], signal.rows, columns, names, fewest=FEWEST_SAMPLES)
+    if not np.ptp(samples.values) > 0.0:
         raise InputError(
-            f"{file.name}, column {columns.names[index]} is constant at {values[0]:g}; there is no oscillation in it"
+            f"{columns.source}, column {header} is constant at {samples.values[0]:g}; there is no oscillation in it"
         )
-    name, units = name_and_units(columns.names[index])
-    return Recording(
-        time=start + np.arange(values.size) / found,
-        values=values,
-        rate=found,
-        name=name,
-        units=units or columns.units,
-        source=file.name,
-        sha256=hashlib.sha256(data).hexdigest(),
-        notes=tuple(text for text in (columns.note, note) if text),
-    )
-
-
-def name_and_units(header: str) -> tuple[str, str]:
-    """Split a header into its name and the unit in brackets at its end.
-
-    >>> name_and_units("u [mm]"), name_and_units("time (s)"), name_and_units("velocity")
-    (('u', 'mm'), ('time', 's'), ('velocity', ''))
-    """
-    match = re.fullmatch(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]\s*", header)
-    return (match[1], match[2]) if match else (header, "")
-
-
-def find_column(columns: Columns, wanted: str | int) -> int:
-    """Index of a column by its name (with or without its unit) or its number from 1; InputError lists the columns."""
-    listed = ", ".join(columns.names)
-    for candidates in (columns.names, [name_and_units(name)[0] for name in columns.names]):
-        hits = [i for i, name in enumerate(candidates) if name == wanted]
-        if len(hits) == 1:
-            return hits[0]
-        if hits:
-            raise InputError(f"{columns.source} has {len(hits)} columns {wanted}; name one by its number from 1")
-    if str(wanted).strip().isdecimal() and 1 <= int(wanted) <= len(columns.names):
-        return int(wanted) - 1
-    raise InputError(f"{columns.source} has no column {wanted}; it has {listed} (or a number from 1)")
-
-
-def time_index(columns: Columns, wanted: str | int | None, rate: float | None) -> int | None:
-    """Index of the time column, or None where the rate is stated by the file or given."""
-    if columns.rate is not None:
-        if wanted is not None:
-            raise InputError(f"{columns.source} states its sampling rate and has no time column; leave {wanted} out")
-        return None
-    if wanted is not None:
-        return find_column(columns, wanted)
-    hits = [i for i, name in enumerate(columns.names) if name_and_units(name)[0].strip().lower() in TIME_NAMES]
-    if not hits and rate is None:
-        raise InputError(
-            f"{columns.source} has no time column among {', '.join(columns.names)}; "
-            f"name it, or give the sampling rate in its place"
+    pieces, notes = treated(samples, columns, header, treatment)
+    said = tuple(text for text in (columns.note, note, *notes) if text)
+    return [
+        Recording(
+            time=piece.samples.time,
+            values=piece.values,
+            rate=piece.samples.rate,
+            name=name,
+            units=units or columns.units,
+            source=columns.source,
+            sha256=signal.sha256,
+            notes=(*said, *piece.notes),
+            run=signal.run,
+            stretch=number if len(pieces) > 1 else 0,
+            clipped=piece.samples.clipped,
+            filled=piece.samples.filled,
+            facts=piece.facts,
         )
-    return hits[0] if hits else None
+        for number, piece in enumerate(pieces, start=1)
+    ]
 
 
-def signal_index(columns: Columns, wanted: str | int | None, clock: int | None) -> int:
-    """Index of the signal: the one asked for, or the only one beside the time."""
-    others: Sequence[int] = [i for i in range(len(columns.names)) if i != clock]
-    if wanted is None:
-        if len(others) == 1:
-            return others[0]
-        listed = ", ".join(columns.names[i] for i in others) or "only the time column"
-        raise InputError(f"{columns.source}: say which column holds the signal; it has {listed}")
-    index = find_column(columns, wanted)
-    if index == clock:
-        raise InputError(f"{columns.source}: column {columns.names[index]} is the time, not a signal; name another")
-    return index
-
-
-def finite_column(columns: Columns, index: int) -> Array:
-    """The numbers of a column, all finite and enough of them."""
-    values = columns.values(index)
-    if values.size < FEWEST_SAMPLES:
-        raise InputError(f"{columns.source} has {values.size} samples; at least {FEWEST_SAMPLES} are needed")
-    wrong = np.flatnonzero(~np.isfinite(values))
-    if wrong.size:
-        at = int(wrong[0])
-        raise InputError(
-            f"{columns.source}, {columns.place(at)}, column {columns.names[index]}: {values[at]} is not finite; "
-            f"cut or fill the gap first ({wrong.size} such values in all)"
-        )
-    return values
-
-
-def sampling(columns: Columns, clock: int | None, rate: float | None) -> tuple[float, float, str]:
-    """Start time, sampling rate, and a note where a given rate took the place of a time column."""
+def stamps(signal: Signal, size: int, rate: float | None) -> tuple[Array, str]:
+    """The time of each row of a signal, and a note where a given rate took the place of a time column."""
+    columns, clock = signal.columns, signal.clock
     stated = columns.rate
-    if stated is not None and rate not in (None, stated):
-        raise InputError(f"{columns.source} states {stated:g} samples per second, not {rate:g}; leave the rate out")
     if clock is None or rate is not None:
-        replaced = "" if clock is None else f"the time column {columns.names[clock]} was replaced by the given rate"
-        return 0.0, checked_rate(stated or rate or 0.0), replaced
-    stamps = finite_column(columns, clock)
-    return float(stamps[0]), uniform_rate(stamps, columns), ""
+        if stated is not None and clock is None and rate not in (None, stated):
+            raise InputError(f"{columns.source} states {stated:g} samples per second, not {rate:g}; leave the rate out")
+        used = checked_rate(rate if rate is not None else stated or 0.0)
+        note = "" if clock is None else f"the time column {columns.names[clock]} was replaced by the given rate"
+        return np.arange(signal.rows.size) / used, note
+    if columns.sizes[clock] != size:
+        raise InputError(
+            f"{columns.source}: {columns.names[signal.index]} has {size} samples, the time column "
+            f"{columns.names[clock]} {columns.sizes[clock]}; name columns of one length"
+        )
+    return columns.values(clock)[signal.rows], ""
 
 
-def uniform_rate(stamps: Array, columns: Columns) -> float:
-    """Samples per time unit of increasing, uniform time stamps.
+def span(begin: float, end: float) -> str:
+    """A stretch of time in words.
 
-    Raises InputError at the first stamp that does not increase, or whose step or place on the uniform grid is off by
-    more than JITTER of a step.
+    >>> span(0.0, 1.25)
+    't = 0 to 1.25'
     """
-    steps = np.diff(stamps)
-    back = np.flatnonzero(steps <= 0.0)
-    if back.size:
-        at = int(back[0]) + 1
-        what = "repeats" if steps[at - 1] == 0.0 else "is before"
-        raise InputError(
-            f"{columns.source}, {columns.place(at)}: time {stamps[at]:.9g} {what} the one above "
-            f"({stamps[at - 1]:.9g}); time stamps must increase"
-        )
-    usual = float(np.median(steps))
-    mean = float(stamps[-1] - stamps[0]) / steps.size
-    uneven = np.flatnonzero(np.abs(steps - usual) > 2.0 * JITTER * usual)
-    grid = stamps[0] + mean * np.arange(stamps.size)
-    drifting = np.flatnonzero(np.abs(stamps - grid) > JITTER * mean)
-    if uneven.size or drifting.size:
-        at = int(uneven[0]) + 1 if uneven.size else int(drifting[0])
-        raise InputError(
-            f"{columns.source}, {columns.place(at)}: time {stamps[at]:.9g} comes {steps[at - 1]:.6g} after the one "
-            f"above, the usual step is {usual:.6g}; steps must agree to {2 * JITTER:.0%} (resample the recording, "
-            f"or give its rate if the stamps are at fault)"
-        )
-    return 1.0 / mean
+    return f"t = {begin:.6g} to {end:.6g}"

@@ -15,7 +15,7 @@ ROOMS = ("symbolic", "numeric", "compare", "reports", "ridgeback")
 
 ALLOWED: dict[str, frozenset[str]] = {
     "symbolic": frozenset({"symbolic", "sympy", "flint", "latex2mathml"}),
-    "numeric": frozenset({"numeric", "numpy", "scipy", "mpmath"}),
+    "numeric": frozenset({"numeric", "numpy", "scipy", "mpmath", "h5py"}),
     # sympy is the language in which symbolic hands over expressions; scipy and mpmath are numeric's.
     "compare": frozenset({"compare", "symbolic", "numeric", "sympy", "numpy", "scipy", "mpmath"}),
     "reports": frozenset({"reports", "compare", "matplotlib", "jinja2", "markupsafe", "latex2mathml", "numpy"}),

@@ -25,8 +25,7 @@ class Refusal(NamedTuple):
 SINE = "time_s,u\n" + "".join(f"{i / 32!r},{((i * 7) % 32 - 16) / 16!r}\n" for i in range(400))
 FILES = {
     "sine.csv": SINE,
-    "nan.csv": SINE.replace("\n1.0,", "\n1.0,nan#", 1).replace("nan#", "nan\n#", 1).split("#", 1)[0]
-    + "".join(line + "\n" for line in SINE.splitlines()[34:]),
+    "nan.csv": "time_s,u\n" + "".join(f"{i},{'nan' if i % 9 == 8 else i % 3}\n" for i in range(99)),
     "infinite.csv": "time_s,u\n0,1\n1,inf\n2,0\n" + "".join(f"{i},{i % 3}\n" for i in range(3, 60)),
     "irregular.csv": "time_s,u\n" + "".join(f"{i + (0.4 if i % 5 == 0 else 0)},{i % 3}\n" for i in range(60)),
     "duplicate.csv": "time_s,u\n" + "".join(f"{i - (i > 30)},{i % 3}\n" for i in range(60)),
@@ -91,7 +90,7 @@ REFUSALS = [
     Refusal("estimate sine.csv --band 1,1000", 2, ("1000",)),
     Refusal("estimate sine.csv --harmonic 50", 2, ("50",)),
     Refusal("estimate sine.csv --lag 1e6", 2, ("1e+06",)),
-    Refusal("estimate nan.csv", 2, ("nan",)),
+    Refusal("estimate nan.csv", 2, ("between its", "t = 7 to 9", "16 samples")),
     Refusal("estimate infinite.csv", 2, ("inf",)),
     Refusal("estimate irregular.csv", 2, ("irregular.csv",)),
     Refusal("estimate duplicate.csv", 2, ("duplicate.csv",)),

@@ -1,0 +1,219 @@
+"""What is done to samples before they are a signal: gaps, uneven times, clipping, drift, each found, said and treated.
+
+The rules, in this order:
+1. A value or time that is missing, or a step over GAP_STEPS usual ones, is a gap and cuts the signal.  ``fill`` lets
+   neighbours up to that far apart stay together and interpolates between them; with ``resample`` the default for it
+   is RESAMPLED_STEPS usual steps.
+2. A stretch on a uniform grid is kept as it is.  Nearly even times are interpolated, others only by ``resample``.
+3. Stretches with too few samples, or constant, are left out.
+4. Clipped samples are kept and marked; who needs amplitudes must leave their neighbourhood out.
+5. The slow part is measured and named, and removed by ``detrend`` only.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from numeric.clipping import clipped, runs
+from numeric.columns import Columns
+from numeric.drift import DETRENDS, NOTABLE, detrended, wandering
+from numeric.errors import InputError
+from numeric.samples import Array, Mask, checked_rate
+from numeric.stretches import GAP_STEPS, Gap, Stamped, split
+from numeric.uniform import EASY, JITTER, TOLERANCE, Grid, Uniform, grid_of, off_grid, on_grid, resampled
+
+FEWEST_SAMPLES = 16
+RESAMPLED_STEPS = 4.0
+PLACES = 4
+"""Places that a note lists."""
+
+
+@dataclass(frozen=True)
+class Treatment:
+    """What was asked for: ``resample`` to a rate, ``fill`` gaps up to a time, ``detrend`` by a method.
+
+    >>> Treatment(detrend="cubic")
+    Traceback (most recent call last):
+        ...
+    numeric.errors.InputError: detrend 'cubic' is unknown; use one of none, linear, slow
+    """
+
+    resample: float | None = None
+    fill: float | None = None
+    detrend: str = "none"
+
+    def __post_init__(self) -> None:
+        if self.resample is not None:
+            checked_rate(self.resample)
+        if self.fill is not None and not (math.isfinite(self.fill) and self.fill > 0.0):
+            raise InputError(f"fill {self.fill} is not a positive time; give the longest gap to interpolate across")
+        if self.detrend not in DETRENDS:
+            raise InputError(f"detrend {self.detrend!r} is unknown; use one of {', '.join(DETRENDS)}")
+
+    def longest(self, usual: float) -> float:
+        """The longest step that is no gap."""
+        least = (RESAMPLED_STEPS if self.resample is not None else GAP_STEPS) * usual
+        return least if self.fill is None else max(self.fill * (1 + 1e-9), GAP_STEPS * usual)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One stretch: its uniform samples, their values after detrending, and what is to be said of it."""
+
+    samples: Uniform
+    values: Array
+    notes: tuple[str, ...]
+    facts: Mapping[str, object]
+
+
+def treated(
+    samples: Stamped, columns: Columns, header: str, treatment: Treatment
+) -> tuple[list[Piece], tuple[str, ...]]:
+    """The stretches of a signal, and the notes that hold for all of them.
+
+    Raises InputError when no stretch is long enough, or times are uneven and no rate to resample to is given.
+    """
+    longest = treatment.longest(samples.usual)
+    flat = clipped(samples.values)
+    parts, gaps = split(samples, longest)
+    marks = np.split(flat, np.cumsum([part.time.size for part in parts])[:-1])
+    whole = grid_of(samples.time, samples.usual)
+    kept, lost = [], []
+    for part, mark in zip(parts, marks, strict=True):
+        if part.time.size < FEWEST_SAMPLES or not np.ptp(part.values) > 0.0:
+            lost.append(part)
+            continue
+        kept.append(piece(uniform(part, mark, whole, columns, treatment), treatment))
+    if not kept:
+        raise InputError(
+            f"{columns.source}, column {header}: no stretch between its {len(gaps)} gaps has {FEWEST_SAMPLES} samples "
+            f"that vary (the first gap: {gap_text(gaps[0])}); fill short gaps, or record longer"
+        )
+    facts = {"missing": samples.absent, "gaps": [[gap.begin, gap.end] for gap in gaps], "left_out": len(lost)}
+    kept = [Piece(p.samples, p.values, p.notes, {**facts, **p.facts}) for p in kept]
+    return kept, tuple(signal_notes(samples, header, gaps, lost, flat))
+
+
+def uniform(part: Stamped, mark: Mask, whole: Grid, columns: Columns, treatment: Treatment) -> Uniform:
+    """One stretch on a uniform grid: the whole recording's, its own, or by interpolation."""
+    own = grid_of(part.time, part.usual)
+    rate = treatment.resample
+    if own.off <= JITTER:
+        if whole.off <= JITTER:
+            own = Grid(own.k, whole.step, own.off)
+        even = on_grid(part, mark, own)
+        return even if rate is None else resampled(even, rate)
+    if rate is not None:
+        check_not_slower(rate, part, columns)
+        return off_grid(part, mark, rate, GAP_STEPS * part.usual)
+    steps = np.diff(part.time)
+    if float(np.abs(steps / part.usual - 1.0).max()) > EASY:
+        refuse_uneven(part, columns)
+    found = off_grid(part, mark, own.k[-1] / (part.time[-1] - part.time[0]), GAP_STEPS * part.usual)
+    if found.error > TOLERANCE:
+        refuse_uneven(part, columns, f"; interpolation would err by {found.error:.1e} of the rms")
+    return found
+
+
+def check_not_slower(rate: float, part: Stamped, columns: Columns) -> None:
+    """Refuse to pick samples from uneven ones at a rate at which they would alias."""
+    if rate < 0.9 / part.usual:
+        raise InputError(
+            f"{columns.source}: resampling uneven times to {rate:g} per time unit, below their usual "
+            f"{1 / part.usual:.6g}, would alias; give at least that rate"
+        )
+
+
+def refuse_uneven(part: Stamped, columns: Columns, more: str = "") -> None:
+    """Raise the InputError for uneven times, at the first odd step."""
+    steps = np.diff(part.time)
+    grid = grid_of(part.time, part.usual)
+    odd = np.flatnonzero(np.abs(steps - part.usual) > 2.0 * JITTER * part.usual)
+    off = np.flatnonzero(np.abs(part.time - part.time[0] - grid.step * grid.k) > JITTER * grid.step)
+    at = int(odd[0]) + 1 if odd.size else int(off[0])
+    raise InputError(
+        f"{columns.source}, {columns.place(int(part.row[at]))}: time {part.time[at]:.9g} comes {steps[at - 1]:.6g} "
+        f"after the one above, the usual step is {part.usual:.6g}; steps must agree to {2 * JITTER:.0%} (resample the "
+        f"recording to about {1 / part.usual:.4g} per time unit, or give its rate if the stamps are at fault){more}"
+    )
+
+
+def piece(samples: Uniform, treatment: Treatment) -> Piece:
+    """A stretch with its trend removed as asked, and what is to be said of it."""
+    drift = wandering(samples.values, samples.rate)
+    values = detrended(samples.values, samples.rate, treatment.detrend)
+    facts: dict[str, object] = {
+        "rate": samples.rate,
+        "interpolation": samples.how,
+        "interpolation_error": samples.error,
+        "filled": int(np.count_nonzero(samples.filled)),
+        "clipped": int(np.count_nonzero(samples.clipped)),
+        "drift": drift,
+        "detrend": treatment.detrend,
+    }
+    return Piece(samples, values, tuple(piece_notes(samples, drift, treatment)), facts)
+
+
+def piece_notes(samples: Uniform, drift: float, treatment: Treatment) -> list[str]:
+    """Interpolation and drift of one stretch in words."""
+    notes = []
+    if samples.how:
+        error = f"; the interpolation errs by about {samples.error:.1e} of the rms" if samples.error else ""
+        notes.append(f"{samples.how[0].upper()}{samples.how[1:]}{error}.")
+    if treatment.detrend != "none":
+        what = "straight line" if treatment.detrend == "linear" else "slow part (a mean over six cycles)"
+        notes.append(f"The {what} was removed.")
+    elif math.isnan(drift):
+        notes.append("Drift was not looked for in so long a record.")
+    elif drift > NOTABLE:
+        notes.append(
+            f"The local mean wanders by {drift:.2g} of the rms; it is left in (detrend removes it; in an asymmetric "
+            "oscillator it belongs to the motion)."
+        )
+    return notes
+
+
+def signal_notes(samples: Stamped, header: str, gaps: Sequence[Gap], lost: Sequence[Stamped], flat: Mask) -> list[str]:
+    """Gaps, stretches left out and clipped samples of a signal in words, with counts and places."""
+    notes = []
+    if samples.absent:
+        notes.append(f"{samples.absent} rows of {header} have no value or no time.")
+    if gaps:
+        notes.append(
+            f"{len(gaps)} {'gap' if len(gaps) == 1 else 'gaps'}: {places([gap_text(gap) for gap in gaps])}; each "
+            "stretch between is taken by itself."
+        )
+    if lost:
+        spans = [f"t = {part.time[0]:.6g} to {part.time[-1]:.6g}" for part in lost]
+        notes.append(f"Left out, with fewer than {FEWEST_SAMPLES} samples or constant: {places(spans)}.")
+    if flat.any():
+        tops = runs(flat, 1)
+        spans = [f"t = {samples.time[first]:.6g} to {samples.time[last]:.6g}" for first, last in tops]
+        notes.append(
+            f"{np.count_nonzero(flat)} samples in {len(tops)} flat tops are clipped: {places(spans)}; they are kept, "
+            "and amplitudes near them are not used."
+        )
+    return notes
+
+
+def gap_text(gap: Gap) -> str:
+    """A gap in words.
+
+    >>> gap_text(Gap(2.0, 5.0, 2))
+    't = 2 to 5 (2 missing)'
+    """
+    return f"t = {gap.begin:.6g} to {gap.end:.6g} ({gap.missing} missing)"
+
+
+def places(texts: Sequence[str]) -> str:
+    """The first few places, and how many more.
+
+    >>> places(["a", "b", "c", "d", "e", "f"])
+    'a, b, c, d and 2 more'
+    """
+    more = f" and {len(texts) - PLACES} more" if len(texts) > PLACES else ""
+    return ", ".join(texts[:PLACES]) + more
