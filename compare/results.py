@@ -9,10 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from compare.identification.results import Identification
+    from compare.noise_results import NoiseStudy
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -135,6 +139,26 @@ class Score:
     """Signed: negative means low."""
     rms_start: float | None
     rms_end: float | None
+    note: str = ""
+    failed: str = ""
+    """Why the method gave nothing, when it did not."""
+
+
+@dataclass(frozen=True)
+class Standing:
+    """One estimator with its own defaults on the samples of a motion, bias removed where it knows it."""
+
+    method: str
+    rms_interior: float | None
+    """Relative, like the next three, against the cycle frequency."""
+    rms_start: float | None
+    rms_end: float | None
+    half_width: float | None
+    """Median half width of its 95 % interval over the interior; None where it claims none."""
+    coverage: float | None
+    """Share of the interior's samples whose interval holds the reference."""
+    seconds: float
+    """CPU time of the whole track on the machine that made the page."""
     note: str = ""
     failed: str = ""
     """Why the method gave nothing, when it did not."""
@@ -350,6 +374,12 @@ class Report:
     provenance: Provenance
     certified: Certified | None = None
     """Proved errors of the series and its resummations, where omega0 can be enclosed."""
+    standings: tuple[Standing, ...] = ()
+    """Every estimator on the same samples."""
+    noise: NoiseStudy | None = None
+    """The estimators in noise, beside the Cramér-Rao bound."""
+    identification: Identification | None = None
+    """Which oscillator made a recording."""
     csv: Mapping[str, str] = field(default_factory=dict)
     """File name to CSV text, for the download links."""
     finding: Range | None = None

@@ -10,10 +10,12 @@ from urllib.parse import quote
 from compare.results import Derivation, Formula, Provenance, Range, RecordingComparison, Report
 from reports.decay_figures import budget_figure, residuals_figure, tracks_figure
 from reports.formulas import FormulaError, formula_latex, formula_mathml
+from reports.identification_figures import identification_blocks, parameter_table, ranking_table
+from reports.noise_figures import noise_blocks, noise_table
 from reports.paper_figures import paper_figures
 from reports.recording_figures import recording_blocks
 from reports.study_figures import backbone_block, error_block, map_block, order_needed
-from reports.tables import budget_table, certified_table, range_table, score_table, timing_table
+from reports.tables import budget_table, certified_table, range_table, score_table, standing_table, timing_table
 from reports.wording import number
 
 PartKind = Literal["figure", "table", "formula", "text", "lines", "statement", "code", "downloads", "provenance"]
@@ -52,12 +54,14 @@ def sections(report: Report) -> tuple[Section, ...]:
     found = (
         Section("section-backbone", "Frequency against amplitude", tuple(_backbone(report))),
         Section("section-recording", "The recording", tuple(_recording(report.recording))),
+        Section("section-identification", "What made it", tuple(_identification(report))),
         Section("section-formula", "The expansion", tuple(_derivation(report.derivation))),
         Section("section-error", "Error against amplitude", tuple(_study_errors(report))),
         Section("section-map", "Which order is needed", tuple(_orders(report))),
         Section("section-tracks", "Frequency against time", tuple(_tracks(report))),
         Section("section-paper", "The paper's figures, measured", tuple(_paper(report))),
         Section("section-budget", "Where the errors come from", tuple(_errors(report))),
+        Section("section-estimators", "The estimators", tuple(_estimators(report))),
         Section("section-timing", "What an evaluation costs", tuple(_timings(report))),
         Section("section-code", "Generated code", tuple(_code(report.derivation))),
         Section("section-data", "Data", tuple(_downloads(report.csv))),
@@ -152,6 +156,28 @@ def _errors(report: Report) -> Iterator[Part]:
         yield Part("table", budget_table(report.decay.budget))
     if report.decay.scores:
         yield Part("table", score_table(report.decay.scores, report.decay.reference.label))
+
+
+def _estimators(report: Report) -> Iterator[Part]:
+    if report.standings and report.decay:
+        yield Part("table", standing_table(report.standings, report.decay.reference.label))
+    if report.noise:
+        yield from (Part("figure", drawn) for drawn in noise_blocks(report.noise))
+        yield Part("table", noise_table(report.noise))
+        if report.noise.notes:
+            yield Part("lines", report.noise.notes)
+
+
+def _identification(report: Report) -> Iterator[Part]:
+    found = report.identification
+    if found is None:
+        return
+    yield Part("text", found.verdict)
+    yield Part("table", ranking_table(found))
+    yield Part("table", parameter_table(found.best))
+    yield from (Part("figure", drawn) for drawn in identification_blocks(found))
+    if found.notes:
+        yield Part("lines", found.notes)
 
 
 def _timings(report: Report) -> Iterator[Part]:

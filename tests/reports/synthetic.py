@@ -15,6 +15,8 @@ from scipy.integrate import solve_ivp
 from scipy.signal import stft
 from scipy.special import ellipk
 
+from compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
+from compare.noise_results import NoiseCell, NoiseStudy
 from compare.results import (
     Amplitudes,
     BudgetRow,
@@ -34,6 +36,7 @@ from compare.results import (
     RecordingComparison,
     Report,
     Score,
+    Standing,
     Statement,
     Study,
     Timing,
@@ -294,6 +297,110 @@ def make_recording() -> RecordingComparison:
     )
 
 
+def make_standings() -> tuple[Standing, ...]:
+    return (
+        Standing("pseudo-wigner", 4.6e-4, 3e-2, 2e-3, 1e-3, 0.95, 0.031),
+        Standing("wigner", 9.5e-3, 8e-2, 7e-3, None, None, 0.12, "Claims no interval."),
+        Standing("model-fit", None, None, None, None, None, 0.0, failed="no oscillator was named"),
+    )
+
+
+def make_noise() -> NoiseStudy:
+    snr = (0.0, 10.0, 20.0, 30.0, 40.0)
+    bound = [2e-2 * 10 ** (-ratio / 20) for ratio in snr]
+    floors = {"harmonic-least-squares": 2e-5, "pseudo-wigner": 4.8e-4, "spectrogram": 4e-3, "hilbert": 1e-2}
+    cells = []
+    for method, floor in floors.items():
+        for ratio, least in zip(snr, bound, strict=True):
+            rms = float(np.hypot(1.05 * least, floor))
+            cells.append(
+                NoiseCell(
+                    method, ratio, 12, rms, 0.04 * rms, -floor, 0.1 * floor, least, rms / least, 0.05, 0.95, 0.01, 0, 0
+                )
+            )
+    refused = NoiseCell("wigner", 0.0, 12, *(None,) * 9, outliers=0, failures=12, reason="the record is too short")
+    others = tuple(replace(refused, snr_db=ratio) for ratio in snr)
+    return NoiseStudy(
+        title="the damped pendulum",
+        truth="cycle frequency of the integrated solution",
+        bound="local harmonic model",
+        methods=(*floors, "wigner"),
+        snr_db=snr,
+        trials=12,
+        seed=1,
+        rate=32.0,
+        samples=641,
+        interior=(2.0, 18.0),
+        cells=(*cells, *others),
+        notes=("The truth is known here.",),
+    )
+
+
+def _candidate(name: str, title: str, delta: float, cubic: float) -> Candidate:
+    a = np.linspace(0.3, 4.7, 30)
+    omega = 2 * np.pi * (1.25 - cubic * a**2)
+    damping = -0.06 - 0.003 * a
+    return Candidate(
+        name=name,
+        title=title,
+        equation="u'' + 2*mu*u' + k**2*u + c3*u**3 = 0",
+        damping_law="linear + quadratic",
+        parameters=(Parameter("k", 7.85, 0.002, "rad/s", "natural frequency"), Parameter("c3", -0.3, 0.01)),
+        criterion=100.0 + delta,
+        delta=delta,
+        weight=0.9 if delta == 0 else 0.1,
+        residual=0.04,
+        amplitude=a,
+        omega=omega,
+        omega_low=omega * 0.998,
+        omega_high=omega * 1.002,
+        damping=damping,
+        damping_low=damping - 0.004,
+        damping_high=damping + 0.004,
+    )
+
+
+def make_identification() -> Identification:
+    best = _candidate("duffing-softening", "Duffing, softening", 0.0, 0.0033)
+    other = _candidate("pendulum", "pendulum-like", 4.4, 0.003)
+    a, time = best.amplitude[::3], np.linspace(20.0, 60.0, 50)
+    foretold = 4.7 * np.exp(-time / 22)
+    prediction = Prediction(
+        candidate="duffing-softening",
+        cycles=24.0,
+        until=20.0,
+        time=time,
+        amplitude=foretold,
+        amplitude_low=0.95 * foretold,
+        amplitude_high=1.05 * foretold,
+        measured_amplitude=1.02 * foretold,
+        omega=np.full(50, 7.8),
+        omega_low=np.full(50, 7.79),
+        omega_high=np.full(50, 7.81),
+        measured_omega=np.full(50, 7.803),
+        phase_error=0.003 * (time - 20),
+        phase_band=0.01 * (time - 20),
+        coverage={"amplitude": 1.0, "omega": 1.0, "phase": 1.0},
+        errors={"amplitude": 0.02, "omega": 4e-4, "phase": 0.07},
+    )
+    return Identification(
+        source="decay.csv",
+        column="displacement_percent",
+        unit="%",
+        rate=1 / 0.033,
+        samples=1818,
+        effective_samples=420.0,
+        criterion_name="BIC",
+        candidates=(best, other),
+        data=MeasuredBackbone(a, best.omega[::3] * 1.0005, a * 0 + 0.01, best.damping[::3] + 0.001, a * 0 + 0.002),
+        verdict="A softening Duffing oscillator, with weight 90 %; a pendulum cannot be ruled out.",
+        indistinguishable=("duffing-softening", "pendulum"),
+        notes=("Independent samples are counted from the residual's correlation.",),
+        failed=("bilinear: no switch in reach",),
+        prediction=prediction,
+    )
+
+
 def provenance() -> Provenance:
     versions = {"ridgeback": "0.1.0", "numpy": "2.4.6"}
     return Provenance("ridgeback report", versions, {"orders": "2 to 30"}, "0123abcd", "", {"study": 1.25})
@@ -329,6 +436,8 @@ def full_report() -> Report:
         ),
         provenance=provenance(),
         certified=make_certified(),
+        standings=make_standings(),
+        noise=make_noise(),
         csv={"study.csv": "order,amplitude\n" + "\n".join(rows) + "\n"},
         finding=finding,
     )
@@ -336,7 +445,13 @@ def full_report() -> Report:
 
 def recording_report() -> Report:
     title = "The recording softens: 1.18 Hz at amplitude 4.7, 1.26 Hz at 0.3"
-    return replace(empty_report(), title=title, lead="A free decay.", recording=make_recording())
+    return replace(
+        empty_report(),
+        title=title,
+        lead="A free decay.",
+        recording=make_recording(),
+        identification=make_identification(),
+    )
 
 
 def small_report() -> Report:
@@ -349,6 +464,7 @@ def small_report() -> Report:
         ranges=make_ranges(study),
         decay=replace(decay, curves=decay.curves[::4], statements=statements),
         recording=make_recording(),
+        identification=make_identification(),
     )
 
 

@@ -129,7 +129,7 @@ def _keys(root: Element) -> list[str]:
 def test_every_part_has_its_section(tree: Element) -> None:
     assert _keys(tree) == [
         *("backbone", "formula", "error", "map", "tracks", "paper"),
-        *("budget", "timing", "code", "data", "provenance"),
+        *("budget", "estimators", "timing", "code", "data", "provenance"),
     ]
 
 
@@ -142,6 +142,8 @@ def test_every_part_has_its_section(tree: Element) -> None:
         ({"recording"}, ["recording"]),
         ({"derivation"}, ["formula", "code"]),
         ({"timings"}, ["timing"]),
+        ({"noise"}, ["estimators"]),
+        ({"identification"}, ["identification"]),
         ({"csv"}, ["data"]),
     ],
 )
@@ -207,12 +209,42 @@ def test_every_number_of_a_table_stands_under_its_head(tree: Element) -> None:
 
 def test_a_recording_shows_tracks_backbone_damping_and_fit(recording_page: str) -> None:
     root = parse(recording_page)
-    assert _keys(root) == ["recording", "provenance"]
+    assert _keys(root) == ["recording", "identification", "provenance"]
     for wanted in ("decay.csv", "displacement_percent", "pseudo-Wigner, 8 s", "The longest window"):
         assert wanted in root.text
-    drawn = [figure.attributes["id"].removeprefix("recording-") for figure in root.all("figure")]
+    ids = [figure.attributes["id"] for figure in root.all("figure")]
+    drawn = [name.removeprefix("recording-") for name in ids if name.startswith("recording-")]
     assert drawn == ["backbone", "damping", "signal", "plane", "tracks"]
     assert len(root.all("math")) == 3
+
+
+def _cells(root: Element, table: str) -> list[list[str]]:
+    (found,) = (t for t in root.all("table") if t.attributes["id"] == table)
+    rows = found.all("tbody")[0].all("tr")
+    return [[cell.text for cell in row.all("th") + row.all("td")] for row in rows]
+
+
+def test_an_identification_shows_its_ranking_parameters_and_prediction(recording_page: str) -> None:
+    root = parse(recording_page)
+    ranked = _cells(root, "candidates")
+    assert [row[0] for row in ranked] == ["Duffing, softening", "pendulum-like", "bilinear: no switch in reach"]
+    assert ranked[0][2:4] == ["0", "90.0 %"]
+    assert _cells(root, "parameters")[0][:3] == ["k", "7.85", "7.8461 to 7.8539"]
+    ids = {figure.attributes["id"] for figure in root.all("figure")}
+    assert ids >= {"identify-backbone", "identify-damping", "prediction-amplitude", "prediction-phase"}
+
+
+def test_an_identification_without_a_prediction_still_renders() -> None:
+    found = replace(synthetic.make_identification(), prediction=None, failed=(), notes=())
+    root = parse(render(replace(synthetic.empty_report(), identification=found)))
+    assert not [f for f in root.all("figure") if f.attributes["id"].startswith("prediction")]
+
+
+def test_a_noise_study_shows_each_cell_with_its_uncertainty_and_the_refusals(tree: Element) -> None:
+    rows = _cells(tree, "noise")
+    assert rows[0] == ["harmonic-least-squares, 0 dB", "2.1 % ± 0.084 %", "−2 × 10⁻⁵", "1.05 ± 0.05", "95 %", "0", "0"]
+    assert rows[-1] == ["the record is too short"]
+    assert _cells(tree, "estimators")[1][4:6] == ["–", "–"]
 
 
 def test_a_recording_without_a_backbone_still_renders() -> None:
