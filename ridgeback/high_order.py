@@ -1,4 +1,4 @@
-"""Very high orders from the command line: certified balls with a checkpoint."""
+"""Very high orders from the command line: certified balls with a checkpoint, exact coefficients by many primes."""
 
 from __future__ import annotations
 
@@ -8,38 +8,15 @@ from typing import TYPE_CHECKING
 import click
 
 from ridgeback.derivation import Request, refuse_weights
-from ridgeback.long_run import Watch, checkpoint_path
-from ridgeback.options import Decorated
+from ridgeback.long_run import Watch
 
 if TYPE_CHECKING:
     from symbolic.ball_expansion import BallExpansion
-    from symbolic.certificate import Check
+    from symbolic.expansion import Expansion
     from symbolic.oscillator import Oscillator
 
 STEEPNESS = 3.5
 """Power of the order that the time of a march follows (symbolic.cost): what is left is said by it."""
-
-
-def high_order_options(command: Decorated) -> Decorated:
-    """``--digits`` and ``--checkpoint``."""
-    for option in (
-        click.option(
-            "--checkpoint",
-            type=checkpoint_path,
-            default=None,
-            metavar="FILE",
-            help="With --digits: keep the state there, every few minutes and on Ctrl-C; the same command resumes it.",
-        ),
-        click.option(
-            "--digits",
-            type=click.IntRange(1, 10_000),
-            default=None,
-            metavar="D",
-            help="Certified balls of at least D digits instead of exact coefficients: for very high orders.",
-        ),
-    ):
-        command = option(command)
-    return command
 
 
 def in_balls(oscillator: Oscillator, request: Request, digits: int, checkpoint: str | None) -> BallExpansion:
@@ -70,6 +47,35 @@ def in_balls(oscillator: Oscillator, request: Request, digits: int, checkpoint: 
             raise KeyboardInterrupt(interrupted(watch.last, path)) from None
 
 
+def by_primes(oscillator: Oscillator, request: Request, workers: int) -> Expansion:
+    """Derive exactly modulo many primes in a pool of processes, saying how far it is.
+
+    Raises click.UsageError for options that the primes do not have, InputError from the derivation.
+    """
+    if request.method not in (None, "lindstedt"):
+        raise click.UsageError(f"--workers belongs to lindstedt, not to {request.method}; leave one of the two out")
+    refuse_weights(request, "--workers")
+    from symbolic.cost import Budget, predict
+    from symbolic.modular import law, lindstedt_by_primes
+    from symbolic.pool import processes
+
+    cost = predict(law(oscillator), request.order, workers=workers)
+    allowed = cost.within(request.budget or Budget())
+    with (
+        Watch(f"order {request.order} modulo many primes", cost if allowed else None) as watch,
+        processes(workers) as executor,
+    ):
+        return lindstedt_by_primes(
+            oscillator,
+            request.order,
+            amplitude=request.amplitude or "peak",
+            executor=executor,
+            workers=workers,
+            progress=lambda bits, done: watch(float(done), f"{bits} bits of modulus"),
+            budget=request.budget,
+        )
+
+
 def interrupted(step: str, path: Path | None) -> str:
     """What to do after an interrupt.
 
@@ -80,10 +86,3 @@ def interrupted(step: str, path: Path | None) -> str:
     if path is None or not path.exists():
         return f"{where}; nothing was kept: with --checkpoint FILE the next run could go on from here"
     return f"{where}; the state is in {path}: run the same command again to go on from there"
-
-
-def ball_checks(oscillator: Oscillator, balls: BallExpansion) -> tuple[Check, ...]:
-    """The independent checks of balls."""
-    from symbolic.certificate import certify_balls
-
-    return certify_balls(oscillator, balls)

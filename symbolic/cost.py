@@ -9,18 +9,21 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 from symbolic.errors import InputError
 
 # method: (seconds, power of the order, bytes), calibrated at pendulum A^200, van der Pol eps^96; multiple scales at the
 # damped pendulum 100, two dampings 60, three 48, van der Pol 100, damped Helmholtz-Duffing with symbols 40; balls at
-# van der Pol 200 and 400.
+# van der Pol 200 and 400; primes, whose number grows like the square of the order, at pendulum 100, van der Pol 96.
 _LAWS = {
     "lindstedt": (3e-9, 4.0, 60.0),
     "limit-cycle": (5e-8, 4.0, 60.0),
     "multiple-scales": (4e-9, 4.0, 2.5),
     "energy-integral": (1e-8, 3.0, 60.0),
     "balls": (8e-8, 3.5, 5.0),
+    "primes": (3.6e-10, 5.0, 1.0),
+    "primes of a limit-cycle": (2e-9, 5.0, 1.0),
 }
 
 
@@ -44,15 +47,15 @@ class Cost:
         return self.seconds <= budget.seconds and self.gigabytes <= budget.gigabytes
 
 
-def predict(method: str, order: int, *, parameters: int = 0, weights: tuple[int, ...] = ()) -> Cost:
-    """Predict the cost of a derivation; ``weights`` are those of the small parameters.
+def predict(method: str, order: int, *, parameters: int = 0, weights: tuple[int, ...] = (), workers: int = 1) -> Cost:
+    """Predict the cost of a derivation; ``weights`` are those of the small parameters, ``workers`` share the time.
 
     >>> predict("lindstedt", 50).seconds < 1 < predict("lindstedt", 1000).seconds
     True
     """
     seconds, power, size = _LAWS[method]
     monomials = math.comb(order // 2 + parameters, parameters) * weighted_monomials(order / 2, weights)
-    return Cost(seconds * order**power * monomials, size * order**3 * monomials / 1e9)
+    return Cost(seconds * order**power * monomials / workers, size * order**3 * monomials * workers / 1e9)
 
 
 def weighted_monomials(degree: float, weights: tuple[int, ...]) -> float:
@@ -67,7 +70,15 @@ def weighted_monomials(degree: float, weights: tuple[int, ...]) -> float:
     return raised ** len(weights) / (math.factorial(len(weights)) * math.prod(weights))
 
 
-def check(method: str, order: int, budget: Budget, *, parameters: int = 0, weights: tuple[int, ...] = ()) -> None:
+def check(
+    method: str,
+    order: int,
+    budget: Budget,
+    *,
+    parameters: int = 0,
+    weights: tuple[int, ...] = (),
+    workers: int = 1,
+) -> None:
     """Refuse a derivation that is predicted to exceed the budget.
 
     Raises InputError with the prediction and the highest order that fits.
@@ -77,13 +88,14 @@ def check(method: str, order: int, budget: Budget, *, parameters: int = 0, weigh
         ...
     symbolic.errors.InputError: order 100000 by lindstedt would take about ... order ... fits
     """
-    cost = predict(method, order, parameters=parameters, weights=weights)
+    predicted = partial(predict, method, parameters=parameters, weights=weights, workers=workers)
+    cost = predicted(order)
     if cost.within(budget):
         return
     low, high = 0, order
     while high - low > 1:
         middle = (low + high) // 2
-        fits = predict(method, middle, parameters=parameters, weights=weights).within(budget)
+        fits = predicted(middle).within(budget)
         low, high = (middle, high) if fits else (low, middle)
     raise InputError(
         f"order {order} by {method} would take about {duration(cost.seconds)} and {cost.gigabytes:.2g} GB, over the "

@@ -91,8 +91,9 @@ def lindstedt_by_primes(
 ) -> Expansion:
     """Expand omega0 like ``lindstedt``, for orders whose coefficients have thousands of digits; no waveform is kept.
 
-    ``executor`` runs the primes, ``workers`` of them at a time; ``progress`` is told the bits of the modulus so far and
-    whether they sufficed.  Raises InputError as ``lindstedt`` does, and for symbolic parameters.
+    ``executor`` (such as ``symbolic.pool.processes``) runs the primes, ``workers`` of them at a time; ``progress`` is
+    told the bits of the modulus so far and whether they sufficed.  Raises InputError as ``lindstedt`` does, and for
+    symbolic parameters.
 
     >>> from symbolic.systems import find
     >>> lindstedt_by_primes(find("van-der-pol"), 4).frequency
@@ -104,7 +105,7 @@ def lindstedt_by_primes(
     cycle = oscillator.kind == "limit-cycle"
     if set(free_names(natural.force if cycle else natural.bound)) - {oscillator.small}:
         raise InputError(f"{oscillator.name} has symbolic parameters; the primes need a number for each of them")
-    check("limit-cycle" if cycle else "lindstedt", order, budget or Budget())
+    check(law(oscillator), order, budget or Budget(), workers=workers)
     frequency, size = _collect(partial(residues, oscillator, order, amplitude), executor, workers, progress)
     return Expansion(
         system=oscillator.name,
@@ -119,6 +120,11 @@ def lindstedt_by_primes(
         amplitude_coefficients=size if cycle else None,
         residual_of=None,
     )
+
+
+def law(oscillator: Oscillator) -> str:
+    """The law of ``symbolic.cost`` that this derivation follows."""
+    return "primes of a limit-cycle" if oscillator.kind == "limit-cycle" else "primes"
 
 
 def _collect(

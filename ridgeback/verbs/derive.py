@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 import click
 
 from ridgeback.choice import Choice, choosing
+from ridgeback.demand import Demand, demanding
 from ridgeback.derivation import Request, derived, requesting
 from ridgeback.failure import PartialError
-from ridgeback.high_order import ball_checks, high_order_options, in_balls
+from ridgeback.high_order import by_primes, in_balls
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.wording import as_text, certified, expressions, joined, range_of_use
@@ -27,20 +28,10 @@ if TYPE_CHECKING:
 @click.command("derive", short_help="Derive the frequency as an exact series.")
 @choosing
 @requesting
-@high_order_options
-@click.option("--verify", is_flag=True, help="Check the result by independent routes and print the certificate.")
+@demanding
 @format_option("text", "json", "latex", "mathml", "python", default="text")
 @output_option
-def command(
-    *,
-    choice: Choice,
-    request: Request,
-    digits: int | None,
-    checkpoint: str | None,
-    verify: bool,
-    style: str,
-    output: str,
-) -> None:
+def command(*, choice: Choice, request: Request, demand: Demand, output: str) -> None:
     """Derive the fundamental frequency of SYSTEM as a power series with exact coefficients.
 
     In the amplitude for conservative oscillators, in eps for limit cycles, and by multiple scales in the amplitude
@@ -53,68 +44,57 @@ def command(
     ridgeback derive --equation "u'' + u + alpha2*u**2 + alpha3*u**3 = 0" --order 4 --verify
     ridgeback derive --equation "u'' - u + u**3 = 0" --about 1
     ridgeback derive van-der-pol --order 400 --digits 30 --checkpoint vdp.state --budget 30min
+    ridgeback derive van-der-pol --order 96 --workers 8
+
+    JSON: system, method, amplitude, order, variables; frequency (damping, amplitude_series) as a list of powers and
+    coefficient.  Of balls also radius, ball and certain_digits (null: exact), and limits.  With --verify certificate.
     """
-    if checkpoint is not None and digits is None:
-        raise click.UsageError("--checkpoint belongs to --digits; leave it out, or say how many digits")
     oscillator = choice.oscillator()
-    if digits is not None:
-        checks = show_balls(oscillator, request, digits, checkpoint, verify=verify, style=style, output=output)
+    result: Result | BallExpansion
+    if demand.digits is not None:
+        result = in_balls(oscillator, request, demand.digits, demand.checkpoint)
+    elif demand.workers is not None:
+        result = by_primes(oscillator, request, demand.workers)
     else:
         result = derived(oscillator, request)
-        checks = certificate(oscillator, result) if verify else None
-        write_text(output, printed(oscillator, result, style, checks))
+    checks = certificate(oscillator, result) if demand.verify else None
+    write_text(output, printed(oscillator, result, demand.style, checks))
     if checks and not all(check.passed for check in checks if check.passed is not None):
         raise PartialError("the certificate does not hold; the output says which check failed")
 
 
-def show_balls(
-    oscillator: Oscillator,
-    request: Request,
-    digits: int,
-    checkpoint: str | None,
-    *,
-    verify: bool,
-    style: str,
-    output: str,
-) -> tuple[Check, ...] | None:
-    """Derive in balls and write them; the certificate is returned."""
-    if style not in ("text", "json"):
-        raise click.UsageError(f"--format {style} writes exact coefficients, not balls; use text or json")
-    found = in_balls(oscillator, request, digits, checkpoint)
-    checks = ball_checks(oscillator, found) if verify else None
-    write_text(output, printed_balls(oscillator, found, style, checks))
-    return checks
-
-
-def certificate(oscillator: Oscillator, result: Result) -> tuple[Check, ...]:
+def certificate(oscillator: Oscillator, result: Result | BallExpansion) -> tuple[Check, ...]:
     """Every independent check that applies."""
-    from symbolic.certificate import certify
+    from symbolic.ball_expansion import BallExpansion
+    from symbolic.certificate import certify, certify_balls
 
-    return certify(oscillator, result)
+    return certify_balls(oscillator, result) if isinstance(result, BallExpansion) else certify(oscillator, result)
 
 
-def printed(oscillator: Oscillator, result: Result, style: str, checks: tuple[Check, ...] | None) -> str:
+def printed(
+    oscillator: Oscillator, result: Result | BallExpansion, style: str, checks: tuple[Check, ...] | None
+) -> str:
     """The result in the form asked for, with a line end; the certificate goes with text and JSON."""
+    from symbolic.ball_expansion import BallExpansion
+
+    if style == "text":
+        return as_text(oscillator, result.to_dict()) + range_of_use(oscillator, result) + certified(checks)
+    if isinstance(result, BallExpansion) or style == "json":
+        return json_text({**result.to_dict(), **limit_rows(oscillator, result), **certificate_rows(checks)})
     match style:
-        case "json":
-            return json_text({**result.to_dict(), **certificate_rows(checks)})
         case "latex":
             return joined(result.latex())
         case "mathml":
             return joined(result.mathml())
-        case "python":
-            return joined(tuple(map(str, expressions(result))))
-    return as_text(oscillator, result.to_dict()) + range_of_use(oscillator, result) + certified(checks)
+    return joined(tuple(map(str, expressions(result))))
 
 
-def printed_balls(oscillator: Oscillator, found: BallExpansion, style: str, checks: tuple[Check, ...] | None) -> str:
-    """Balls as text or JSON, with the limits that they show."""
-    if style == "text":
-        return as_text(oscillator, found.to_dict()) + range_of_use(oscillator, found) + certified(checks)
+def limit_rows(oscillator: Oscillator, result: Result | BallExpansion) -> dict[str, dict[str, object]]:
+    """The limits that balls show, in JSON."""
     from symbolic.accuracy import settled_limits
+    from symbolic.ball_expansion import BallExpansion
 
-    limits = settled_limits(oscillator, found).to_dict()
-    return json_text({**found.to_dict(), "limits": limits, **certificate_rows(checks)})
+    return {"limits": settled_limits(oscillator, result).to_dict()} if isinstance(result, BallExpansion) else {}
 
 
 def certificate_rows(checks: tuple[Check, ...] | None) -> dict[str, list[dict[str, object]]]:
