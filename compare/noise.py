@@ -26,7 +26,7 @@ from numeric.track import Track
 
 METHODS = ("harmonic-least-squares", "pseudo-wigner", "smoothed-pseudo-wigner", "spectrogram", "zero-crossing")
 SNR_DB = (0.0, 10.0, 20.0, 30.0, 40.0)
-TRIALS = 40
+TRIALS = 20
 MOST_TRIALS = 100_000
 BUDGET_SECONDS = 3600.0
 BLOCK = 5
