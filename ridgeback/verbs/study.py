@@ -9,6 +9,7 @@ import click
 
 from ridgeback.arguments import GRID, ORDERS
 from ridgeback.choice import Choice, choosing
+from ridgeback.estimator_table import estimator_options, estimators_verb
 from ridgeback.failure import PartialError
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 @click.option(
     "--amplitudes",
     type=GRID,
-    required=True,
+    default=None,
     metavar="START:STOP:COUNT",
     help="Peak amplitudes (or values of eps), as a range with both ends or as a list with commas.",
 )
@@ -43,15 +44,20 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Prove every error in ball arithmetic, and put the resummations of the series beside it.",
 )
-@format_option("text", "json", "csv", default="text")
+@estimator_options
+@format_option("text", "json", "csv", "markdown", default="text")
 @output_option
 def command(
     *,
     choice: Choice,
     orders: tuple[int, ...],
-    amplitudes: tuple[float, ...],
+    amplitudes: tuple[float, ...] | None,
     method: str,
     certified: bool,
+    estimators: bool,
+    trials: int | None,
+    seed: int,
+    checkpoint: str | None,
     style: str,
     output: str,
 ) -> None:
@@ -61,7 +67,17 @@ def command(
     ridgeback study pendulum --orders 2,4,8,16 --amplitudes 0.1:3.0:30
     ridgeback study pendulum --orders 8,16 --amplitudes 1,2,3 --certified
     ridgeback study van-der-pol --orders 4,8 --amplitudes 0.1,0.5,1 --format csv
+    ridgeback study --estimators --checkpoint estimators.json
     """
+    if estimators:
+        if choice.made or amplitudes is not None or certified:
+            raise click.UsageError("--estimators is a study of its own; leave out what belongs to expansions")
+        estimators_verb(trials=trials, seed=seed, checkpoint=checkpoint, style=style, output=output)
+        return
+    if trials is not None or checkpoint is not None or style == "markdown":
+        raise click.UsageError("--trials, --checkpoint and --format markdown belong to --estimators")
+    if amplitudes is None:
+        raise click.UsageError("Missing option '--amplitudes': give a range such as 0.1:3.0:30, or a list with commas")
     if certified:
         write_text(output, proved(choice.oscillator(), orders, amplitudes, style))
         return
