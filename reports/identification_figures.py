@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from compare.identification.results import Candidate, Identification, MeasuredBackbone, Prediction
+from compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
 from reports.block import Block, Readout, block
 from reports.canvas import Array, Canvas, Line, draw, linear, padded, titles
 from reports.labels import place
@@ -162,8 +162,7 @@ def ranking_table(found: Identification) -> Table:
     fitted = tuple(
         Row(
             (
-                c.title,
-                c.damping_law,
+                f"{c.title}, {c.damping_law} damping",
                 number(c.delta, 3),
                 f"{100 * c.weight:.1f} %",
                 number(c.residual, 3),
@@ -176,8 +175,8 @@ def ranking_table(found: Identification) -> Table:
         "candidates",
         f"Candidates by {found.criterion_name}, counted on {number(found.effective_samples, 3)} independent samples; "
         f"Δ is the distance from the best, weight its share; residual: rms of samples less model{_unit(found)}.",
-        ("class", "damping", "Δ", "weight", "residual"),
-        (*fitted, *(Row((text, "", "", "", ""), failed=True) for text in found.failed)),
+        ("class", "Δ", "weight", "residual"),
+        (*fitted, *(Row((text, "", "", ""), failed=True) for text in found.failed)),
     )
 
 
@@ -186,9 +185,13 @@ def parameter_table(candidate: Candidate) -> Table:
     return Table(
         "parameters",
         f"{candidate.title}: {candidate.equation}",
-        ("parameter", "value", "95 % interval", "unit", "meaning"),
+        ("parameter", "value", "95 % interval", "unit"),
         tuple(
-            Row((p.name, number(p.value, 6), " to ".join(number(end, 5) for end in p.interval()), p.unit, p.meaning))
+            Row((_named(p), number(p.value, 6), " to ".join(number(end, 5) for end in p.interval()), p.unit))
             for p in candidate.parameters
         ),
     )
+
+
+def _named(parameter: Parameter) -> str:
+    return f"{parameter.name}, {parameter.meaning}" if parameter.meaning else parameter.name

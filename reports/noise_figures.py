@@ -87,7 +87,7 @@ def error_figure(study: NoiseStudy) -> Block:
         place(axes, [bound, *lines])
 
     caption = (
-        f"Relative rms error of ω₀(t) over the interior of the record against noise. {_shared(study)} "
+        f"Relative rms error of ω₀(t) over the interior of the record against noise: {_shared(study)} "
         f"The dashed line is the Cramér-Rao bound of the {study.bound}."
     )
     return block(
@@ -148,19 +148,20 @@ def noise_table(study: NoiseStudy) -> Table:
         "noise",
         f"Estimators in white noise: {study.truth}. Seed {study.seed}, {study.trials} trials a row; ± is one standard "
         "deviation of the Monte-Carlo mean. Coverage is of the 95 % interval; a dash: none claimed.",
-        ("method, SNR", "rms", "mean error", "rms over bound", "coverage", "lost", "refused"),
+        ("method", "SNR", "rms", "mean error", "over bound", "coverage", "lost", "refused"),
         tuple(_row(cell) for cell in study.cells),
     )
 
 
 def _row(cell: NoiseCell) -> Row:
-    first = f"{cell.method}, {number(cell.snr_db)} dB"
+    ratio = f"{number(cell.snr_db)} dB"
     if cell.rms is None:
-        return Row((first, *(NONE,) * 4, NONE, str(cell.failures)), cell.reason, failed=True)
+        return Row((cell.method, ratio, *(NONE,) * 5, str(cell.failures)), cell.reason, failed=True)
     return Row(
         (
-            first,
-            _with(relative(cell.rms), None if cell.rms_sd is None else relative(cell.rms_sd)),
+            cell.method,
+            ratio,
+            _with(number(100 * cell.rms, 3), None if cell.rms_sd is None else number(100 * cell.rms_sd, 2)) + " %",
             relative(cell.bias, signed=True),
             _with(number(cell.ratio, 3), None if cell.ratio_sd is None else number(cell.ratio_sd, 2)),
             NONE if cell.coverage is None else f"{100 * cell.coverage:.0f} %",
