@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from numeric.arrays import frozen
 from numeric.errors import InputError
-from numeric.harmonic_fit import HarmonicFit, Shape, choose_multiples, harmonic_fit
+from numeric.harmonic_fit import Shape, choose_multiples, harmonic_fit
 from numeric.harmonics import carrier
 from numeric.samples import TWO_PI, Array, Mask, checked_rate, checked_real_samples
 from numeric.track import Track
@@ -26,7 +26,7 @@ CLEAR = 5.0
 
 @dataclass(frozen=True)
 class Backbone:
-    """omega0 and a'/a against the amplitude a; ``definition`` says which amplitude: that of the first harmonic.
+    """omega0 and a'/a against the amplitude a; ``definition`` says which amplitude, "fundamental" or "peak".
 
     Along time: ``time, amplitude, omega, damping`` (a'/a per time unit, negative in a decay) with one-sigma ``_sd``.
     The curve: ``curve_amplitude`` rising, ``curve_omega``, ``curve_damping`` with ``_sd``: means over bins of
@@ -72,13 +72,20 @@ class Backbone:
 
 
 def backbone(
-    track: Track, x: ArrayLike, rate: float, *, start: float | None = None, window_seconds: float | None = None
+    track: Track,
+    x: ArrayLike,
+    rate: float,
+    *,
+    start: float | None = None,
+    window_seconds: float | None = None,
+    exclude: Mask | None = None,
 ) -> Backbone:
     """Measure amplitude and damping along a frequency track and set omega0 against amplitude.
 
     The amplitude and its logarithmic slope come from local harmonic least squares over ``window_seconds`` (default
     four cycles), started from the track; omega comes from the track itself.  ``start`` is the time of the first sample
-    (default: as the track noted it).  Raises InputError when fewer than four points are clear of the noise.
+    (default: as the track noted it).  Points whose window holds a sample of ``exclude`` (clipped ones) are left out.
+    Raises InputError when fewer than four points are clear of the noise.
 
     >>> from numeric.estimate import estimate
     >>> t = np.arange(1280) / 32.0
@@ -99,53 +106,95 @@ def backbone(
     centres = np.arange(0, samples.size, max(1, round(cycle * rate / POINTS_PER_CYCLE)))
     fit = harmonic_fit(real, rate, base.omega, half=half, shape=shape, start_time=first, centres=centres)
     seen = fit.settled if track.settings.get("one_sided_borders") else fit.valid & base.valid[centres]
-    usable = seen & (fit.amplitude > CLEAR * fit.amplitude_sd)
+    clean = ~touched(samples.size, centres, half, exclude)
+    usable = seen & clean & (fit.amplitude > CLEAR * fit.amplitude_sd)
     if np.count_nonzero(usable) < 4:
         raise InputError(
-            f"backbone: {np.count_nonzero(usable)} points are clear of the noise; give a longer or less noisy record"
+            f"backbone: {np.count_nonzero(usable)} points are clear of the noise"
+            f"{'' if clean.all() else ' and of clipped samples'}; give a longer or less noisy record"
         )
     omega = base.omega[centres]
     omega_sd = fit.standard_deviation
     if track.standard_deviation is not None:
         omega_sd = np.interp(fit.time, track.time, track.standard_deviation)
-    return assemble(fit, usable, omega, omega_sd, offset, track.method)
+    points = Points(fit.time, fit.amplitude, fit.amplitude_sd, omega, omega_sd, fit.growth, fit.growth_sd).at(usable)
+    crowding = max(1.0, fit.window_seconds / float(np.median(np.diff(fit.time))))
+    settings = {"track": track.method, "window_seconds": fit.window_seconds, "harmonics": (1, *shape.multiples)}
+    notes = [f"The mean of the samples, {offset:.4g}, was removed.", *left_out_notes(usable, clean)]
+    return assemble(points, crowding=crowding, offset=offset, settings=settings, notes=notes)
 
 
-def assemble(fit: HarmonicFit, usable: Mask, omega: Array, omega_sd: Array, offset: float, method: str) -> Backbone:
-    """Put the usable points into a Backbone and bin them over amplitude."""
-    a, w, s = fit.amplitude[usable], omega[usable], omega_sd[usable]
-    d, ds = fit.growth[usable], fit.growth_sd[usable]
+def touched(size: int, centres: NDArray[np.intp], half: int, exclude: Mask | None) -> Mask:
+    """Which of the windows of harmonic least squares round ``centres`` hold an excluded sample.
+
+    >>> touched(9, np.array([1, 4, 7]), 1, np.arange(9) == 6).tolist()
+    [False, False, True]
+    """
+    if exclude is None:
+        return np.zeros(centres.size, dtype=np.bool_)
+    before = np.concatenate([[0], np.cumsum(exclude)])
+    begins = np.clip(centres - half, 0, size - 2 * half - 1)
+    return np.asarray(before[begins + 2 * half + 1] > before[begins])
+
+
+def left_out_notes(usable: Mask, clean: Mask) -> list[str]:
+    """How many points were left out, and why."""
+    notes, unclear = [], int(np.count_nonzero(clean & ~usable))
+    if unclear:
+        notes.append(
+            f"{unclear} of {usable.size} points lie near a border or are not {CLEAR:g} times above noise; left out."
+        )
+    if not clean.all():
+        notes.append(
+            f"{np.count_nonzero(~clean)} of {usable.size} points have clipped samples in their window; left out."
+        )
+    return notes
+
+
+@dataclass(frozen=True)
+class Points:
+    """Amplitude, frequency and damping along time with their standard deviations, before they are binned."""
+
+    time: Array
+    amplitude: Array
+    amplitude_sd: Array
+    omega: Array
+    omega_sd: Array
+    damping: Array
+    damping_sd: Array
+
+    def at(self, keep: Mask) -> Points:
+        """Some of the points."""
+        return Points(**{item.name: getattr(self, item.name)[keep] for item in fields(self)})
+
+
+def assemble(
+    points: Points,
+    *,
+    crowding: float,
+    offset: float,
+    settings: Mapping[str, object],
+    notes: Sequence[str],
+    definition: str = "fundamental",
+) -> Backbone:
+    """Put points into a Backbone and bin them over amplitude; ``crowding`` neighbours count as one."""
+    a, w, s = points.amplitude, points.omega, points.omega_sd
     edges = np.linspace(a.min(), a.max(), min(MOST_BINS, max(2, a.size // 4)) + 1)
     bin_of = np.clip(np.digitize(a, edges) - 1, 0, edges.size - 2)
-    filled = np.unique(bin_of)
-    spacing = float(np.median(np.diff(fit.time)))
-    crowding = max(1.0, fit.window_seconds / spacing)
-    of = [np.flatnonzero(bin_of == b) for b in filled]
+    of = [np.flatnonzero(bin_of == b) for b in np.unique(bin_of)]
     weights = 1.0 / np.maximum(s, 1e-9 * w.max()) ** 2
-    curve_amplitude = np.array([np.average(a[i], weights=weights[i]) for i in of])
     curve_omega = np.array([pooled(w[i], s[i], weights[i], crowding) for i in of])
-    curve_damping = np.array([pooled(d[i], ds[i], weights[i], crowding) for i in of])
-    left_out = int(usable.size - a.size)
-    notes = [f"The mean of the samples, {offset:.4g}, was removed."]
-    if left_out:
-        notes.append(
-            f"{left_out} of {usable.size} points lie near a border or are not {CLEAR:g} times above noise; left out."
-        )
+    curve_damping = np.array([pooled(points.damping[i], points.damping_sd[i], weights[i], crowding) for i in of])
     return Backbone(
-        time=fit.time[usable],
-        amplitude=a,
-        amplitude_sd=fit.amplitude_sd[usable],
-        omega=w,
-        omega_sd=s,
-        damping=d,
-        damping_sd=ds,
-        curve_amplitude=curve_amplitude,
+        **{item.name: getattr(points, item.name) for item in fields(points)},
+        curve_amplitude=np.array([np.average(a[i], weights=weights[i]) for i in of]),
         curve_omega=curve_omega[:, 0],
         curve_omega_sd=curve_omega[:, 1],
         curve_damping=curve_damping[:, 0],
         curve_damping_sd=curve_damping[:, 1],
         offset=offset,
-        settings={"track": method, "window_seconds": fit.window_seconds, "harmonics": (1, *fit.shape.multiples)},
+        definition=definition,
+        settings=settings,
         notes=tuple(notes),
     )
 
