@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from fractions import Fraction
 from functools import wraps
 from typing import Any
 
 import click
 
+from ridgeback.arguments import rational, shown, written
+from ridgeback.grids import amplitudes
 from ridgeback.long_run import checkpoint_path
 
 Command = Callable[..., None]
 
-# The forms that each use has; the first use that is asked for names the row.
-FORMS = {
-    "digits": ("text", "json"),
-    "workers": ("text", "json", "latex", "mathml", "python"),
-}
 PLAIN = ("text", "json", "latex", "mathml", "python")
-NEEDS = {"checkpoint": "digits"}
+TABLE = ("text", "json", "csv")
+ALL = (*PLAIN, "csv")
+
+# What can be made of an expansion, one at a time, and the forms that each has; --at goes with the first three.
+USES = {"digits": ("text", "json"), "workers": PLAIN, "resummed": PLAIN}
+NEEDS = {"checkpoint": "digits", "degrees": "resummed", "growth": "resummed"}
+# Not of the expansion that is printed, so that a certificate would be of something else.
+UNVERIFIED = ("resummed",)
 
 
 @dataclass(frozen=True)
@@ -29,6 +35,10 @@ class Demand:
     digits: int | None = None
     checkpoint: str | None = None
     workers: int | None = None
+    at: tuple[Fraction, ...] | None = None
+    resummed: str | None = None
+    degrees: tuple[int, int] | None = None
+    growth: Fraction | None = None
     verify: bool = False
     style: str = "text"
 
@@ -47,15 +57,32 @@ class Demand:
         for name, other in NEEDS.items():
             if self.asked(name) and not self.asked(other):
                 raise click.UsageError(f"--{name} belongs to --{other}; leave it out, or give --{other}")
-        uses = [name for name in FORMS if self.asked(name)]
+        uses = [name for name in USES if self.asked(name)]
         if len(uses) > 1:
             raise click.UsageError(f"--{uses[0]} and --{uses[1]} exclude each other; keep one")
-        forms = FORMS[uses[0]] if uses else PLAIN
+        if self.verify and uses and uses[0] in UNVERIFIED:
+            raise click.UsageError(f"--verify certifies an expansion, not what --{uses[0]} makes of it; keep one")
+        self._check_form("at" if self.asked("at") else uses[0] if uses else "")
+
+    def _check_form(self, use: str) -> None:
+        forms = TABLE if use == "at" else USES.get(use, PLAIN)
         if self.style not in forms:
-            with_what = f"--{uses[0]}" if uses else "an expansion"
+            with_what = f"--{use}" if use else "an expansion"
             raise click.UsageError(
                 f"--format {self.style} does not go with {with_what}; use {', '.join(forms[:-1])} or {forms[-1]}"
             )
+
+
+def degrees(text: str) -> tuple[int, int]:
+    """The degrees of a quotient of polynomials.
+
+    >>> degrees("3/2")
+    (3, 2)
+    """
+    found = re.fullmatch(r"(\d{1,4})/(\d{1,4})", text.strip(), re.ASCII)
+    if found is None:
+        raise ValueError(f"{shown(text)} are no degrees; write for example 3/2")
+    return int(found[1]), int(found[2])
 
 
 def demanding(command: Command) -> Command:
@@ -69,6 +96,35 @@ def demanding(command: Command) -> Command:
 
     for option in (
         click.option("--verify", is_flag=True, help="Check by independent routes and print the certificate."),
+        click.option(
+            "--growth",
+            type=written(rational),
+            default=None,
+            metavar="P",
+            help="With --resummed map: the power of x that omega0 follows at infinity, x the square of the variable.",
+        ),
+        click.option(
+            "--degrees",
+            type=written(degrees),
+            default=None,
+            metavar="M/N",
+            help="With --resummed: degrees of numerator and denominator.  Default: equal ones; for a map N = 0.",
+        ),
+        click.option(
+            "--resummed",
+            type=click.Choice(("pade", "map", "nome")),
+            default=None,
+            help="Another formula from the same coefficients: a Padé approximant, the change of variable that moves "
+            "the nearest singularity away, the elliptic nome.",
+        ),
+        click.option(
+            "--at",
+            type=written(amplitudes),
+            default=None,
+            metavar="A,...",
+            help="Enclose the exact frequency at these amplitudes (or START:STOP:COUNT), and prove the error of the "
+            "series there.",
+        ),
         click.option(
             "--workers",
             type=click.IntRange(1, 1024),

@@ -29,7 +29,7 @@ import sympy
 
 from symbolic.errors import InputError
 from symbolic.nodes import Call, Name, Negate, Node, Number, Power, Product, Quotient, Sum, Unknown, to_text
-from symbolic.oscillator import Oscillator
+from symbolic.oscillator import NoLinearForceError, Oscillator
 from symbolic.parameters import Value
 from symbolic.parse import U, V, W, parse_equation, parse_expression, to_sympy
 
@@ -64,6 +64,8 @@ def from_text(
     moved = to_text(moved_tree, unknown=tree.unknown) + " = 0"
     try:
         return Oscillator.from_equation(moved, parameters=parameters, **details)
+    except NoLinearForceError as reason:
+        raise NoLinearForceError(f"about {about}: {reason}", reason.oscillator) from None
     except InputError as reason:
         raise InputError(f"about {about}: {reason}") from None
 
@@ -105,6 +107,8 @@ def read_description(path: str | Path) -> Oscillator:
         raise InputError(f"{file} is not TOML: {reason}") from None
     try:
         return from_table(table, name=file.stem)
+    except NoLinearForceError as reason:
+        raise NoLinearForceError(f"{file}: {reason}", reason.oscillator) from None
     except InputError as reason:
         raise InputError(f"{file}: {reason}") from None
 

@@ -1,5 +1,7 @@
 r"""omega0 in closed form, by the arithmetic-geometric mean M, for the two families that have one (units with k = 1).
 
+A third one, potentials of a single power, is in ``power_law``.
+
 Pendulum type, force sin(c u)/c:  omega0 = M(1, cos(c A / 2)).
 
 Quartic potentials (Duffing, Helmholtz-Duffing and all that lie between): with V(A) - V(u) = (A - u)(u - B) Q(u),
@@ -20,6 +22,7 @@ from flint import arb, fmpq, fmpq_poly
 
 from symbolic.balls import rational
 from symbolic.oscillator import U
+from symbolic.power_law import power_law
 from symbolic.turning_points import Orbit
 from symbolic.well import Well
 
@@ -35,6 +38,9 @@ def closed_form(well: Well, orbit: Orbit) -> arb | None:
     '1.31777606497'
     """
     if well.polynomial is not None:
+        law = power_law(well.polynomial) if well.polynomial.degree() > 4 else None
+        if law is not None:
+            return law.frequency(orbit.peak)
         return quartic(well.polynomial, orbit) if well.polynomial.degree() <= 4 else None
     rate = pendulum_rate(well)
     return None if rate is None else pendulum(rate, orbit.peak)

@@ -73,7 +73,7 @@ class Enclosure:
     @property
     def upper(self) -> float:
         """The smallest float that is certainly not below omega0."""
-        return -rounded_down(-self.omega)
+        return rounded_up(self.omega)
 
     @property
     def middle(self) -> arb:
@@ -112,13 +112,20 @@ def enclose(
         ...
     symbolic.errors.InputError: duffing-softening: peak amplitude 1 is at or beyond the separatrix at 1; use less
     """
+    return enclose_in(well_of(oscillator), amplitude, definition=definition, bits=bits, method=method)
+
+
+def enclose_in(
+    well: Well, amplitude: Amplitude, *, definition: str = "peak", bits: int = 128, method: Method | None = None
+) -> Enclosure:
+    """Enclose omega0 at an amplitude of the motion in a well; see ``enclose``."""
     size, bits = _exact(amplitude), _checked_bits(bits)
     if definition not in DEFINITIONS:
         raise InputError(
             f"amplitude {definition!r} has no enclosure, for which the turning point must be known exactly; "
             f"use {' or '.join(DEFINITIONS)}"
         )
-    well = well_of(oscillator, mirrored=definition == "trough")
+    well = well.mirrored() if definition == "trough" else well
     value, place, how = _at_rest(well, bits) if size == 0 else _swinging(well, size, bits, method, definition)
     peak, trough = (place.peak, place.trough) if definition == "peak" else (-place.trough, -place.peak)
     exact = sympy.Rational(size.numerator, size.denominator)
@@ -172,6 +179,15 @@ def rounded_down(ball: arb) -> float:
     low = ball.lower()
     value = float(low)
     return value if arb(value) <= low else math.nextafter(value, -math.inf)
+
+
+def rounded_up(ball: arb) -> float:
+    """The smallest float that is not below any point of the ball.
+
+    >>> rounded_up(arb(1) / 3) > Fraction(1, 3)
+    True
+    """
+    return -rounded_down(-ball)
 
 
 def _exact(amplitude: Amplitude) -> Fraction:

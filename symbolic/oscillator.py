@@ -27,6 +27,14 @@ __all__ = ["Kind", "Normalised", "Oscillator", "U", "V", "Value", "W"]
 Kind: TypeAlias = Literal["conservative", "damped", "limit-cycle"]
 
 
+class NoLinearForceError(InputError):
+    """There is nothing to expand about; ``oscillator`` is what was read, for ``symbolic.strong`` only."""
+
+    def __init__(self, message: str, oscillator: Oscillator) -> None:
+        super().__init__(message)
+        self.oscillator = oscillator
+
+
 @dataclass(frozen=True)
 class Normalised:
     """An oscillator in natural units: time is tau = k*t, u is unchanged, and ' is d/dtau, so that u'' + u + ... = 0.
@@ -207,7 +215,7 @@ class Oscillator:
         slope = self.force.diff(U)
         sign = sign_at_origin(slope, self.parameters)
         if self.stiffness == 0 or sign == 0:
-            raise InputError(_no_linear_force(self.name))
+            raise NoLinearForceError(_no_linear_force(self.name), self)
         if sign == -1 or self.stiffness.is_nonpositive:
             raise InputError(
                 f"{self.name}: the origin is a saddle, since the linear restoring coefficient "
@@ -271,5 +279,5 @@ def _no_linear_force(name: str) -> str:
     return (
         f"{name}: there is no linear restoring force at u = 0, so the frequency vanishes with the amplitude "
         "(u'' + u**3 = 0 has omega proportional to A) and no expansion about a natural frequency exists; "
-        "add a linear term k**2*u, or compute the period by quadrature"
+        "add a linear term k**2*u, or compute the period by quadrature (derive --at 1 encloses it)"
     )

@@ -65,6 +65,17 @@ class RationalForm(Resummation):
         vanishing = as_expression(tuple(padded(self.mapping.vanishing, 3)), w)
         return quotient * vanishing ** sympy.Rational(-self.growth / self.mapping.rate)
 
+    def to_dict(self) -> dict[str, object]:
+        """The public JSON form: exact coefficients of both polynomials in w, w itself, and the first positive pole."""
+        return {
+            **super().to_dict(),
+            "numerator": [str(c) for c in self.numerator],
+            "denominator": [str(c) for c in self.denominator],
+            "w": str(self.mapping.expression(sympy.Symbol("X", real=True) ** self.step)),
+            "growth": str(self.growth),
+            "pole": None if self.pole is None else float(self.pole),
+        }
+
     def refusal(self, value: arb) -> str | None:
         if self.pole is None or abs(value) < self.pole:
             return None

@@ -97,7 +97,7 @@ def well_of(oscillator: Oscillator, *, mirrored: bool = False) -> Well:
         inertia=inertia,
         scale=oscillator.natural_frequency,
         even=all(sympy.expand(e - e.subs(U, -U)) == 0 for e in (potential, inertia)),
-        polynomial=_exact_polynomial(potential) if inertia == 1 else None,
+        polynomial=exact_polynomial(potential) if inertia == 1 else None,
     )
 
 
@@ -153,7 +153,12 @@ def _log_from_origin(argument: sympy.Expr) -> sympy.Expr:
     return sympy.log(sympy.expand(argument / argument.subs(U, 0)))
 
 
-def _exact_polynomial(potential: sympy.Expr) -> fmpq_poly | None:
+def exact_polynomial(potential: sympy.Expr) -> fmpq_poly | None:
+    """A potential as a polynomial with rational coefficients, None when it is none.
+
+    >>> exact_polynomial(U**4 / 4)
+    1/4*x^4
+    """
     if not potential.is_polynomial(U):
         return None
     coefficients = sympy.Poly(potential, U).all_coeffs()[::-1]

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from ridgeback.at import as_csv as at_csv
+from ridgeback.at import as_text as at_text
+from ridgeback.at import read_at, rows, strong
 from ridgeback.choice import Choice, choosing
 from ridgeback.demand import Demand, demanding
 from ridgeback.derivation import Request, derived, requesting
@@ -13,6 +17,7 @@ from ridgeback.failure import PartialError
 from ridgeback.high_order import by_primes, in_balls
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
+from ridgeback.resumming import formula_text, resummed_from
 from ridgeback.wording import as_text, certified, expressions, joined, range_of_use
 
 if TYPE_CHECKING:
@@ -20,6 +25,7 @@ if TYPE_CHECKING:
     from symbolic.certificate import Check
     from symbolic.expansion import Expansion
     from symbolic.oscillator import Oscillator
+    from symbolic.readings import Reading
     from symbolic.slow_flow import SlowFlow
 
     Result = Expansion | SlowFlow
@@ -29,7 +35,7 @@ if TYPE_CHECKING:
 @choosing
 @requesting
 @demanding
-@format_option("text", "json", "latex", "mathml", "python", default="text")
+@format_option("text", "json", "latex", "mathml", "python", "csv", default="text")
 @output_option
 def command(*, choice: Choice, request: Request, demand: Demand, output: str) -> None:
     """Derive the fundamental frequency of SYSTEM as a power series with exact coefficients.
@@ -45,22 +51,57 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     ridgeback derive --equation "u'' - u + u**3 = 0" --about 1
     ridgeback derive van-der-pol --order 400 --digits 30 --checkpoint vdp.state --budget 30min
     ridgeback derive van-der-pol --order 96 --workers 8
+    ridgeback derive pendulum --at 1,2.5                       certified errors of the series
+    ridgeback derive --equation "u'' + u**3 = 0" --at 1,2      no expansion, but an exact frequency
+    ridgeback derive pendulum --order 16 --resummed pade --at 2.5
 
     JSON: system, method, amplitude, order, variables; frequency (damping, amplitude_series) as a list of powers and
     coefficient.  Of balls also radius, ball and certain_digits (null: exact), and limits.  With --verify certificate.
+    With --at a list of amplitude, omega0, radius (of its certified ball), formula_omega0, relative_error, error_bound.
     """
-    oscillator = choice.oscillator()
-    result: Result | BallExpansion
-    if demand.digits is not None:
-        result = in_balls(oscillator, request, demand.digits, demand.checkpoint)
-    elif demand.workers is not None:
-        result = by_primes(oscillator, request, demand.workers)
-    else:
-        result = derived(oscillator, request)
+    try:
+        oscillator = choice.oscillator()
+    except ValueError as refusal:
+        write_text(output, strong(unexpandable(refusal, demand), request, demand))
+        return
+    result = derived_as(oscillator, request, demand)
+    if demand.resummed is not None:
+        write_text(output, resummation(oscillator, result, demand))
+        return
     checks = certificate(oscillator, result) if demand.verify else None
-    write_text(output, printed(oscillator, result, demand.style, checks))
+    write_text(output, printed(oscillator, result, demand, checks))
     if checks and not all(check.passed for check in checks if check.passed is not None):
         raise PartialError("the certificate does not hold; the output says which check failed")
+
+
+def unexpandable(refusal: ValueError, demand: Demand) -> Oscillator:
+    """The oscillator that has no expansion for want of a linear force but can be enclosed; raises what else it is."""
+    from symbolic.oscillator import NoLinearForceError
+
+    if demand.at is None or not isinstance(refusal, NoLinearForceError):
+        raise refusal
+    return refusal.oscillator
+
+
+def derived_as(oscillator: Oscillator, request: Request, demand: Demand) -> Result | BallExpansion:
+    """The expansion, by the arithmetic asked for."""
+    if demand.digits is not None:
+        return in_balls(oscillator, request, demand.digits, demand.checkpoint)
+    if demand.workers is not None:
+        return by_primes(oscillator, request, demand.workers)
+    return derived(oscillator, request)
+
+
+def resummation(oscillator: Oscillator, result: Any, demand: Demand) -> str:
+    """The output of another formula from the coefficients, with its certified errors where they are asked for."""
+    formula = resummed_from(oscillator, result, demand)
+    found = read_at(oscillator, formula, demand) if demand.at else ()
+    if demand.style == "json":
+        return json_text({**formula.to_dict(), **at_rows(found, demand)})
+    if demand.style == "csv":
+        return at_csv(found, demand)
+    table = at_text(found, demand, formula.method, formula.amplitude) if found else ""
+    return formula_text(oscillator, formula, demand.style) + table
 
 
 def certificate(oscillator: Oscillator, result: Result | BallExpansion) -> tuple[Check, ...]:
@@ -72,21 +113,36 @@ def certificate(oscillator: Oscillator, result: Result | BallExpansion) -> tuple
 
 
 def printed(
-    oscillator: Oscillator, result: Result | BallExpansion, style: str, checks: tuple[Check, ...] | None
+    oscillator: Oscillator, result: Result | BallExpansion, demand: Demand, checks: tuple[Check, ...] | None
 ) -> str:
     """The result in the form asked for, with a line end; the certificate goes with text and JSON."""
-    from symbolic.ball_expansion import BallExpansion
+    found = read_at(oscillator, result, demand) if demand.at else ()
+    match demand.style:
+        case "csv":
+            return at_csv(found, demand)
+        case "json":
+            more = {**limit_rows(oscillator, result), **certificate_rows(checks), **at_rows(found, demand)}
+            return json_text({**result.to_dict(), **more})
+        case "text":
+            table = at_text(found, demand, f"{result.method} to order {result.order}", result.amplitude)
+            below = range_of_use(oscillator, result) + (table if found else "") + certified(checks)
+            return as_text(oscillator, result.to_dict()) + below
+    return formulas(result, demand.style)
 
-    if style == "text":
-        return as_text(oscillator, result.to_dict()) + range_of_use(oscillator, result) + certified(checks)
-    if isinstance(result, BallExpansion) or style == "json":
-        return json_text({**result.to_dict(), **limit_rows(oscillator, result), **certificate_rows(checks)})
+
+def formulas(result: Any, style: str) -> str:
+    """Exact coefficients in a language of formulas."""
     match style:
         case "latex":
             return joined(result.latex())
         case "mathml":
             return joined(result.mathml())
     return joined(tuple(map(str, expressions(result))))
+
+
+def at_rows(found: Sequence[Reading], demand: Demand) -> dict[str, list[dict[str, object]]]:
+    """The frequencies at amplitudes in JSON, when they are asked for."""
+    return {"at": rows(found, demand)} if found else {}
 
 
 def limit_rows(oscillator: Oscillator, result: Result | BallExpansion) -> dict[str, dict[str, object]]:

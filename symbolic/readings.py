@@ -1,0 +1,84 @@
+"""The exact frequency at given amplitudes, enclosed, and a formula held against it there with its certified error."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TypeAlias
+
+from flint import arb, ctx
+
+from symbolic.accuracy import check_belongs
+from symbolic.ball_expansion import BallExpansion, ball_row
+from symbolic.balls import rational
+from symbolic.enclosure import Enclosure, enclose, rounded_up
+from symbolic.errors import InputError
+from symbolic.expansion import Expansion
+from symbolic.oscillator import Oscillator
+from symbolic.resummation import Resummation
+
+Formula: TypeAlias = Expansion | BallExpansion | Resummation
+
+GUARD = 40
+ERROR_DIGITS = 6
+"""Digits in which an error is printed."""
+
+
+@dataclass(frozen=True)
+class Reading:
+    """omega0 at one amplitude; ``value`` is a formula's omega0 there, ``error`` is value/omega0 - 1, both in balls."""
+
+    exact: Enclosure
+    value: arb | None = None
+    error: arb | None = None
+
+    def to_dict(self, digits: int) -> dict[str, object]:
+        """The public JSON form: decimals with the radius that the truth is within.
+
+        ``formula_omega0`` is what the formula gives; ``relative_error`` is signed, and its size is certainly at most
+        ``error_bound``.
+        """
+        with ctx.workprec(self.exact.bits + GUARD):
+            ball = ball_row(self.exact.omega, digits)
+            row: dict[str, object] = {
+                "amplitude": float(self.exact.amplitude),
+                "amplitude_exact": str(self.exact.amplitude),
+                "omega0": ball["coefficient"],
+                "radius": ball["radius"],
+                "certain_digits": ball["certain_digits"],
+                "by": self.exact.method,
+            }
+            if self.value is None or self.error is None:
+                return row
+            row["formula_omega0"] = self.value.str(digits, radius=False)
+            row["relative_error"] = None if self.error.contains(0) else self.error.str(ERROR_DIGITS, radius=False)
+            row["error_bound"] = rounded_up(abs(self.error))
+            return row
+
+
+def readings(
+    oscillator: Oscillator, formula: Formula, amplitudes: Sequence[Fraction], *, bits: int = 128
+) -> tuple[Reading, ...]:
+    """Enclose omega0 at each amplitude, in the formula's own definition, and the formula with its error.
+
+    Raises InputError as ``enclosure.enclose`` does (limit cycles, damping, the separatrix), for definitions without an
+    enclosure, for another oscillator's formula, and where the formula does not hold.
+
+    >>> from symbolic.lindstedt import lindstedt
+    >>> from symbolic.systems import find
+    >>> row = readings(find("pendulum"), lindstedt(find("pendulum"), 8), [Fraction(1)])[0].to_dict(12)
+    >>> row["omega0"], row["relative_error"]
+    ('0.937792258051', '1.71087e-7')
+    """
+    found = []
+    for amplitude in amplitudes:
+        exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
+        if isinstance(formula, Expansion):
+            check_belongs(oscillator, formula)
+        if formula.variable != "A" or formula.system != oscillator.name:
+            raise InputError(f"{formula.method} of {formula.system} is no series of {oscillator.name} in its amplitude")
+        with ctx.workprec(bits + GUARD):
+            value = formula.in_balls(arb(rational(exact.amplitude)))
+            found.append(Reading(exact, value, value / exact.omega - 1))
+    return tuple(found)

@@ -1,0 +1,112 @@
+"""``derive --at`` and ``--resummed``: rows, keys, and what does not go together."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+Ridgeback = Callable[..., Any]  # the fixture of conftest.py
+
+KEYS = ["amplitude", "amplitude_exact", "omega0", "radius", "certain_digits", "by", "formula_omega0", "relative_error"]
+
+
+def said(ridgeback: Ridgeback, words: str) -> str:
+    done = ridgeback("derive", *words.split())
+    assert (done.code, done.err) == (0, "")
+    return str(done.out)
+
+
+def test_the_series_stands_beside_the_exact_frequency(ridgeback: Ridgeback) -> None:
+    done = ridgeback("derive", "pendulum", "--order", "4", "--at", "1,2.5", "--format", "json")
+    public = json.loads(done.out)
+    assert (done.code, done.err) == (0, "")
+    assert [list(row) for row in public["at"]] == [[*KEYS, "error_bound"]] * 2
+    first = public["at"][0]
+    assert float(first["formula_omega0"]) == pytest.approx(1 - 1 / 16 + 1 / 3072, rel=1e-15)
+    true = float(first["formula_omega0"]) / 0.93779225805142846725 - 1
+    assert float(first["relative_error"]) == pytest.approx(true, rel=1e-5)
+    assert public["at"][1]["amplitude_exact"] == "5/2"
+    text = ridgeback("derive", "pendulum", "--order", "4", "--at", "1,2.5").out
+    assert first["omega0"] in text
+    rows = list(csv.DictReader(io.StringIO(said(ridgeback, "pendulum --at 0.5:2.5:5 --format csv"))))
+    assert [row["amplitude"] for row in rows] == ["0.5", "1.0", "1.5", "2.0", "2.5"]
+
+
+def test_a_cubic_force_has_a_frequency_proportional_to_the_amplitude(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    words = ["derive", "--equation", "u'' + u**3 = 0"]
+    refused = ridgeback(*words)
+    assert refused.code == 2
+    assert "omega proportional to A" in refused.err
+    assert "--at" in refused.err
+    public = json.loads(ridgeback(*words, "--at", "1,2", "--digits", "30", "--format", "json").out)
+    one, two = (float(row["omega0"]) for row in public["at"])
+    # Gamma(3/4) sqrt(pi/8) / Gamma(5/4)
+    assert one == pytest.approx(math.gamma(0.75) / math.gamma(1.25) * math.sqrt(math.pi / 8), rel=1e-15)
+    assert two == pytest.approx(2 * one, rel=1e-15)
+    assert public["power"] == 1
+    path = tmp_path / "cubic.toml"
+    path.write_text("[oscillator]\nequation = \"x'' + x**3 = 0\"\n")
+    assert public["factor"][:18] in ridgeback("derive", str(path), "--at", "1").out
+    about = ridgeback("derive", "--equation", "u'' + (u - 1)**3 = 0", "--about", "1", "--at", "1", "--format", "csv")
+    assert "0.8472130847939790866" in about.out
+
+
+def test_resummations_have_their_certified_errors(ridgeback: Ridgeback) -> None:
+    words = ["derive", "pendulum", "--order", "16", "--at", "2.5", "--format", "json", "--resummed"]
+    found = {kind: json.loads(ridgeback(*words, kind).out) for kind in ("pade", "map", "nome")}
+    assert found["pade"]["method"] == "Pade [4/4]"
+    assert found["pade"]["pole"] == pytest.approx(3.339538152)
+    series = json.loads(ridgeback("derive", "pendulum", "--order", "16", "--at", "2.5", "--format", "json").out)
+    assert all(row["at"][0]["error_bound"] < series["at"][0]["error_bound"] for row in (found["pade"], found["nome"]))
+    assert found["nome"]["at"][0]["error_bound"] < 1e-7
+    text = ridgeback("derive", "pendulum", "--order", "4", "--resummed", "pade").out
+    assert "omega0 = (1 - 11*A**2/192)/(A**2/192 + 1)" in text
+    assert said(ridgeback, "pendulum --order 4 --resummed pade --format latex").startswith(r"\omega_0(A)")
+    assert "1 - 11*A**2/192" in said(ridgeback, "pendulum --order 4 --resummed pade --format python")
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        ("pendulum --at 4", "separatrix at 3.14159"),
+        ("pendulum --at 0", "above 0"),
+        ("pendulum --at x", "not a finite number"),
+        ("pendulum --at 1:2", "START:STOP:COUNT"),
+        ("pendulum --at 2:1:5", "START < STOP"),
+        ("pendulum --at 1 --amplitude energy", "no enclosure"),
+        ("pendulum --at 1 --format latex", "text, json or csv"),
+        ("pendulum --format csv", "--format csv does not go with an expansion"),
+        ("van-der-pol --at 1", "limit cycle"),
+        ("damped-pendulum --at 1", "set the damping to 0"),
+        ("damped-pendulum --resummed pade", "slow flow"),
+        ("pendulum --resummed pade --order 16 --at 3.5", "pole at A = 3.339"),
+        ("pendulum --resummed pade --degrees 2/2 --order 4", "lower a degree"),
+        ("pendulum --resummed pade --verify", "--verify"),
+        ("pendulum --resummed pade --workers 2", "exclude each other"),
+        ("pendulum --degrees 1/1", "belongs to --resummed"),
+        ("pendulum --resummed pade --degrees 1", "write for example 3/2"),
+        ("van-der-pol --resummed nome", "peak amplitude"),
+        ("helmholtz-duffing --resummed nome", "neither"),
+    ],
+)
+def test_one_line_says_what_does_not_go(ridgeback: Ridgeback, words: str, why: str) -> None:
+    done = ridgeback("derive", *words.split())
+    assert (done.code, done.out) == (2, "")
+    assert done.err.count("\n") == 1
+    assert why in done.err
+
+
+@pytest.mark.parametrize(
+    ("option", "why"), [("--order 4", "--order"), ("--verify", "--verify"), ("--format latex", "text, json or csv")]
+)
+def test_options_of_expansions_are_refused_where_there_is_none(ridgeback: Ridgeback, option: str, why: str) -> None:
+    done = ridgeback("derive", "--equation", "u'' + u**3 = 0", "--at", "1", *option.split())
+    assert done.code == 2
+    assert why in done.err
