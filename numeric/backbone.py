@@ -176,12 +176,16 @@ def assemble(
     settings: Mapping[str, object],
     notes: Sequence[str],
     definition: str = "fundamental",
+    fewest: int = 1,
 ) -> Backbone:
-    """Put points into a Backbone and bin them over amplitude; ``crowding`` neighbours count as one."""
+    """Put points into a Backbone and bin them over amplitude, at least ``fewest`` in a bin.
+
+    ``crowding`` neighbours count as one independent value.
+    """
     a, w, s = points.amplitude, points.omega, points.omega_sd
     edges = np.linspace(a.min(), a.max(), min(MOST_BINS, max(2, a.size // 4)) + 1)
     bin_of = np.clip(np.digitize(a, edges) - 1, 0, edges.size - 2)
-    of = [np.flatnonzero(bin_of == b) for b in np.unique(bin_of)]
+    of = merged([np.flatnonzero(bin_of == b) for b in np.unique(bin_of)], fewest)
     weights = 1.0 / np.maximum(s, 1e-9 * w.max()) ** 2
     curve_omega = np.array([pooled(w[i], s[i], weights[i], crowding) for i in of])
     curve_damping = np.array([pooled(points.damping[i], points.damping_sd[i], weights[i], crowding) for i in of])
@@ -197,6 +201,24 @@ def assemble(
         settings=settings,
         notes=tuple(notes),
     )
+
+
+def merged(bins: list[NDArray[np.intp]], fewest: int) -> list[NDArray[np.intp]]:
+    """Join each bin with too few points to the next, the last to the one before.
+
+    >>> [part.tolist() for part in merged([np.array([0, 1]), np.array([2]), np.array([3, 4]), np.array([5])], 2)]
+    [[0, 1], [2, 3, 4, 5]]
+    """
+    found: list[NDArray[np.intp]] = []
+    open_bin = np.zeros(0, dtype=np.intp)
+    for part in bins:
+        open_bin = np.concatenate([open_bin, part])
+        if open_bin.size >= fewest:
+            found.append(open_bin)
+            open_bin = open_bin[:0]
+    if open_bin.size and found:
+        return [*found[:-1], np.concatenate([found[-1], open_bin])]
+    return found or [open_bin]
 
 
 def pooled(values: Array, deviations: Array, weights: Array, crowding: float) -> tuple[float, float]:

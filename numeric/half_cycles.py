@@ -105,7 +105,13 @@ class HalfCycles:
         ]
         settings = {"track": "half-cycles", **self.settings}
         return assemble(
-            points, crowding=1.0, offset=self.offset, settings=settings, notes=notes, definition=self.definition
+            points,
+            crowding=1.0,
+            offset=self.offset,
+            settings=settings,
+            notes=notes,
+            definition=self.definition,
+            fewest=FEWEST,
         )
 
 

@@ -6,7 +6,9 @@ each by ``var(--token)``, so that one drawing serves the light page, the dark pa
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -85,12 +87,32 @@ WIDE = Variant(name="wide", width=7.6, height=4.2)
 NARROW = Variant(name="narrow", width=3.75, height=3.6)
 
 
+_PLAIN: ContextVar[bool] = ContextVar("plain", default=False)
+
+
+@contextmanager
+def plain_colours() -> Iterator[None]:
+    """Draw in the light page's own colours instead of sentinels: for a picture that stands by itself.
+
+    >>> with plain_colours():
+    ...     sentinel("bg")
+    '#FFFFFF'
+    """
+    token = _PLAIN.set(True)
+    try:
+        yield
+    finally:
+        _PLAIN.reset(token)
+
+
 def sentinel(token: str) -> str:
     """Return the drawing colour that stands for a token.
 
     >>> sentinel("bg"), sentinel("fg")
     ('#01fe00', '#01fe01')
     """
+    if _PLAIN.get():
+        return TOKENS[token][0]
     return f"#01fe{list(TOKENS).index(token):02x}"
 
 

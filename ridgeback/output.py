@@ -60,7 +60,17 @@ def write_text(path: str, text: str) -> None:
     if target.exists() and not target.is_file():
         target.write_text(text, encoding="utf-8")
         return
-    replace_file(target, text)
+    replace_file(target, text.encode())
+
+
+def write_bytes(path: str, data: bytes) -> None:
+    """Write the whole content, or leave what was there; devices and pipes are written to."""
+    check_writable(path)
+    target = Path(path).resolve()
+    if target.exists() and not target.is_file():
+        target.write_bytes(data)
+        return
+    replace_file(target, data)
 
 
 def print_text(text: str) -> None:
@@ -76,13 +86,13 @@ def print_text(text: str) -> None:
     binary.flush()
 
 
-def replace_file(target: Path, text: str) -> None:
+def replace_file(target: Path, data: bytes) -> None:
     """Write beside the target, then put the finished file in its place in one step."""
     mode = target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~current_umask()
     descriptor, temporary = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name[:40]}.", suffix=".part")
     try:
-        with os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        with os.fdopen(descriptor, "wb") as file:
+            file.write(data)
             file.flush()
             os.fsync(file.fileno())
         Path(temporary).chmod(mode)

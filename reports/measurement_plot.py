@@ -1,0 +1,178 @@
+"""One picture of what was measured: signal and amplitude, frequency over time, backbone and damping, with bands."""
+
+from __future__ import annotations
+
+import io
+import re
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import matplotlib.style
+import numpy as np
+from matplotlib.axes import Axes
+
+from compare.measurement import Measurement, Survey
+from reports.canvas import Array, Canvas, Line, draw, linear, padded, titles
+from reports.labels import place
+from reports.theme import DRAWING, SERIES, Variant, plain_colours, sentinel
+from reports.time_figures import Clock
+
+KINDS = ("svg", "png", "pdf")
+CLOCK = Clock("s")
+PAGE = Variant("wide", 9.6, 6.4)
+MOST_POINTS = 4000
+"""Samples drawn of each signal: more than a picture has columns."""
+LEFT, GAP = 52.0, 66.0
+RESOLUTION = 160.0
+_NO_DATES = {
+    "svg": dict.fromkeys(("Creator", "Date", "Format", "Type")),
+    "pdf": {"Creator": None, "Producer": None, "CreationDate": None},
+    "png": {"Software": None},
+}
+
+
+@dataclass(frozen=True)
+class Band:
+    """A curve with its standard deviation, and how it is drawn."""
+
+    line: Line
+    deviation: Array
+
+
+def plot_file(found: Survey, kind: str) -> bytes:
+    """Return the picture of a survey as SVG, PNG or PDF."""
+    with (
+        matplotlib.style.context(["default", dict(DRAWING)]),
+        warnings.catch_warnings(),
+        plain_colours(),
+    ):
+        # A unit may hold a letter that the font lacks: it is drawn as a box, which is no reason to fail.
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font", category=UserWarning)
+        canvas = drawn(found)
+        stream = io.BytesIO()
+        dpi = RESOLUTION if kind == "png" else 72.0
+        canvas.figure.savefig(stream, format=kind, metadata=_NO_DATES[kind], dpi=dpi)
+    data = stream.getvalue()
+    return without_classes(data) if kind == "svg" else data
+
+
+def without_classes(data: bytes) -> bytes:
+    """Ids that name classes for a page's style sheet have no meaning in a picture, and are not unique."""
+    return re.sub(rb' id="class:[^"]*"', b"", data)
+
+
+def drawn(found: Survey) -> Canvas:
+    """Draw the four panels."""
+    canvas = Canvas(PAGE)
+    canvas.figure.patch.set_visible(True)
+    canvas.figure.patch.set_facecolor(sentinel("bg"))
+    panels = canvas.grid((1.0, 1.0), 2, left=LEFT, gap=GAP)
+    shown = found.measured[: len(SERIES)]
+    signal_panel(panels[0], shown)
+    frequency_panel(panels[1], shown)
+    curve_panel(panels[2], found, "omega")
+    curve_panel(panels[3], found, "damping")
+    return canvas
+
+
+def channels(shown: Sequence[Measurement]) -> str:
+    """The channels drawn, for an axis title."""
+    names = list(dict.fromkeys(m.recording.channel for m in shown))
+    return ", ".join(names[:2]) + (", ..." if len(names) > 2 else "")
+
+
+def label_of(one: Measurement, shown: Sequence[Measurement]) -> str:
+    """What tells a signal from the others; nothing when it is the only one."""
+    if len(shown) == 1:
+        return ""
+    recording = one.recording
+    parts = []
+    if len({m.recording.run for m in shown}) > 1:
+        parts.append(recording.run)
+    if len({m.recording.channel for m in shown}) > 1:
+        parts.append(recording.name)
+    if len({(m.recording.run, m.recording.channel) for m in shown}) < len(shown):
+        parts.append(f"stretch {recording.stretch}")
+    return ", ".join(part for part in parts if part)
+
+
+def signal_panel(axes: Axes, shown: Sequence[Measurement]) -> None:
+    """The samples, and the amplitude of each on them."""
+    lines, envelopes = [], []
+    for one, token in zip(shown, SERIES, strict=False):
+        recording = one.recording
+        step = max(1, recording.time.size // MOST_POINTS)
+        lines.append(Line(recording.time[::step], recording.values[::step], "", token, width=0.6))
+        if one.backbone is not None:
+            curve = one.backbone
+            gap = np.diff(curve.time, prepend=curve.time[0]) > 1.5 * float(np.median(np.diff(curve.time)))
+            height = np.where(gap, np.nan, curve.offset + curve.amplitude)
+            label = "amplitude" if len(shown) == 1 else ""
+            envelopes.append(Line(curve.time, height, label, "s2" if len(shown) == 1 else "fg", width=1.4))
+    span(axes, lines)
+    linear(axes, "y", *padded([line.y for line in lines], share=0.14))
+    titles(axes, x=CLOCK.x_title, y=channels(shown))
+    for line in [*lines, *envelopes]:
+        draw(axes, line)
+    place(axes, envelopes[:1] if len(shown) == 1 else [])
+
+
+def frequency_panel(axes: Axes, shown: Sequence[Measurement]) -> None:
+    """Frequency over time where it is valid, with two standard deviations either side."""
+    bands = []
+    for one, token in zip(shown, SERIES, strict=False):
+        time, omega, deviation = track_of(one)
+        line = Line(time, omega * CLOCK.factor, label_of(one, shown), token, width=1.3)
+        bands.append(Band(line, deviation * CLOCK.factor))
+    span(axes, [band.line for band in bands])
+    draw_bands(axes, bands, titled=(CLOCK.x_title, CLOCK.y_title("ω₀")))
+
+
+def track_of(one: Measurement) -> tuple[Array, Array, Array]:
+    """Time, frequency (NaN where it is not valid) and standard deviation (NaN where it is unknown)."""
+    found = one.found
+    valid = getattr(found, "valid", np.ones(found.time.size, dtype=np.bool_))
+    deviation = getattr(found, "omega_sd", getattr(found, "standard_deviation", None))
+    known = np.full(found.time.size, np.nan) if deviation is None else deviation
+    return found.time, np.where(valid, found.omega, np.nan), known
+
+
+def curve_panel(axes: Axes, found: Survey, what: str) -> None:
+    """Frequency or damping against amplitude: each signal, and what they have in common."""
+    shown = found.measured[: len(SERIES)]
+    factor = CLOCK.factor if what == "omega" else 1.0
+    bands = []
+    for one, token in zip(shown, SERIES, strict=False):
+        if one.backbone is not None:
+            curve = one.backbone
+            values, deviation = getattr(curve, f"curve_{what}"), getattr(curve, f"curve_{what}_sd")
+            line = Line(curve.curve_amplitude, values * factor, label_of(one, shown), token, width=1.3)
+            bands.append(Band(line, deviation * factor))
+    for common in found.combined:
+        mean, deviation = getattr(common.curve, what), getattr(common.curve, f"{what}_sd")
+        label = "combined" if len(found.combined) == 1 else f"combined, {common.channel}"
+        bands.append(Band(Line(common.curve.amplitude, mean * factor, label, "fg", width=2.4), deviation * factor))
+    top = max((float(band.line.x[-1]) for band in bands), default=1.0)
+    linear(axes, "x", 0.0, 1.03 * top, ticks=6)
+    title = CLOCK.y_title("ω₀") if what == "omega" else "a′/a / (1/s)"
+    draw_bands(axes, bands, titled=(f"amplitude of {channels(shown)}", title))
+
+
+def draw_bands(axes: Axes, bands: Sequence[Band], *, titled: tuple[str, str]) -> None:
+    """Curves over the areas two standard deviations either side."""
+    ends = [band.line.y + sign * 2.0 * np.nan_to_num(band.deviation) for band in bands for sign in (-1.0, 1.0)]
+    linear(axes, "y", *padded(ends, share=0.12))
+    titles(axes, x=titled[0], y=titled[1])
+    for band in bands:
+        reach = 2.0 * np.nan_to_num(band.deviation)
+        low, high = band.line.y - reach, band.line.y + reach
+        axes.fill_between(band.line.x, low, high, color=sentinel(band.line.token), alpha=0.18, linewidth=0.0)
+        draw(axes, band.line)
+    place(axes, [band.line for band in bands if np.isfinite(band.line.y).any()])
+
+
+def span(axes: Axes, lines: Sequence[Line]) -> None:
+    """A time axis from the first time to the last."""
+    filled = [line.x for line in lines if line.x.size]
+    linear(axes, "x", min(float(x[0]) for x in filled), max(float(x[-1]) for x in filled), ticks=6)

@@ -1,0 +1,125 @@
+"""How a verb is told where the samples are in a file, and what is to be done with gaps, uneven times and drift."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import wraps
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ridgeback.arguments import POSITIVE
+
+if TYPE_CHECKING:
+    from numeric.recording import Recording
+
+Command = Callable[..., None]
+DETRENDS = ("none", "linear", "slow")
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Where the samples and their times are in a file, and how they are to be treated."""
+
+    column: str | None = None
+    time_column: str | None = None
+    rate: float | None = None
+    run_column: str | None = None
+    resample: float | None = None
+    fill: float | None = None
+    detrend: str = "none"
+
+    def one(self, file: str) -> Recording:
+        """The longest stretch of the one signal; the file's own problems are named by the reader."""
+        from numeric.recording import read_recording
+
+        return read_recording(
+            file,
+            column=self.column,
+            time_column=self.time_column,
+            rate=self.rate,
+            resample=self.resample,
+            fill=self.fill,
+            detrend=self.detrend,
+        )
+
+    def all(self, files: Sequence[str]) -> tuple[Recording, ...]:
+        """Every stretch of every channel of every run."""
+        from numeric.recording import read_recordings
+
+        return read_recordings(
+            files,
+            columns=self.column,
+            time_column=self.time_column,
+            rate=self.rate,
+            run_column=self.run_column,
+            resample=self.resample,
+            fill=self.fill,
+            detrend=self.detrend,
+        )
+
+
+def reading_options(command: Command) -> Command:
+    """Give a verb the options of reading, as one ``reading``."""
+
+    @wraps(command)
+    def wrapped(
+        *args: Any,
+        column: str | None,
+        time_column: str | None,
+        rate: float | None,
+        run_column: str | None,
+        resample: float | None,
+        fill: float | None,
+        detrend: str,
+        **rest: Any,
+    ) -> None:
+        reading = Reading(column, time_column, rate, run_column, resample, fill, detrend)
+        command(*args, reading=reading, **rest)
+
+    for option in (
+        click.option(
+            "--detrend",
+            type=click.Choice(DETRENDS),
+            default="none",
+            show_default=True,
+            help="Take off a straight line, or the slow part (a mean over six cycles).",
+        ),
+        click.option(
+            "--fill",
+            type=POSITIVE,
+            default=None,
+            metavar="SECONDS",
+            help="Interpolate across gaps up to this long.  Default: cut there.",
+        ),
+        click.option(
+            "--resample",
+            type=POSITIVE,
+            default=None,
+            metavar="R",
+            help="Interpolate uneven times to R samples per second; bring even ones to this rate.",
+        ),
+        click.option(
+            "--run-column",
+            default=None,
+            metavar="NAME",
+            help="The column that numbers the runs.",
+        ),
+        click.option(
+            "--rate",
+            type=POSITIVE,
+            default=None,
+            metavar="R",
+            help="Samples per second, in place of a time column.",
+        ),
+        click.option("--time-column", default=None, metavar="NAME", help="The times.  Default: found by its name."),
+        click.option(
+            "--column",
+            default=None,
+            metavar="NAME[,NAME...]",
+            help='The samples: names or numbers from 1, or "all".  Needed when the file holds several signals.',
+        ),
+    ):
+        wrapped = option(wrapped)
+    return wrapped
