@@ -16,7 +16,7 @@ from ridgeback.failure import Exit, say, verdict
 # 2.7 times the processor time with them).  It must be said before NumPy is imported; the user's own word comes first.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-VERBS = ("systems", "derive", "generate", "simulate", "estimate", "study", "report")
+VERBS = ("systems", "derive", "generate", "simulate", "estimate", "identify", "study", "report")
 
 EPILOG = """\b
 Exit codes: 0 done; 2 bad input; 3 finished, but partial or not certified;

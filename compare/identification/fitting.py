@@ -1,0 +1,225 @@
+"""One candidate fitted to one recording: starting values from the backbone, then phases, then the samples themselves.
+
+The samples are the data: least squares of x - model is maximum likelihood in white noise, and uses waveform, mean
+offset and the phase over the whole record at once.  The first two stages only bring it near enough to converge: a phase
+that is wrong by half a turn at the end would end in a false minimum.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from compare.identification.models import LAWS, Model, level_at
+from compare.identification.potentials import Shape
+from compare.results import Array
+from numeric.backbone import Backbone, backbone
+from numeric.errors import InputError
+from numeric.harmonics import carrier
+from numeric.local_line import local_line
+from numeric.recording import Recording
+from numeric.slow_decay import motion
+from numeric.track import Track
+from numeric.windows import half_width, window
+
+ANCHORS = 60
+"""Points of the record whose phase and amplitude start the fit."""
+STEPS = 40
+"""Evaluations that a stage may take, Jacobians not counted."""
+
+
+@dataclass(frozen=True)
+class Data:
+    """A recording prepared for fitting: times from 0, samples over L, the measured backbone, phases at anchors."""
+
+    time: Array
+    x: Array
+    length: float
+    rate: float
+    measured: Backbone
+    anchor_time: Array
+    anchor_phase: Array
+    anchor_log: Array
+    anchor_weight: Array
+
+    @property
+    def cycle(self) -> float:
+        """A typical period."""
+        return 2 * np.pi / float(np.median(self.measured.omega))
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Least squares of one model: theta, the sum of squares in units of L, and (J^T J)^-1."""
+
+    model: Model
+    theta: Array
+    residual: Array
+    spread: Array
+
+    @property
+    def sum_of_squares(self) -> float:
+        """Sum of squared residuals."""
+        return float(self.residual @ self.residual)
+
+
+def prepare(recording: Recording, track: Track) -> Data:
+    """Measure what a fit starts from; InputError when the backbone cannot be measured."""
+    first = float(recording.time[0])
+    measured = backbone(track, recording.values, recording.rate, start=first)
+    length = float(measured.amplitude.max())
+    x = recording.values - measured.offset
+    phase, size = demodulated(x, recording.rate, track, first)
+    edge = round(2 * np.pi / float(np.median(measured.omega)) * recording.rate)
+    at = np.unique(np.linspace(edge, x.size - 1 - edge, ANCHORS).astype(int))
+    amplitude = size / length
+    return Data(
+        time=np.arange(x.size) / recording.rate,
+        x=x / length,
+        length=length,
+        rate=recording.rate,
+        measured=measured,
+        anchor_time=at / recording.rate,
+        anchor_phase=phase[at],
+        anchor_log=np.log(np.maximum(amplitude[at], 1e-6)),
+        anchor_weight=amplitude[at],
+    )
+
+
+def demodulated(x: Array, rate: float, track: Track, start: float) -> tuple[Array, Array]:
+    """Phase and amplitude of the fundamental on every sample: the track's carrier, and what is left of it filtered."""
+    base = carrier(track, x.size, rate, start)
+    cycle = 2 * np.pi / float(np.median(base.omega[base.valid]))
+    w = window("blackman", half_width(4 * cycle, rate, name="window", longest=x.size))
+    value, _ = local_line(2 * x * np.exp(-1j * base.phase), w, rate)
+    return base.phase + np.unwrap(np.angle(value)), np.abs(value)
+
+
+def fit(model: Model, data: Data) -> Fit:
+    """Fit a model from the best starting shape of each of its groups; the best result.
+
+    Raises InputError when no start leads to a fit.
+    """
+    found = [refined(model, data, start) for start in starts(model, data)]
+    usable = [f for f in found if np.isfinite(f.sum_of_squares)]
+    if not usable:
+        raise InputError(f"{model.name}: no starting value led to a fit")
+    return min(usable, key=lambda f: f.sum_of_squares)
+
+
+def refit(model: Model, data: Data, theta: Array) -> Fit:
+    """Fit a model to the samples from a theta that is already near."""
+    low, high = bounds(model, data)
+    return by_samples(model, data, np.clip(theta, low, high), low, high)
+
+
+def starts(model: Model, data: Data) -> list[Array]:
+    """The best shape of each group by the measured backbone, completed by rates, amplitude and phase."""
+    found = []
+    for group in model.groups or ((bends(model, data),),):
+        ranked = sorted((backbone_cost(model, data, shape) for shape in group), key=lambda pair: pair[0])
+        if np.isfinite(ranked[0][0]):
+            found.append(ranked[0][1])
+    return found
+
+
+def backbone_cost(model: Model, data: Data, shape: Shape) -> tuple[float, Array]:
+    """Distance of a shape's backbone from the measured one, its frequency scale fitted, and the theta that it gives."""
+    b = data.measured
+    a = b.amplitude / data.length
+    weight = 1 / (b.omega_sd**2 + (1e-4 * b.omega) ** 2)
+    theta = np.array([float(np.median(b.omega)), *shape, *first_rates(model, data), data.anchor_log[0], 0.0, 0.0])
+    try:
+        omega, growth = model.curves(theta, a, float(data.time[-1]))
+    except (InputError, FloatingPointError):
+        return np.inf, theta
+    scale = float(np.sum(weight * b.omega * omega) / np.sum(weight * omega**2))
+    cost = float(np.sum(weight * (b.omega - scale * omega) ** 2))
+    cost += float(np.sum((b.damping - growth) ** 2 / (b.damping_sd**2 + (0.02 * b.omega) ** 2)))
+    theta[0] *= scale
+    theta[-2] = data.anchor_phase[0]
+    return cost, theta
+
+
+def bends(model: Model, data: Data) -> Shape:
+    """Bends of a polynomial backbone from the measured one by weighted least squares; harmonics start from none."""
+    b = data.measured
+    terms = model.size - model.rates - 2
+    weight = 1 / np.sqrt(b.omega_sd**2 + (1e-4 * b.omega) ** 2)
+    powers = ((b.amplitude / data.length) ** 2)[:, None] ** np.arange(terms) * weight[:, None]
+    solution, *_ = np.linalg.lstsq(powers, b.omega * weight, rcond=None)
+    return (*(float(x) for x in np.clip(solution[1:] / solution[0], -2.9, 2.9)), 0.0, 0.0, 0.0)
+
+
+def first_rates(model: Model, data: Data) -> list[float]:
+    """Loss rates from the measured damping: its weighted mean, or a line in a or a^2."""
+    if not model.rates:
+        return []
+    b = data.measured
+    a, loss = b.amplitude / data.length, -2 * b.damping
+    columns = [np.ones_like(a)]
+    if model.law == LAWS[1]:
+        columns.append(8 / (3 * np.pi) * a)
+    elif model.law == LAWS[2]:
+        columns.append(0.75 * a**2)
+    weight = 1 / np.maximum(b.damping_sd, 1e-3 * np.abs(loss).max() + 1e-12)
+    matrix = np.array(columns).T * weight[:, None]
+    solution, *_ = np.linalg.lstsq(matrix, loss * weight, rcond=None)
+    return [float(x) for x in solution]
+
+
+def bounds(model: Model, data: Data) -> tuple[Array, Array]:
+    """Bounds on theta: shapes as the model says, rates relative to the frequency, k within a factor of 3."""
+    omega = float(np.median(data.measured.omega))
+    shapes = model.size - model.rates
+    low = [omega / 3, *model.lower[:shapes], *(omega * x for x in model.lower[shapes:]), np.log(0.01), -np.inf, -1.0]
+    high = [omega * 3, *model.upper[:shapes], *(omega * x for x in model.upper[shapes:]), np.log(1.45), np.inf, 1.0]
+    return np.array(low), np.array(high)
+
+
+def refined(model: Model, data: Data, start: Array) -> Fit:
+    """Anchors first, samples then."""
+    low, high = bounds(model, data)
+    inner = np.clip(start, low + 1e-6 * np.where(np.isfinite(low), np.abs(low) + 1e-3, 0.0), high * (1 - 1e-9))
+
+    def anchors(part: Array) -> Array:
+        flow = model.flow(part[:-1], float(data.anchor_time[-1]))
+        at = motion(flow, level_at(flow, part[-2]), part[-1], data.anchor_time, waveform=False)
+        phase = at.phase - data.anchor_phase
+        return np.concatenate((phase, np.log(at.amplitude) - data.anchor_log)) * np.tile(data.anchor_weight, 2)
+
+    try:
+        near = (low[:-1], high[:-1])
+        rough = least_squares(anchors, inner[:-1], bounds=near, x_scale="jac", max_nfev=STEPS, ftol=1e-5)
+    except (InputError, ValueError, FloatingPointError, np.linalg.LinAlgError):
+        return failed(model, data, start)
+    return by_samples(model, data, np.append(rough.x, 0.0), low, high)
+
+
+def failed(model: Model, data: Data, theta: Array) -> Fit:
+    """What stands for a fit that went astray: an infinite residual, never the best."""
+    return Fit(model, theta, np.full(data.x.size, np.inf), np.eye(theta.size))
+
+
+def by_samples(model: Model, data: Data, theta: Array, low: Array, high: Array) -> Fit:
+    """Least squares of the samples less the model."""
+
+    def samples(values: Array) -> Array:
+        return model.signal(values, data.time) - data.x
+
+    try:
+        fine = least_squares(samples, theta, bounds=(low, high), x_scale="jac", max_nfev=STEPS)
+    except (InputError, ValueError, FloatingPointError, np.linalg.LinAlgError):
+        return failed(model, data, theta)
+    return Fit(model, np.asarray(fine.x), np.asarray(fine.fun), spread_of(np.asarray(fine.jac)))
+
+
+def spread_of(jacobian: Array) -> Array:
+    """(J^T J)^-1, with columns that the data do not see left with a large variance instead of a singular matrix."""
+    size = np.sqrt((jacobian**2).sum(axis=0))
+    size = np.where(size > 0, size, 1e-12)
+    normal = (jacobian / size).T @ (jacobian / size)
+    inverse = np.linalg.inv(normal + 1e-13 * np.eye(size.size))
+    return np.asarray(inverse / np.outer(size, size))

@@ -1,0 +1,216 @@
+"""``ridgeback identify``: which oscillator made this decay, and with which parameters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from ridgeback.arguments import PAIR, POSITIVE
+from ridgeback.failure import PartialError
+from ridgeback.options import format_option, output_option
+from ridgeback.output import json_text, write_text
+from ridgeback.progress import Progress
+from ridgeback.tables import aligned, csv_text, readable
+
+if TYPE_CHECKING:
+    from compare.identification.results import Identification, Prediction
+    from numeric.recording import Recording
+
+Row = dict[str, object]
+
+
+def names(text: str | None) -> tuple[str, ...] | None:
+    """The names in a list with commas; None when there is no list.
+
+    >>> names("linear, pendulum")
+    ('linear', 'pendulum')
+    """
+    return None if text is None else tuple(word.strip() for word in text.split(",") if word.strip())
+
+
+@click.command("identify", short_help="Say which oscillator made a decay.")
+@click.argument("file")
+@click.option(
+    "--column", default=None, metavar="NAME", help="The samples.  Needed when the file holds several signals."
+)
+@click.option("--time-column", default=None, metavar="NAME", help="The times.  Default: found by its name.")
+@click.option("--rate", type=POSITIVE, default=None, metavar="R", help="Samples per second, in place of a time column.")
+@click.option(
+    "--candidates", default=None, metavar="NAME,...", help="Classes to try.  Default: all; a wrong name lists them."
+)
+@click.option(
+    "--damping",
+    type=click.Choice(("linear", "quadratic", "cubic")),
+    default=None,
+    help="Linear damping alone, or with one more term.  Default: what the criterion prefers.",
+)
+@click.option(
+    "--criterion", type=click.Choice(("bic", "aicc")), default="bic", show_default=True, help="What ranks them."
+)
+@click.option("--span", type=PAIR, default=None, metavar="FROM,TO", help="Use these times only.")
+@click.option(
+    "--predict-from", type=POSITIVE, default=None, metavar="CYCLES", help="Fit these cycles and predict the rest too."
+)
+@format_option("text", "json", "csv", default="text")
+@output_option
+def command(
+    file: str,
+    column: str | None,
+    time_column: str | None,
+    rate: float | None,
+    candidates: str | None,
+    damping: str | None,
+    criterion: str,
+    span: tuple[float, float] | None,
+    predict_from: float | None,
+    style: str,
+    output: str,
+) -> None:
+    """Fit oscillator classes to the free decay in FILE (CSV, NPZ or WAV), and rank them.
+
+    Each class is fitted to the samples along its slow flow; the information criterion weighs what is left against
+    the number of parameters.  CSV has one row per parameter, JSON also the backbones with their 95 % bands.
+
+    \b
+    ridgeback identify decay.csv --column displacement
+    ridgeback identify decay.csv --candidates linear,pendulum,duffing-softening --format json
+    ridgeback identify decay.csv --span 0,40 --predict-from 20
+    """
+    from numeric.recording import read_recording
+
+    recording = read_recording(file, column=column, time_column=time_column, rate=rate)
+    with Progress() as progress:
+        found = identified(
+            recording,
+            chosen=names(candidates),
+            damping=damping,
+            kind=criterion,
+            span=span,
+            cycles=predict_from,
+            progress=progress,
+        )
+    write_text(output, text_of(found, style))
+    if found.failed:
+        raise PartialError(f"{len(found.failed)} of the candidates could not be fitted: {'; '.join(found.failed)}")
+
+
+def identified(
+    recording: Recording,
+    *,
+    chosen: tuple[str, ...] | None,
+    damping: str | None,
+    kind: str,
+    span: tuple[float, float] | None,
+    cycles: float | None,
+    progress: Progress,
+) -> Identification:
+    """The ranking and, when cycles are given, the prediction in it."""
+    from dataclasses import replace
+
+    from compare.identification.identify import identify
+    from compare.identification.models import LAWS, NAMES
+    from compare.identification.prediction import predict
+
+    candidates = NAMES if chosen is None else chosen
+    laws = LAWS if damping is None else tuple(law for law in LAWS if law.split(" + ")[-1] == damping)
+    ahead = None
+    if cycles is not None:
+        ahead = predict(
+            recording, cycles=cycles, candidates=candidates, laws=laws, kind=kind, span=span, progress=progress
+        )
+    found = identify(recording, candidates=candidates, laws=laws, kind=kind, span=span, progress=progress)
+    return found if ahead is None else replace(found, prediction=ahead)
+
+
+def text_of(found: Identification, style: str) -> str:
+    """The result in the form asked for."""
+    if style == "json":
+        return json_text(found.record())
+    if style == "csv":
+        rows = parameter_rows(found)
+        return csv_text(list(rows[0]), rows)
+    return reading(found)
+
+
+def parameter_rows(found: Identification) -> list[Row]:
+    """One row per parameter of each candidate."""
+    return [
+        {
+            "candidate": c.name,
+            "damping": c.damping_law,
+            "criterion": c.criterion,
+            "delta": c.delta,
+            "weight": c.weight,
+            "residual": c.residual,
+            "parameter": p.name,
+            "value": p.value,
+            "standard_deviation": p.standard_deviation,
+            "low_95": p.interval()[0],
+            "high_95": p.interval()[1],
+            "unit": p.unit,
+        }
+        for c in found.candidates
+        for p in c.parameters
+    ]
+
+
+def reading(found: Identification) -> str:
+    """The verdict, the ranking, and the parameters of the best candidate."""
+    unit = f" [{found.unit}]" if found.unit else ""
+    parts = [
+        f"{found.source}, {found.column}{unit}: {found.samples} samples at {found.rate:g} per second, "
+        f"worth {found.effective_samples:.0f} independent ones",
+        found.verdict,
+        aligned(["candidate", "damping", "parameters", "delta", "weight", "residual"], ranking(found)),
+        best_of(found),
+    ]
+    if found.prediction is not None:
+        parts.append(prediction_of(found.prediction))
+    parts += [c.name + ": " + c.note for c in found.candidates[:1] if c.note]
+    parts += list(found.notes)
+    return "\n\n".join(parts) + "\n"
+
+
+def ranking(found: Identification) -> list[Row]:
+    """One row per candidate."""
+    return [
+        {
+            "candidate": c.name,
+            "damping": c.damping_law,
+            "parameters": len(c.parameters),
+            "delta": round(c.delta, 2),
+            "weight": round(c.weight, 4),
+            "residual": c.residual,
+        }
+        for c in found.candidates
+    ]
+
+
+def best_of(found: Identification) -> str:
+    """The equation and parameters of the best candidate, with one standard deviation."""
+    rows: list[Row] = [
+        {
+            "parameter": p.name,
+            "value": readable(p.value),
+            "±": f"{p.standard_deviation:.2g}",
+            "unit": p.unit,
+            "meaning": p.meaning,
+        }
+        for p in found.best.parameters
+    ]
+    return found.best.equation + "\n" + aligned(["parameter", "value", "±", "unit", "meaning"], rows)
+
+
+def prediction_of(ahead: Prediction) -> str:
+    """How well the rest was foretold."""
+    rows: list[Row] = [
+        {
+            "predicted": name,
+            "rms error": f"{ahead.errors[name]:.2%}" if name != "phase" else f"{ahead.errors[name]:.3g} rad",
+            "inside the 95 % band": f"{ahead.coverage[name]:.0%}",
+        }
+        for name in ("amplitude", "omega", "phase")
+    ]
+    head = f"From the first {ahead.cycles:g} cycles (to {ahead.until:.4g} s) to {ahead.time[-1]:.4g} s. {ahead.note}."
+    return head + "\n" + aligned(["predicted", "rms error", "inside the 95 % band"], rows)
