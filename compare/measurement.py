@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,10 +20,19 @@ from numeric.estimate import estimate
 from numeric.half_cycles import HalfCycles, half_cycles
 from numeric.harmonics import harmonic_track
 from numeric.recording import Recording
-from numeric.track import Track
+from numeric.track import NORMAL_95, Track
 
 COMBINE = ("runs", "all", "none")
 Row = dict[str, float | bool]
+
+
+class Along(NamedTuple):
+    """Frequency over time with the ends of its 95 % interval, rad per time unit; NaN where nothing is claimed."""
+
+    time: Array
+    omega: Array
+    low: Array
+    high: Array
 
 
 @dataclass(frozen=True)
@@ -43,6 +53,19 @@ class Measurement:
     def usable(self) -> bool:
         """Whether any value is one that the estimator vouches for."""
         return not isinstance(self.found, Track) or bool(self.found.valid.any())
+
+    def frequency(self) -> Along:
+        """Frequency where it is valid with its 95 % interval: with the bias in it, where the estimator knows that."""
+        found = self.found
+        if isinstance(found, HalfCycles):
+            reach = NORMAL_95 * found.omega_sd
+            return Along(found.time, found.omega, found.omega - reach, found.omega + reach)
+        values = np.where(found.valid, found.omega, np.nan)
+        if found.interval is not None:
+            low, high = (np.where(found.valid, end, np.nan) for end in found.interval)
+            return Along(found.time, values, low, high)
+        deviation = np.nan if found.standard_deviation is None else found.standard_deviation
+        return Along(found.time, values, values - NORMAL_95 * deviation, values + NORMAL_95 * deviation)
 
     def rows(self) -> list[Row]:
         """One row per time: frequency, amplitude and damping with their standard deviations, NaN where unknown."""

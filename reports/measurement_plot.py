@@ -24,6 +24,10 @@ PAGE = Variant("wide", 9.6, 6.4)
 MOST_POINTS = 4000
 """Samples drawn of each signal: more than a picture has columns."""
 LEFT, GAP = 52.0, 66.0
+LONGEST_NAME = 28
+"""Letters of a channel's name that fit under a panel."""
+TWO_SIDED = 1.96
+"""Standard deviations either side that hold 95 % of a normal distribution."""
 RESOLUTION = 160.0
 _NO_DATES = {
     "svg": dict.fromkeys(("Creator", "Date", "Format", "Type")),
@@ -34,10 +38,16 @@ _NO_DATES = {
 
 @dataclass(frozen=True)
 class Band:
-    """A curve with its standard deviation, and how it is drawn."""
+    """A curve, and the lower and upper end of its 95 % interval, NaN where it claims none."""
 
     line: Line
-    deviation: Array
+    low: Array
+    high: Array
+
+
+def band_of(line: Line, deviation: Array) -> Band:
+    """A curve with its standard deviation either side, 1.96 times."""
+    return Band(line, line.y - TWO_SIDED * deviation, line.y + TWO_SIDED * deviation)
 
 
 def plot_file(found: Survey, kind: str) -> bytes:
@@ -69,7 +79,8 @@ def drawn(found: Survey) -> Canvas:
     canvas.figure.patch.set_facecolor(sentinel("bg"))
     panels = canvas.grid((1.0, 1.0), 2, left=LEFT, gap=GAP)
     shown = found.measured[: len(SERIES)]
-    signal_panel(panels[0], shown)
+    cut = f", {len(shown)} of {len(found.measured)} signals" if len(shown) < len(found.measured) else ""
+    signal_panel(panels[0], shown, cut)
     frequency_panel(panels[1], shown)
     curve_panel(panels[2], found, "omega")
     curve_panel(panels[3], found, "damping")
@@ -79,7 +90,17 @@ def drawn(found: Survey) -> Canvas:
 def channels(shown: Sequence[Measurement]) -> str:
     """The channels drawn, for an axis title."""
     names = list(dict.fromkeys(m.recording.channel for m in shown))
-    return ", ".join(names[:2]) + (", ..." if len(names) > 2 else "")
+    text = names[0] if len(names) == 1 else f"{names[0]} and others"
+    return clipped(text)
+
+
+def clipped(text: str) -> str:
+    """A name cut to what fits.
+
+    >>> clipped("x" * 40).count("x")
+    27
+    """
+    return text if len(text) <= LONGEST_NAME else text[: LONGEST_NAME - 1] + "…"
 
 
 def label_of(one: Measurement, shown: Sequence[Measurement]) -> str:
@@ -94,10 +115,10 @@ def label_of(one: Measurement, shown: Sequence[Measurement]) -> str:
         parts.append(recording.name)
     if len({(m.recording.run, m.recording.channel) for m in shown}) < len(shown):
         parts.append(f"stretch {recording.stretch}")
-    return ", ".join(part for part in parts if part)
+    return clipped(", ".join(part for part in parts if part))
 
 
-def signal_panel(axes: Axes, shown: Sequence[Measurement]) -> None:
+def signal_panel(axes: Axes, shown: Sequence[Measurement], more: str) -> None:
     """The samples, and the amplitude of each on them."""
     lines, envelopes = [], []
     for one, token in zip(shown, SERIES, strict=False):
@@ -112,30 +133,24 @@ def signal_panel(axes: Axes, shown: Sequence[Measurement]) -> None:
             envelopes.append(Line(curve.time, height, label, "s2" if len(shown) == 1 else "fg", width=1.4))
     span(axes, lines)
     linear(axes, "y", *padded([line.y for line in lines], share=0.14))
-    titles(axes, x=CLOCK.x_title, y=channels(shown))
+    titles(axes, x=CLOCK.x_title, y=channels(shown) + more)
     for line in [*lines, *envelopes]:
         draw(axes, line)
     place(axes, envelopes[:1] if len(shown) == 1 else [])
 
 
 def frequency_panel(axes: Axes, shown: Sequence[Measurement]) -> None:
-    """Frequency over time where it is valid, with two standard deviations either side."""
-    bands = []
-    for one, token in zip(shown, SERIES, strict=False):
-        time, omega, deviation = track_of(one)
-        line = Line(time, omega * CLOCK.factor, label_of(one, shown), token, width=1.3)
-        bands.append(Band(line, deviation * CLOCK.factor))
+    """Frequency over time where it is valid, with its band."""
+    bands = [track_band(one, label_of(one, shown), token) for one, token in zip(shown, SERIES, strict=False)]
     span(axes, [band.line for band in bands])
-    draw_bands(axes, bands, titled=(CLOCK.x_title, CLOCK.y_title("ω₀")))
+    draw_bands(axes, bands, titled=(CLOCK.x_title, f"{CLOCK.y_title('ω₀')}, 95 % band"))
 
 
-def track_of(one: Measurement) -> tuple[Array, Array, Array]:
-    """Time, frequency (NaN where it is not valid) and standard deviation (NaN where it is unknown)."""
-    found = one.found
-    valid = getattr(found, "valid", np.ones(found.time.size, dtype=np.bool_))
-    deviation = getattr(found, "omega_sd", getattr(found, "standard_deviation", None))
-    known = np.full(found.time.size, np.nan) if deviation is None else deviation
-    return found.time, np.where(valid, found.omega, np.nan), known
+def track_band(one: Measurement, label: str, token: str) -> Band:
+    """The frequency of one signal in display units."""
+    along = one.frequency()
+    line = Line(along.time, along.omega * CLOCK.factor, label, token, width=1.3)
+    return Band(line, along.low * CLOCK.factor, along.high * CLOCK.factor)
 
 
 def curve_panel(axes: Axes, found: Survey, what: str) -> None:
@@ -148,26 +163,24 @@ def curve_panel(axes: Axes, found: Survey, what: str) -> None:
             curve = one.backbone
             values, deviation = getattr(curve, f"curve_{what}"), getattr(curve, f"curve_{what}_sd")
             line = Line(curve.curve_amplitude, values * factor, label_of(one, shown), token, width=1.3)
-            bands.append(Band(line, deviation * factor))
+            bands.append(band_of(line, deviation * factor))
     for common in found.combined:
         mean, deviation = getattr(common.curve, what), getattr(common.curve, f"{what}_sd")
         label = "combined" if len(found.combined) == 1 else f"combined, {common.channel}"
-        bands.append(Band(Line(common.curve.amplitude, mean * factor, label, "fg", width=2.4), deviation * factor))
+        line = Line(common.curve.amplitude, mean * factor, label, "fg", width=2.4)
+        bands.append(band_of(line, deviation * factor))
     top = max((float(band.line.x[-1]) for band in bands), default=1.0)
     linear(axes, "x", 0.0, 1.03 * top, ticks=6)
     title = CLOCK.y_title("ω₀") if what == "omega" else "a′/a / (1/s)"
-    draw_bands(axes, bands, titled=(f"amplitude of {channels(shown)}", title))
+    draw_bands(axes, bands, titled=(f"amplitude of {channels(shown)}", f"{title}, 95 % band"))
 
 
 def draw_bands(axes: Axes, bands: Sequence[Band], *, titled: tuple[str, str]) -> None:
-    """Curves over the areas two standard deviations either side."""
-    ends = [band.line.y + sign * 2.0 * np.nan_to_num(band.deviation) for band in bands for sign in (-1.0, 1.0)]
-    linear(axes, "y", *padded(ends, share=0.12))
+    """Curves over their bands."""
+    linear(axes, "y", *padded([values for band in bands for values in (band.line.y, band.low, band.high)], share=0.12))
     titles(axes, x=titled[0], y=titled[1])
     for band in bands:
-        reach = 2.0 * np.nan_to_num(band.deviation)
-        low, high = band.line.y - reach, band.line.y + reach
-        axes.fill_between(band.line.x, low, high, color=sentinel(band.line.token), alpha=0.18, linewidth=0.0)
+        axes.fill_between(band.line.x, band.low, band.high, color=sentinel(band.line.token), alpha=0.18, linewidth=0.0)
         draw(axes, band.line)
     place(axes, [band.line for band in bands if np.isfinite(band.line.y).any()])
 
