@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from ridgeback.arguments import rational, shown, written
+from ridgeback.arguments import MAX_GRID, number, positive, rational, shown, written
 from ridgeback.grids import amplitudes
 from ridgeback.long_run import checkpoint_path
 
@@ -22,10 +22,18 @@ TABLE = ("text", "json", "csv")
 ALL = (*PLAIN, "csv")
 
 # What can be made of an expansion, one at a time, and the forms that each has; --at goes with the first three.
-USES = {"digits": ("text", "json"), "workers": PLAIN, "resummed": PLAIN}
-NEEDS = {"checkpoint": "digits", "degrees": "resummed", "growth": "resummed"}
+USES = {"digits": ("text", "json"), "workers": PLAIN, "resummed": PLAIN, "transient": TABLE, "harmonics": PLAIN}
+NEEDS = {
+    "checkpoint": "digits",
+    "degrees": "resummed",
+    "growth": "resummed",
+    "until": "transient",
+    "points": "transient",
+    "transient": "until",
+}
 # Not of the expansion that is printed, so that a certificate would be of something else.
-UNVERIFIED = ("resummed",)
+UNVERIFIED = ("resummed", "transient", "harmonics")
+NOT_AT = ("transient", "harmonics")
 
 
 @dataclass(frozen=True)
@@ -39,6 +47,10 @@ class Demand:
     resummed: str | None = None
     degrees: tuple[int, int] | None = None
     growth: Fraction | None = None
+    transient: tuple[float, float] | None = None
+    until: float | None = None
+    points: int | None = None
+    harmonics: bool = False
     verify: bool = False
     style: str = "text"
 
@@ -56,12 +68,14 @@ class Demand:
         """
         for name, other in NEEDS.items():
             if self.asked(name) and not self.asked(other):
-                raise click.UsageError(f"--{name} belongs to --{other}; leave it out, or give --{other}")
+                raise click.UsageError(f"--{name} needs --{other}; give that, or leave --{name} out")
         uses = [name for name in USES if self.asked(name)]
         if len(uses) > 1:
             raise click.UsageError(f"--{uses[0]} and --{uses[1]} exclude each other; keep one")
         if self.verify and uses and uses[0] in UNVERIFIED:
             raise click.UsageError(f"--verify certifies an expansion, not what --{uses[0]} makes of it; keep one")
+        if self.asked("at") and uses and uses[0] in NOT_AT:
+            raise click.UsageError(f"--at and --{uses[0]} exclude each other; keep one")
         self._check_form("at" if self.asked("at") else uses[0] if uses else "")
 
     def _check_form(self, use: str) -> None:
@@ -85,6 +99,16 @@ def degrees(text: str) -> tuple[int, int]:
     return int(found[1]), int(found[2])
 
 
+def start(text: str) -> tuple[float, float]:
+    """An amplitude above 0, and a phase in rad, 0 unless it is given.
+
+    >>> start("0.5"), start("2,1.5")
+    ((0.5, 0.0), (2.0, 1.5))
+    """
+    amplitude, _, phase = text.partition(",")
+    return positive(amplitude), number(phase) if phase else 0.0
+
+
 def demanding(command: Command) -> Command:
     """Give a verb these options, as one ``demand``."""
 
@@ -96,6 +120,28 @@ def demanding(command: Command) -> Command:
 
     for option in (
         click.option("--verify", is_flag=True, help="Check by independent routes and print the certificate."),
+        click.option("--harmonics", is_flag=True, help="Print the motion u itself: every harmonic, exactly."),
+        click.option(
+            "--points",
+            type=click.IntRange(2, MAX_GRID),
+            default=None,
+            metavar="N",
+            help="With --transient: how many equidistant times.  Default: 11.",
+        ),
+        click.option(
+            "--until",
+            type=written(positive),
+            default=None,
+            metavar="T",
+            help="With --transient: the last time; the first is 0.",
+        ),
+        click.option(
+            "--transient",
+            type=written(start),
+            default=None,
+            metavar="A0[,PHI0]",
+            help="Follow amplitude and phase of the slow flow (multiple-scales) from these at time 0.",
+        ),
         click.option(
             "--growth",
             type=written(rational),

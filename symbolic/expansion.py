@@ -105,6 +105,12 @@ class Expansion:
                 found.append(Harmonic(multiple, cosine, sine))
         return tuple(found)
 
+    def harmonic_rows(self) -> list[dict[str, Any]]:
+        """The harmonics of u in omega0 t in the public JSON form; raises InputError as ``harmonics`` does."""
+        return [
+            {"multiple": h.multiple, "cosine": self._rows(h.cosine), "sine": self._rows(h.sine)} for h in self.harmonics
+        ]
+
     def residual(self) -> list[int]:
         """Substitute u and omega0 back into the equation; return the orders that do not cancel (none: exact)."""
         if self.residual_of is None:

@@ -22,6 +22,7 @@ import sympy
 from flint import arb, ctx, fmpq, fmpq_poly
 
 from symbolic import truncated
+from symbolic.ball_expansion import ball_row
 from symbolic.balls import rational, whole_power
 from symbolic.errors import InputError
 from symbolic.parameters import Value, merged
@@ -29,6 +30,8 @@ from symbolic.slow_flow import SlowFlow, Term
 from symbolic.turning_points import real_roots
 
 BITS: Final = 128
+DIGITS: Final = 20
+"""Digits printed."""
 MOST_STEPS: Final = 200
 """Interval Newton steps from m = 0 to the value at most; a branch that needs more is not followed."""
 NEWTON_STEPS: Final = 6
@@ -57,6 +60,16 @@ class FixedPoint:
     def amplitude_series(self) -> tuple[sympy.Expr, ...] | None:
         """a in powers of the small parameter; None without a series, or when a starts with its square root."""
         return None if self.square_series is None else root_series(self.square_series)
+
+    def to_dict(self) -> dict[str, object]:
+        """The public JSON form: balls as decimals with their radii; the series of a^2 is null when none ends here."""
+        row: dict[str, object] = {}
+        with ctx.workprec(BITS):
+            for name in ("amplitude", "frequency", "slope"):
+                printed = ball_row(getattr(self, name), DIGITS)
+                row |= {name: printed["coefficient"], f"{name}_radius": printed["radius"]}
+        series = None if self.square_series is None else [str(c) for c in self.square_series]
+        return {**row, "stable": self.stable, "square_series": series}
 
 
 def fixed_points(flow: SlowFlow, values: Mapping[str, Value]) -> tuple[FixedPoint, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -15,6 +16,7 @@ from ridgeback.demand import Demand, demanding
 from ridgeback.derivation import Request, derived, requesting
 from ridgeback.failure import PartialError
 from ridgeback.high_order import by_primes, in_balls
+from ridgeback.motion import fixed_rows, harmonic_output, transient_output
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.resumming import formula_text, resummed_from
@@ -55,9 +57,14 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     ridgeback derive --equation "u'' + u**3 = 0" --at 1,2      no expansion, but an exact frequency
     ridgeback derive pendulum --order 16 --resummed pade --at 2.5
 
+    ridgeback derive damped-pendulum --order 2 --transient 0.5 --until 100
+    ridgeback derive damped-pendulum --order 4 --harmonics
+
     JSON: system, method, amplitude, order, variables; frequency (damping, amplitude_series) as a list of powers and
     coefficient.  Of balls also radius, ball and certain_digits (null: exact), and limits.  With --verify certificate.
-    With --at a list of amplitude, omega0, radius (of its certified ball), formula_omega0, relative_error, error_bound.
+    With --at a list of amplitude, omega0, radius (of its certified ball), formula_omega0, relative_error and
+    error_bound.  Of a self-excited slow flow fixed_points with their slope and whether they are stable.  With
+    --transient closed_form (or null) and rows of time, amplitude, phase, omega0, u.  With --harmonics, harmonics.
     """
     try:
         oscillator = choice.oscillator()
@@ -65,8 +72,8 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
         write_text(output, strong(unexpandable(refusal, demand), request, demand))
         return
     result = derived_as(oscillator, request, demand)
-    if demand.resummed is not None:
-        write_text(output, resummation(oscillator, result, demand))
+    if demand.resummed is not None or demand.transient is not None or demand.harmonics:
+        write_text(output, made_of(oscillator, result, demand))
         return
     checks = certificate(oscillator, result) if demand.verify else None
     write_text(output, printed(oscillator, result, demand, checks))
@@ -89,7 +96,18 @@ def derived_as(oscillator: Oscillator, request: Request, demand: Demand) -> Resu
         return in_balls(oscillator, request, demand.digits, demand.checkpoint)
     if demand.workers is not None:
         return by_primes(oscillator, request, demand.workers)
+    if demand.transient is not None and request.method is None:
+        request = replace(request, method="multiple-scales")
     return derived(oscillator, request)
+
+
+def made_of(oscillator: Oscillator, result: Any, demand: Demand) -> str:
+    """The output of what is made of an expansion, in place of the expansion itself."""
+    if demand.transient is not None:
+        return transient_output(oscillator, result, demand)
+    if demand.harmonics:
+        return harmonic_output(oscillator, result, demand.style)
+    return resummation(oscillator, result, demand)
 
 
 def resummation(oscillator: Oscillator, result: Any, demand: Demand) -> str:
@@ -122,6 +140,7 @@ def printed(
             return at_csv(found, demand)
         case "json":
             more = {**limit_rows(oscillator, result), **certificate_rows(checks), **at_rows(found, demand)}
+            more |= fixed_rows(oscillator, result)
             return json_text({**result.to_dict(), **more})
         case "text":
             table = at_text(found, demand, f"{result.method} to order {result.order}", result.amplitude)

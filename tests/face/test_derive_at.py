@@ -90,7 +90,7 @@ def test_resummations_have_their_certified_errors(ridgeback: Ridgeback) -> None:
         ("pendulum --resummed pade --degrees 2/2 --order 4", "lower a degree"),
         ("pendulum --resummed pade --verify", "--verify"),
         ("pendulum --resummed pade --workers 2", "exclude each other"),
-        ("pendulum --degrees 1/1", "belongs to --resummed"),
+        ("pendulum --degrees 1/1", "needs --resummed"),
         ("pendulum --resummed pade --degrees 1", "write for example 3/2"),
         ("van-der-pol --resummed nome", "peak amplitude"),
         ("helmholtz-duffing --resummed nome", "neither"),

@@ -145,7 +145,7 @@ def test_work_over_the_budget_is_refused_beforehand_and_allowed_when_asked_for(r
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["pendulum", "--checkpoint", "state"], "belongs to --digits"),
+        (["pendulum", "--checkpoint", "state"], "needs --digits"),
         (["pendulum", "--digits", "0"], "--digits"),
         (["pendulum", "--digits", "5", "--checkpoint", "-"], "file"),
         (["pendulum", "--digits", "5", "--method", "energy-integral"], "lindstedt"),

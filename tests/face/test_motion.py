@@ -1,0 +1,143 @@
+"""``derive --transient`` and ``--harmonics``: two routes to every row, and the keys of their JSON."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import pytest
+import sympy
+from scipy.integrate import solve_ivp
+
+from symbolic.multiple_scales import multiple_scales
+from symbolic.systems import find
+from symbolic.transient import PHASE, START, TIME, closed_form
+
+Ridgeback = Callable[..., Any]  # the fixture of conftest.py
+
+
+def output(ridgeback: Ridgeback, words: str) -> Any:
+    done = ridgeback("derive", *words.split(), "--format", "json")
+    assert (done.code, done.err) == (0, "")
+    return json.loads(done.out)
+
+
+@pytest.mark.parametrize("words", ["damped-pendulum --order 2", "van-der-pol --order 3 --weight 1 --set eps=1/10"])
+def test_the_closed_form_printed_is_the_rows_printed(ridgeback: Ridgeback, words: str) -> None:
+    """The formula is evaluated by SymPy, the rows come from a Taylor series in time."""
+    public = output(ridgeback, words + " --transient 0.5,0.25 --until 40 --points 5")
+    system = public["system"]
+    flow = multiple_scales(find(system), public["order"], weight=public["weight"])
+    form = closed_form(flow)
+    assert form is not None
+    assert public["closed_form"] == {"amplitude": str(form.amplitude), "phase": str(form.phase)}
+    small = {"damped-pendulum": ("mu", Fraction(1, 100)), "van-der-pol": ("eps", Fraction(1, 10))}[system]
+    values = {START: 0.5, PHASE: 0.25, sympy.Symbol(small[0], real=True): float(small[1])}
+    for row in public["transient"]:
+        at = {**values, TIME: row["time"]}
+        assert row["amplitude"] == pytest.approx(float(form.amplitude.subs(at)), rel=1e-11)
+        assert row["phase"] == pytest.approx(float(form.phase.subs(at)), rel=1e-10, abs=1e-10)
+    assert [row["time"] for row in public["transient"]] == [0, 10, 20, 30, 40]
+
+
+def test_the_displacement_is_the_motion_of_the_equation(ridgeback: Ridgeback) -> None:
+    """Against SciPy: the error of the slow flow falls as its order rises."""
+    errors = []
+    for order in (2, 4, 6):
+        words = f"damped-pendulum --order {order} --set mu=1/100 --transient 0.6 --until 30 --points 301"
+        done = ridgeback("derive", *words.split(), "--format", "csv")
+        rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(io.StringIO(done.out))]
+        u0, u1, u2 = (rows[i]["u"] for i in (0, 1, 2))
+        slope = (-3 * u0 + 4 * u1 - u2) / 0.2
+        true = solve_ivp(
+            lambda _, y: [y[1], -0.02 * y[1] - math.sin(y[0])],
+            (0, 30),
+            fitted(u0, slope, rows),
+            t_eval=[row["time"] for row in rows],
+            rtol=1e-11,
+            atol=1e-12,
+        )
+        errors.append(max(abs(row["u"] - y) for row, y in zip(rows, true.y[0], strict=True)))
+    assert errors[0] > 10 * errors[1] > 50 * errors[2]
+
+
+def fitted(u: float, slope: float, rows: list[dict[str, float]]) -> list[float]:
+    """The velocity at time 0 of the printed motion by a difference of high order, from seven of its rows."""
+    weights = [-49 / 20, 6, -15 / 2, 20 / 3, -15 / 4, 6 / 5, -1 / 6]
+    found = sum(w * rows[i]["u"] for i, w in enumerate(weights)) / rows[1]["time"]
+    assert found == pytest.approx(slope, abs=1e-2)
+    return [u, found]
+
+
+def test_without_a_closed_form_it_is_said(ridgeback: Ridgeback) -> None:
+    words = "van-der-pol --order 12 --weight 1 --set eps=1/10 --transient 0.1 --until 200"
+    public = output(ridgeback, words)
+    assert public["closed_form"] is None
+    (cycle,) = public["fixed_points"]
+    assert (cycle["stable"], cycle["square_series"]) == (True, ["4", "0", "1/16", "0"])
+    last = public["transient"][-1]
+    assert last["amplitude"] == pytest.approx(float(cycle["amplitude"]), rel=1e-6)  # it is attracted to the cycle
+    assert last["omega0"] == pytest.approx(float(cycle["frequency"]), rel=1e-6)
+    text = ridgeback("derive", *words.split()).out
+    assert "no closed form at this order" in text
+    assert "stable" in text
+
+
+def test_fixed_points_are_in_the_json_of_a_self_excited_flow(ridgeback: Ridgeback) -> None:
+    public = output(ridgeback, "van-der-pol --method multiple-scales --weight 1 --order 6 --set eps=1/10")
+    (cycle,) = public["fixed_points"]
+    assert float(cycle["slope"]) == pytest.approx(-0.1)  # d/da of (eps a/2)(1 - a^2/4) at a = 2
+    assert "fixed_points" not in output(ridgeback, "damped-pendulum --order 4")
+
+
+def test_harmonics_of_the_undamped_duffing_oscillator_are_the_textbook_ones(ridgeback: Ridgeback) -> None:
+    """Nayfeh and Mook (1979), 2.3: u = a cos phi + (a^3/32) cos 3 phi + ... for u'' + u + u^3 = 0."""
+    flow = output(ridgeback, "duffing --method multiple-scales --order 2 --harmonics")
+    assert flow["harmonics"] == [
+        {"multiple": 1, "cosine": [{"powers": {"a": 1, "mu": 0}, "coefficient": "1"}], "sine": []},
+        {"multiple": 3, "cosine": [{"powers": {"a": 3, "mu": 0}, "coefficient": "1/32"}], "sine": []},
+    ]
+    series = output(ridgeback, "duffing --order 2 --amplitude fundamental --harmonics")
+    assert series["harmonics"][1]["cosine"] == [{"powers": {"A": 3}, "coefficient": "1/32"}]
+    text = ridgeback(*["derive", "duffing", "--order", "2", "--amplitude", "fundamental", "--harmonics"]).out
+    assert ["cos(3*omega0*t)", "A^3", "0.03125", "1/32"] in [line.split() for line in text.splitlines()]
+
+
+def test_harmonics_as_formulas(ridgeback: Ridgeback) -> None:
+    words = ["derive", "duffing", "--method", "multiple-scales", "--order", "2", "--harmonics", "--format"]
+    assert ridgeback(*words, "python").out == "a**3*cos(3*phi)/32 + a*cos(phi)\n"
+    assert r"C_{3} = \frac{a^{3}}{32}" in ridgeback(*words, "latex").out
+    assert ridgeback(*words, "mathml").out.startswith("<math")
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        ("pendulum --transient 1", "needs --until"),
+        ("pendulum --until 5", "needs --transient"),
+        ("pendulum --points 5", "needs --transient"),
+        ("pendulum --transient 1 --until 5 --method lindstedt", "multiple-scales"),
+        ("pendulum --transient 0 --until 5", "above 0"),
+        ("pendulum --transient 1 --until 5 --at 1", "exclude"),
+        ("pendulum --transient 1 --until 5 --harmonics", "exclude"),
+        ("pendulum --transient 1 --until 5 --verify", "--verify"),
+        ("pendulum --transient 1 --until 5 --format latex", "text, json or csv"),
+        ("pendulum --harmonics --method energy-integral", "lindstedt"),
+        ("pendulum --harmonics --format latex", "text or json"),
+        ("pendulum --harmonics --format csv", "csv does not go"),
+        (
+            "van-der-pol --order 4 --weight 1 --method multiple-scales --set eps=-1/2 --transient 3 --until 99",
+            "runs away",
+        ),
+    ],
+)
+def test_one_line_says_what_does_not_go(ridgeback: Ridgeback, words: str, why: str) -> None:
+    done = ridgeback("derive", *words.split())
+    assert (done.code, done.out) == (2, "")
+    assert done.err.count("\n") == 1
+    assert why in done.err
