@@ -66,7 +66,8 @@ def compare_recording(
         raise InputError(f"{recording.source}: no estimator succeeded; " + "; ".join(failed))
     progress(0.7, "backbone")
     chosen = tracks[0]
-    measured = backbone(chosen, recording.values, recording.rate, start=float(recording.time[0]))
+    flat = recording.clipped if recording.clipped.any() else None
+    measured = backbone(chosen, recording.values, recording.rate, start=float(recording.time[0]), exclude=flat)
     progress(0.9, "spectrogram")
     return _assembled(recording, tracks, measured, failed, oscillator)
 

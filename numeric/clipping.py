@@ -38,7 +38,7 @@ def runs(flags: Mask, shortest: int) -> list[tuple[int, int]]:
 
 
 def clipped(x: Array) -> Mask:
-    """True at samples in flat tops at the extremes of ``x``.
+    """True at samples at an extreme of ``x`` that has a flat top.
 
     >>> flat = np.clip(np.sin(np.linspace(0.0, 20.0, 200)), -2.0, 0.8)
     >>> bool(clipped(flat)[flat >= 0.8].all()), bool(clipped(flat)[flat < 0.8].any())
@@ -54,5 +54,6 @@ def clipped(x: Array) -> Mask:
             beside = [abs(float(x[i]) - extreme) for i in (first - beyond, last + beyond) if 0 <= i < x.size]
             rounding = step * ((1.0 + (2 * beyond + 1) / (last - first)) ** 2 + 1.0)
             if beside and min(beside) > rounding * (1.0 + 1e-9):
-                found[first : last + 1] = True
+                found |= x == extreme  # where one top is cut off, so is every sample that reaches it
+                break
     return found

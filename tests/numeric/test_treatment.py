@@ -158,6 +158,16 @@ def test_a_digitised_sine_is_not_taken_for_clipped(bits: int, rate: int) -> None
         assert clipped(cut).any()
 
 
+@given(st.integers(3, 12), st.floats(8.0, 300.0), st.floats(0.0, 6.3), st.floats(0.2, 1.0), st.floats(0.0, 0.2))
+@settings(deadline=None, max_examples=200)
+def test_no_sine_or_decay_of_any_resolution_is_taken_for_clipped(
+    bits: int, rate: float, phase: float, size: float, mu: float
+) -> None:
+    t = np.arange(int(6 * rate)) / rate
+    x = size * np.exp(-mu * t) * np.sin(2 * np.pi * t + phase)
+    assert not clipped(np.round(x * 2 ** (bits - 1)) / 2 ** (bits - 1)).any()
+
+
 def test_drift_is_named_and_removed_only_when_asked(tmp_path: Path) -> None:
     path = written(tmp_path / "a.csv", T, X + 0.05 * T)
     plain = read_recording(path)

@@ -1,0 +1,197 @@
+"""``ridgeback estimate`` on recordings as they are: several channels and runs, gaps, clipping, formats, a picture."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.io import savemat
+
+from tests.face.conftest import Ridgeback
+
+RATE = 20.0
+T = np.arange(500) / RATE
+QUICK = ("--method", "pseudo-wigner")
+
+
+def decay(size: float = 1.0) -> np.ndarray:
+    """omega0 = 8 - 0.3 a^2, a'/a = -0.05."""
+    a = size * np.exp(-0.05 * T)
+    return a * np.cos(8.0 * T - 0.3 * size**2 * (1 - np.exp(-0.1 * T)) / 0.1)
+
+
+def written(path: Path, **columns: np.ndarray) -> str:
+    rows = zip(*columns.values(), strict=True)
+    lines = [",".join("" if np.isnan(value) else repr(float(value)) for value in row) for row in rows]
+    path.write_text(",".join(columns) + "\n" + "\n".join(lines) + "\n", encoding="utf-8")
+    return str(path)
+
+
+def table(text: str) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def test_a_track_has_amplitude_and_damping_beside_frequency(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    done = ridgeback("estimate", written(tmp_path / "a.csv", t=T, u=decay()), *QUICK, "--format", "csv")
+    assert (done.code, done.err) == (0, "")
+    rows = [row for row in table(done.out) if row["amplitude"] and row["valid"] == "true"]
+    assert len(rows) > 200
+    for row in rows:
+        a = np.exp(-0.05 * float(row["time_s"]))
+        assert float(row["amplitude"]) == pytest.approx(a, rel=2e-3)
+        assert float(row["damping_per_s"]) == pytest.approx(-0.05, abs=2e-3)
+        assert float(row["omega_rad_s"]) == pytest.approx(8.0 - 0.3 * a**2, rel=1e-3)
+
+
+def test_one_missing_value_leaves_two_stretches_and_a_common_backbone(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    x = decay()
+    x[250] = np.nan
+    path = written(tmp_path / "a.csv", t=T, u=x)
+    public = json.loads(ridgeback("estimate", path, *QUICK, "--format", "json").out)
+    assert [signal["recording"]["stretch"] for signal in public["signals"]] == [1, 2]
+    assert all(np.isfinite(row["omega_rad_s"]) for signal in public["signals"] for row in signal["track"])
+    assert "1 gap: t = 12.45 to 12.55 (1 missing)" in " ".join(public["signals"][0]["notes"])
+    (combined,) = public["combined"]
+    assert (combined["channel"], combined["amplitude"]) == ("u", "fundamental")
+    for row in combined["backbone"]:
+        assert row["frequency_hz"] * 2 * np.pi == pytest.approx(8.0 - 0.3 * row["amplitude"] ** 2, rel=3e-3)
+    filled = json.loads(ridgeback("estimate", path, *QUICK, "--fill", "0.11", "--format", "json").out)
+    assert filled["recording"]["filled"] == 1
+    said = ridgeback("estimate", path, *QUICK, "--backbone", "--format", "csv")
+    assert "ridgeback: a.csv, u, stretch 1: 1 gap: t = 12.45" in said.err
+    rows = table(said.out)
+    assert {row["run"] for row in rows} == {"a.csv", "combined"}
+    assert {row["stretch"] for row in rows} == {"1", "2", ""}
+
+
+def test_runs_in_files_and_channels_by_name(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    files = [written(tmp_path / f"{i}.csv", t=T, u=decay(s), w=3 * decay(s)) for i, s in enumerate((1.0, 0.8))]
+    done = ridgeback("estimate", *files, "--column", "u,w", *QUICK, "--backbone")
+    assert (done.code, done.err) == (0, "")
+    assert done.out.count("combined backbone of") == 2
+    assert "combined backbone of w: 0.csv, w; 1.csv, w" in done.out
+    assert "omega_between_runs_rad_s" in done.out
+    together = json.loads(
+        ridgeback("estimate", *files, "--column", "all", *QUICK, "--combine", "all", "--format", "json").out
+    )
+    (combined,) = together["combined"]
+    assert len(combined["runs"]) == 4
+    alone = json.loads(
+        ridgeback("estimate", *files, "--column", "u", *QUICK, "--combine", "none", "--format", "json").out
+    )
+    assert alone["combined"] == []
+
+
+def test_units_are_not_mixed(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    path = written(tmp_path / "a.csv", **{"t": T, "u [mm]": decay(), "w [V]": decay()})
+    done = ridgeback("estimate", path, "--column", "all", "--combine", "all", *QUICK)
+    assert done.code == 2
+    assert "backbones in V and mm cannot be combined" in done.err
+
+
+def test_a_channel_without_an_oscillation_is_owned_up_to(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    short = np.where(np.arange(500) < 20, decay(), np.nan)
+    path = written(tmp_path / "a.csv", t=T, u=decay(), w=short)
+    done = ridgeback("estimate", path, "--column", "u,w", *QUICK, "--format", "json")
+    assert done.code == 3
+    assert "gave no result: a.csv, w: signal spans" in done.err
+    assert len(json.loads(done.out)["signals"]) == 1
+
+
+def test_clipped_samples_are_told_and_kept_out_of_the_backbone(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    path = written(tmp_path / "a.csv", t=T, u=np.clip(decay(), -0.7, 0.7))
+    public = json.loads(ridgeback("estimate", path, *QUICK, "--format", "json").out)
+    assert public["recording"]["clipped"] > 20
+    assert any("are clipped: t = 0" in note for note in public["notes"])
+    assert max(row["amplitude"] for row in public["backbone"]) < 0.75
+    halves = json.loads(ridgeback("estimate", path, "--half-cycles", "--format", "json").out)
+    assert max(row["amplitude"] for row in halves["backbone"]) < 0.7
+    assert max(row["amplitude"] for row in halves["track"]) == pytest.approx(0.7, rel=0.05)
+
+
+def test_half_cycles_and_their_backbone(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    path = written(tmp_path / "a.csv", t=T, u=decay() + 0.3)
+    public = json.loads(ridgeback("estimate", path, "--half-cycles", "--format", "json").out)
+    assert public["method"] == "half-cycles"
+    assert public["amplitude_definition"] == "peak"
+    for row in public["track"][1:-1]:
+        a = np.exp(-0.05 * row["time_s"])
+        assert row["amplitude"] == pytest.approx(a, rel=2e-3)
+        assert row["damping_per_s"] == pytest.approx(-0.05, abs=1e-3)
+        assert row["omega_rad_s"] == pytest.approx(8.0 - 0.3 * a**2, rel=1e-3)
+    rows = table(ridgeback("estimate", path, "--half-cycles", "--backbone", "--format", "csv").out)
+    assert set(rows[0]) >= {"amplitude", "omega_rad_s", "damping_per_s"}
+
+
+def test_a_matlab_file_gives_what_the_text_gives(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    text = written(tmp_path / "a.csv", t=T, u=decay())
+    savemat(tmp_path / "a.mat", {"t": T, "u": decay()})
+    of_text, of_mat = (
+        table(ridgeback("estimate", name, *QUICK, "--format", "csv").out) for name in (text, str(tmp_path / "a.mat"))
+    )
+    assert of_text == of_mat
+
+
+def test_without_h5py_the_environment_is_at_fault(
+    ridgeback: Ridgeback, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "a.h5").write_bytes(b"\x89HDF\r\n\x1a\n")
+    monkeypatch.setitem(sys.modules, "h5py", None)
+    done = ridgeback("estimate", str(tmp_path / "a.h5"))
+    assert done.code == 4
+    assert done.err == "ridgeback: reading a.h5 needs the library h5py, which is missing; pip install h5py\n"
+
+
+@pytest.mark.parametrize("kind", ["svg", "png", "pdf"])
+def test_a_picture_is_written_beside_the_numbers(ridgeback: Ridgeback, tmp_path: Path, kind: str) -> None:
+    path = written(tmp_path / "a.csv", t=T, u=decay())
+    picture = tmp_path / f"a.{kind}"
+    done = ridgeback("estimate", path, *QUICK, "--plot", str(picture))
+    assert (done.code, done.err) == (0, "")
+    assert picture.read_bytes()[:5] in (b"<?xml", b"\x89PNG\r", b"%PDF-")
+    assert "time_s" in done.out
+
+
+def test_settings_reach_the_estimator(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    path = written(tmp_path / "a.csv", t=T, u=decay())
+
+    def settings(*words: str) -> dict[str, object]:
+        done = ridgeback("estimate", path, *words, "--format", "json")
+        assert done.code == 0, done.err
+        found = json.loads(done.out)
+        return {"method": found["method"], **found["settings"]}
+
+    limited = settings("--method", "pseudo-wigner", "--band-limited", "--single", "--window", "hann")
+    assert limited["band_limited"] is True
+    assert limited["single"] is True
+    assert limited["lag_window"] == "hann"
+    smooth = settings("--method", "smoothed-pseudo-wigner", "--smoothing", "0.5")
+    assert smooth["smoothing_seconds"] == pytest.approx(0.5, abs=0.1)
+    assert settings("--method", "polynomial-wigner", "--order", "4")["order"] == 4
+    assert settings("--method", "harmonic-least-squares", "--harmonics", "2")["harmonics"] == [1, 2]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--plot", "a.gif"), "does not end in .svg, .png or .pdf"),
+        (("--half-cycles", "--harmonic", "3"), "--half-cycles are those of the signal"),
+        (("--backbone", "--harmonic", "3"), "--backbone is that of the fundamental"),
+        (("--resample", "-3"), "'-3' is not above 0"),
+        (("--detrend", "cubic"), "'cubic' is not one of"),
+        (("--method", "hilbert", "--single"), "has no band-limited or single-precision form"),
+        (("--run-column", "shot"), "no column shot"),
+        (("--order", "5"), "'5' is not one of"),
+    ],
+)
+def test_refusals_are_one_line(ridgeback: Ridgeback, tmp_path: Path, words: tuple[str, ...], message: str) -> None:
+    done = ridgeback("estimate", written(tmp_path / "a.csv", t=T, u=decay()), *words)
+    assert done.code == 2
+    assert done.out == ""
+    assert message in done.err
+    assert done.err.count("\n") == 1
