@@ -81,8 +81,9 @@ def test_without_a_closed_form_it_is_said(ridgeback: Ridgeback) -> None:
     (cycle,) = public["fixed_points"]
     assert (cycle["stable"], cycle["square_series"]) == (True, ["4", "0", "1/16", "0"])
     last = public["transient"][-1]
-    assert last["amplitude"] == pytest.approx(float(cycle["amplitude"]), rel=1e-6)  # it is attracted to the cycle
-    assert last["omega0"] == pytest.approx(float(cycle["frequency"]), rel=1e-6)
+    # It is attracted to the cycle, which is of the powers of eps that have all their terms: eps^3 makes the difference.
+    assert last["amplitude"] == pytest.approx(float(cycle["amplitude"]), rel=1e-4)
+    assert last["omega0"] == pytest.approx(float(cycle["frequency"]), rel=1e-4)
     text = ridgeback("derive", *words.split()).out
     assert "no closed form at this order" in text
     assert "stable" in text
