@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 from scipy.ndimage import gaussian_filter1d
+from scipy.signal import decimate
 
 from numeric.errors import InputError
 from numeric.samples import TWO_PI, Array
@@ -22,6 +23,9 @@ MARGIN = 1.45
 """Corridor half width as a factor: below 1.5, so that a second harmonic 1.45 times off its corridor stays out."""
 GUIDE_CYCLES = 6.0
 FEWEST_CYCLES = 3.0
+LONG = 100_000
+THINNED = 1.25
+"""Nyquist frequency of a thinned record over the highest frequency looked for."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +88,14 @@ def continuous_path(level: Array, reach: int) -> NDArray[np.intp]:
 
 
 def guide_path(x: Array, rate: float, centre: float, low: float, high: float) -> Array:
-    """Frequency per sample along the strongest continuous path of a spectrogram between ``low`` and ``high``."""
+    """Frequency per sample along the strongest continuous path of a spectrogram between ``low`` and ``high``.
+
+    A long record with far more samples a cycle than the path needs is thinned first.
+    """
+    factor = int(math.pi * rate / (THINNED * high)) if x.size > LONG else 1
+    if factor > 1:
+        thin = guide_path(decimate(x, factor, ftype="fir"), rate / factor, centre, low, high)
+        return np.asarray(np.interp(np.arange(x.size), factor * np.arange(thin.size), thin), dtype=np.float64)
     seconds = min(GUIDE_CYCLES * TWO_PI / centre, (x.size - 1) / rate * 0.999)
     hop = max(1, round(0.25 * TWO_PI / centre * rate))
     n_fft = fft.next_fast_len(max(int(8 * seconds * rate), 64), real=True)

@@ -25,6 +25,8 @@ EASY = 0.1
 TOLERANCE = 1e-3
 """Interpolation error, relative to the rms of the signal, up to which it need not be asked for."""
 MOST_SAMPLES = 50_000_000
+REACH = 10
+"""Output samples that scipy's default resampling filter reaches on either side."""
 
 
 @dataclass(frozen=True)
@@ -138,11 +140,16 @@ def slower(samples: Uniform, rate: float) -> Uniform:
     checked_work(20.0 * samples.values.size * ratio.denominator, "resampling", "cut the recording into parts")
     values = resample_poly(samples.values, ratio.numerator, ratio.denominator, padtype="line")
     exact = samples.rate * float(ratio)
-    at = np.arange(values.size) / exact
+    edge = REACH if values.size > 4 * REACH else 0
+    at = (np.arange(values.size) / exact)[edge : values.size - edge]
+    values = values[edge : values.size - edge]
     source = np.arange(samples.values.size) / samples.rate
-    how = f"resampled from {samples.rate:.6g} to {exact:.6g} per time unit below a low-pass at {exact / 2:.6g}"
+    how = (
+        f"resampled from {samples.rate:.6g} to {exact:.6g} per time unit below a low-pass at {exact / 2:.6g}, "
+        f"without the {edge} samples at either end that it sees incompletely"
+    )
     return Uniform(
-        start=samples.start,
+        start=samples.start + float(at[0]),
         rate=exact,
         values=np.asarray(values, dtype=np.float64),
         clipped=nearby(source, samples.clipped, at),

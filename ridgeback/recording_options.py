@@ -91,7 +91,7 @@ def reading_options(command: Command) -> Command:
             type=POSITIVE,
             default=None,
             metavar="SECONDS",
-            help="Interpolate across gaps up to this long.  Default: cut there.",
+            help="Interpolate between samples up to this far apart.  Default: cut where one is missing.",
         ),
         click.option(
             "--resample",
