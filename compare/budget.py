@@ -117,7 +117,7 @@ def _estimate_note(total: float, spread: float, known: bool) -> str:
 
 def estimator_error(motion: Motion, outcome: Outcome, known: KnownMotion) -> Array | None:
     """Relative error of the same estimate on the known motion, at the curve's times; None where it fails there."""
-    recipe, curve = outcome.recipe, outcome.curve
+    recipe, curve = outcome.recipe.bare, outcome.curve
     again = attempt(recipe, known.velocity if recipe.velocity else known.signal, motion.trajectory.rate).curve
     if again is None or curve is None:
         return None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,6 +23,12 @@ class Recipe:
     method: str
     velocity: bool = False
     options: Mapping[str, object] | None = None
+
+    @property
+    def bare(self) -> Recipe:
+        """The same values without an estimate of their bias, which costs more than they do, unless it is taken off."""
+        options = dict(self.options or {})
+        return self if options.get("remove_bias") else replace(self, options={**options, "bias": False})
 
 
 RECIPES = (

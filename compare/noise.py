@@ -60,6 +60,7 @@ def monte_carlo(
     band: tuple[float, float] | None = None,
     lag_seconds: float | None = None,
     remove_bias: bool = False,
+    intervals: bool = True,
     executor: Executor | None = None,
     budget_seconds: float = BUDGET_SECONDS,
     progress: Progress = lambda _, __: None,
@@ -68,7 +69,7 @@ def monte_carlo(
 
     ``source`` is a :class:`Truth`, or a recording or the samples of one (at ``rate``), whose smooth harmonic model is
     then the truth; by default the paper's case.  ``band``, ``lag_seconds`` and ``remove_bias`` are those
-    of the estimators.
+    of the estimators; without ``intervals`` no coverage is found, in a tenth of the time.
     The cost is predicted from one noise-free run of every method.  An interrupt (KeyboardInterrupt) ends the study
     with the trials done so far and ``complete=False``; before any trial is done it passes through.  Raises InputError
     for an unknown method, trials or ratios out of range, and a study that would take more than ``budget_seconds``.
@@ -81,7 +82,7 @@ def monte_carlo(
     _check(methods, snr_db, trials)
     truth = truth_of(source, rate)
     ratios = tuple(float(value) for value in snr_db)
-    options = {"band": band, "lag_seconds": lag_seconds, "remove_bias": remove_bias}
+    options = {"band": band, "lag_seconds": lag_seconds, "remove_bias": remove_bias, "bias": intervals}
     _check_cost(truth, methods, len(ratios) * trials, options, budget_seconds)
     pieces = [
         Work(truth, method, snr, seed, first, min(first + BLOCK, trials), options)

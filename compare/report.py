@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, field
-from pathlib import Path
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,21 +15,20 @@ from compare.derivation import Exact, derivation, derive, undamped
 from compare.models import LOW_ORDERS
 from compare.motion import Setting, setting
 from compare.provenance import provenance
-from compare.recording import compare_recording
-from compare.results import Array, DecayComparison, Range, RecordingComparison, Report, Study, Timing
+from compare.report_noise import TRIALS, noise_of_motion
+from compare.results import Array, DecayComparison, Range, Report, Study, Timing
+from compare.stages import Progress, Stages, silent
+from compare.standings import standings
 from compare.study import ranges, study
 from compare.summary import cards, decay_sentences, study_sentences, study_title
-from compare.summary_recording import recording_cards, recording_sentences, recording_title
 from compare.timing import timings
 from compare.wording import symbol
 from numeric.potential import peak_limit
-from numeric.recording import Recording
 from symbolic.errors import InputError
 from symbolic.oscillator import Oscillator
 from symbolic.singularity import limits
 from symbolic.systems import find
 
-Progress = Callable[[float, str], None]
 ORDERS = (2, 4, 6, 8, 10, 12, 16, 20, 30, 40)
 CYCLE_ORDERS = (2, 4, 6, 8, 12, 16, 20, 30, 48)
 """Orders in eps for limit cycles, whose series cost more per order."""
@@ -54,26 +50,6 @@ def paper_case() -> Setting:
     return setting(oscillator, initial=(0.95 * np.pi, 0.0), duration=20.0, rate=64.0, time_unit="s")
 
 
-def silent(_: float, __: str) -> None:
-    """Report no progress."""
-
-
-@dataclass(frozen=True)
-class Stages:
-    """Times the stages of a report and passes their progress on."""
-
-    progress: Progress
-    seconds: dict[str, float] = field(default_factory=dict)
-
-    @contextmanager
-    def stage(self, name: str, low: float, high: float) -> Iterator[Progress]:
-        """Yield a progress callback that runs from ``low`` to ``high`` of the whole."""
-        self.progress(low, name)
-        began = time.perf_counter()
-        yield lambda fraction, label: self.progress(low + fraction * (high - low), label)
-        self.seconds[name] = round(time.perf_counter() - began, 3)
-
-
 @dataclass(frozen=True)
 class Plan:
     """What a report on an oscillator computes."""
@@ -83,6 +59,7 @@ class Plan:
     orders: tuple[int, ...]
     amplitudes: Array
     target: float
+    trials: int
 
     def settings(self) -> Mapping[str, object]:
         """Everything that determines the result, for the settings hash."""
@@ -98,6 +75,7 @@ class Plan:
             "orders": ", ".join(map(str, self.orders)),
             "amplitudes": f"{self.amplitudes.size} from {self.amplitudes[0]:.6g} to {self.amplitudes[-1]:.6g}",
             "target": self.target,
+            "trials": self.trials,
         }
 
 
@@ -108,30 +86,42 @@ def assemble_system(
     orders: Sequence[int] | None = None,
     amplitudes: Sequence[float] | Array | None = None,
     target: float = TARGET,
+    trials: int = TRIALS,
     command: str = "",
     progress: Progress = silent,
 ) -> Report:
     """Derive, study, integrate, compare and time one oscillator, and say what was found.
 
     ``order`` is the expansion that the title and the formulas are about; ``orders`` and ``amplitudes`` span the
-    study, ``target`` is the relative error of its ranges.  Raises InputError as the parts do.
+    study, ``target`` is the relative error of its ranges; ``trials`` is the number of noisy records a point of the
+    noise study (0: none).  Raises InputError as the parts do.
     """
     case = setting(chosen) if isinstance(chosen, Oscillator) else chosen
     stages = Stages(progress)
     with stages.stage("deriving", 0.0, 0.05):
-        plan, exact = _plan(case, order, orders, amplitudes, target)
+        plan, exact = _plan(case, order, orders, amplitudes, target, trials)
     with stages.stage("accuracy-order study", 0.05, 0.15):
         result = study(case.oscillator, plan.orders, plan.amplitudes)
-    with stages.stage("along the motion", 0.15, 0.93) as inner:
+    with stages.stage("along the motion", 0.15, 0.5) as inner:
         decay = compare_decay(case, exact=exact, orders=_drawn(exact, order), progress=inner)
-    with stages.stage("evaluation time", 0.93, 1.0):
+    with stages.stage("every estimator", 0.5, 0.7) as inner:
+        ranked = standings(decay, progress=inner)
+    with stages.stage("estimators in noise", 0.7, 0.97) as inner:
+        noisy = noise_of_motion(case, trials, inner) if trials else None
+    with stages.stage("evaluation time", 0.97, 1.0):
         times = _timings(exact, plan)
     progress(1.0, "done")
-    return _system_report(plan, exact, result, decay, times, command, stages.seconds)
+    made = _system_report(plan, exact, result, decay, times, command, stages.seconds)
+    return replace(made, standings=ranked, noise=noisy)
 
 
 def _plan(
-    case: Setting, order: int, orders: Sequence[int] | None, amplitudes: Sequence[float] | Array | None, target: float
+    case: Setting,
+    order: int,
+    orders: Sequence[int] | None,
+    amplitudes: Sequence[float] | Array | None,
+    target: float,
+    trials: int,
 ) -> tuple[Plan, Exact]:
     if not 0 < target < 1:
         raise InputError(f"target {target} is not a relative error between 0 and 1; use e.g. 0.001")
@@ -139,7 +129,7 @@ def _plan(
     wanted = tuple(sorted({*(orders or (CYCLE_ORDERS if cycle else ORDERS)), order}))
     exact = derive(case.oscillator, max(HIGH_ORDER, *wanted), flow_order=min(max(order, 2), 8))
     grid = np.asarray(amplitudes, dtype=float) if amplitudes is not None else _amplitudes(case, exact)
-    return Plan(case, order, wanted, np.sort(grid), target), exact
+    return Plan(case, order, wanted, np.sort(grid), target, trials), exact
 
 
 def _amplitudes(case: Setting, exact: Exact) -> Array:
@@ -216,53 +206,3 @@ def _system_csv(result: Study, decay: DecayComparison) -> dict[str, str]:
         "budget.csv": tables.budget_table(decay.budget),
         "harmonics.csv": tables.harmonics_table(decay),
     }
-
-
-def assemble_recording(
-    source: str | Path | Recording,
-    *,
-    column: str | int | None = None,
-    time_column: str | int | None = None,
-    rate: float | None = None,
-    oscillator: Oscillator | None = None,
-    command: str = "",
-    progress: Progress = silent,
-) -> Report:
-    """Estimate frequency, backbone and damping of a recording and say what was found.
-
-    Raises InputError for a file that holds no usable signal, OSError when it cannot be read.
-    """
-    stages = Stages(progress)
-    with stages.stage("recording", 0.0, 1.0) as inner:
-        found = compare_recording(
-            source, column=column, time_column=time_column, rate=rate, oscillator=oscillator, progress=inner
-        )
-    progress(1.0, "done")
-    return _recording_report(found, oscillator, command, stages.seconds)
-
-
-def _recording_report(
-    found: RecordingComparison, oscillator: Oscillator | None, command: str, seconds: Mapping[str, float]
-) -> Report:
-    settings = {
-        "source": found.source,
-        "column": found.column,
-        "rate": found.rate,
-        "method": found.chosen,
-        "theory": "" if oscillator is None else oscillator.equation,
-    }
-    nothing: tuple[Range, ...] = ()
-    return Report(
-        title=recording_title(found),
-        lead=f"{found.source}, {found.column}: {found.time.size} samples shown, {found.rate:g} per second.",
-        summary=recording_sentences(found),
-        cards=recording_cards(found),
-        derivation=None,
-        study=None,
-        ranges=nothing,
-        decay=None,
-        recording=found,
-        timings=(),
-        provenance=provenance(settings, command=command, input_hash=found.sha256, seconds=seconds),
-        csv={"backbone.csv": tables.backbone_table(found), "tracks.csv": tables.curves_table(found.curves)},
-    )

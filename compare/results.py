@@ -146,11 +146,13 @@ class Score:
 
 @dataclass(frozen=True)
 class Standing:
-    """One estimator with its own defaults on the samples of a motion, bias removed where it knows it."""
+    """One estimator with its own defaults on the samples of a motion, with and without its bias."""
 
     method: str
+    rms_raw: float | None
+    """Relative, like the next four, against the cycle frequency; over the interior, bias left in."""
     rms_interior: float | None
-    """Relative, like the next three, against the cycle frequency."""
+    """Over the interior, bias removed; so are the next two."""
     rms_start: float | None
     rms_end: float | None
     half_width: float | None

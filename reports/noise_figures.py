@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from compare.noise_results import NoiseCell, NoiseStudy
+from compare.noise_results import OUTLIER, NoiseCell, NoiseStudy
 from reports.block import Block, Readout, block
 from reports.canvas import Array, Canvas, Line, Trace, decades, draw, linear, titles
 from reports.labels import place
@@ -135,7 +135,8 @@ def ratio_figure(study: NoiseStudy) -> Block:
         title="Efficiency",
         description=f"Ratio of the error to the Cramér-Rao bound; {EFFICIENT:g} is dashed.",
         caption=f"Rms error divided by the Cramér-Rao bound of the method's own window; dashed: {EFFICIENT:g}. A curve "
-        "that rises to the right is ruled by bias, not by noise; one that rises to the left has lost the ridge.",
+        "that rises to the right is ruled by bias, not by noise; one that rises to the left has lost the ridge; one "
+        "below 1 answers to fewer parameters than the model of the bound, and pays in bias.",
         draw=drawing,
         readout=Readout("SNR", "dB", "", _traces(lines)),
         heights=(3.4, 3.2),
@@ -144,31 +145,27 @@ def ratio_figure(study: NoiseStudy) -> Block:
 
 def noise_table(study: NoiseStudy) -> Table:
     """Return one row per method and ratio, each figure with the uncertainty of the Monte-Carlo mean."""
+    covered = any(cell.coverage is not None for cell in study.cells)
+    said = " Coverage is of the 95 % interval; a dash: none claimed." if covered else ""
+    head = ("method", "SNR", "rms", "mean error", "over bound", "coverage", "lost", "refused")
     return Table(
         "noise",
         f"Estimators in white noise: {study.truth}. Seed {study.seed}, {study.trials} trials a row; ± is one standard "
-        "deviation of the Monte-Carlo mean. Coverage is of the 95 % interval; a dash: none claimed.",
-        ("method", "SNR", "rms", "mean error", "over bound", "coverage", "lost", "refused"),
-        tuple(_row(cell) for cell in study.cells),
+        f"deviation of the Monte-Carlo mean; lost: trials more than {100 * OUTLIER:.0f} % off.{said}",
+        tuple(name for name in head if covered or name != "coverage"),
+        tuple(_row(cell, covered=covered) for cell in study.cells),
     )
 
 
-def _row(cell: NoiseCell) -> Row:
-    ratio = f"{number(cell.snr_db)} dB"
+def _row(cell: NoiseCell, *, covered: bool) -> Row:
+    coverage = NONE if cell.coverage is None else f"{100 * cell.coverage:.0f} %"
+    counts = (*((coverage,) if covered else ()), str(cell.outliers), str(cell.failures))
+    named = (cell.method, f"{number(cell.snr_db)} dB")
     if cell.rms is None:
-        return Row((cell.method, ratio, *(NONE,) * 5, str(cell.failures)), cell.reason, failed=True)
-    return Row(
-        (
-            cell.method,
-            ratio,
-            _with(number(100 * cell.rms, 3), None if cell.rms_sd is None else number(100 * cell.rms_sd, 2)) + " %",
-            relative(cell.bias, signed=True),
-            _with(number(cell.ratio, 3), None if cell.ratio_sd is None else number(cell.ratio_sd, 2)),
-            NONE if cell.coverage is None else f"{100 * cell.coverage:.0f} %",
-            str(cell.outliers),
-            str(cell.failures),
-        )
-    )
+        return Row((*named, *(NONE,) * (1 + len(counts)), str(cell.failures)), cell.reason, failed=True)
+    rms = _with(number(100 * cell.rms, 3), None if cell.rms_sd is None else number(100 * cell.rms_sd, 2))
+    ratio = _with(number(cell.ratio, 3), None if cell.ratio_sd is None else number(cell.ratio_sd, 2))
+    return Row((*named, f"{rms} %", relative(cell.bias, signed=True), ratio, *counts))
 
 
 def _with(value: str, deviation: str | None) -> str:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from compare.bind import bind as bind
-    from compare.report import assemble_recording as assemble_recording
+    from compare.recording_report import assemble_recording as assemble_recording
     from compare.report import assemble_system as assemble_system
     from compare.study import study as study
     from numeric.backbone import backbone as backbone
@@ -44,7 +44,7 @@ HOMES = {
     "SlowFlow": "symbolic.slow_flow",
     "Track": "numeric.track",
     "Trajectory": "numeric.trajectory",
-    "assemble_recording": "compare.report",
+    "assemble_recording": "compare.recording_report",
     "assemble_system": "compare.report",
     "backbone": "numeric.backbone",
     "bind": "compare.bind",

@@ -23,6 +23,8 @@ from compare.results import Array
 CRITERIA = ("bic", "aicc")
 CLEAR = 6.0
 """A distance from here on counts as strong evidence (Kass and Raftery, J. Am. Stat. Assoc. 90 (1995) 773-795)."""
+ROUNDING = 1e-8
+"""Residuals below this share of the signal are those of the slow flow's tables and of rounding: they tell nothing."""
 POINTS = 41
 
 
@@ -50,7 +52,7 @@ def effective_number(residual: Array) -> float:
 def criterion(fit: Fit, effective: float, kind: str) -> float:
     """BIC or AICc of a fit, counting ``effective`` samples; infinite AICc without more of these than parameters."""
     p, N = fit.model.count, fit.residual.size
-    mean_square = max(fit.sum_of_squares / N, 1e-24)
+    mean_square = max(fit.sum_of_squares / N, ROUNDING**2)
     data = effective * math.log(mean_square)
     if kind == "bic":
         return data + p * math.log(effective)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
@@ -41,15 +41,17 @@ class Scope:
     orders: tuple[int, ...] | None
     amplitudes: tuple[float, ...] | None
     target: float | None
+    trials: int
 
 
 @dataclass(frozen=True)
 class Source:
-    """A recording, and where its samples are."""
+    """A recording, where its samples are, and how many of its first cycles foretell the rest."""
 
     file: str
     column: str | None
     time_column: str | None
+    cycles: float | None
 
 
 @click.command("report", short_help="Write the comparison as one HTML page.")
@@ -66,6 +68,17 @@ class Source:
 @click.option("--recording", default=None, metavar="FILE", help="Report on a recording (CSV, NPZ, WAV) instead.")
 @click.option("--column", default=None, metavar="NAME", help="The recording's samples.")
 @click.option("--time-column", default=None, metavar="NAME", help="The recording's times.")
+@click.option(
+    "--predict-from", type=POSITIVE, default=None, metavar="CYCLES", help="Foretell the rest of a recording from these."
+)
+@click.option(
+    "--trials",
+    type=click.IntRange(0, 1000),
+    default=5,
+    show_default=True,
+    metavar="N",
+    help="Noisy records a point of the noise study; 0 leaves it out, else at least 2.",
+)
 @click.option(
     "-o",
     "--output",
@@ -91,32 +104,38 @@ def command(
     recording: str | None,
     column: str | None,
     time_column: str | None,
+    predict_from: float | None,
+    trials: int,
     style: str,
     output: str,
 ) -> None:
     """Compare expansions, models and estimated frequencies of SYSTEM, or of a recording, on one HTML page.
 
     Without an argument: the damped pendulum of Galleani and Cohen, k = 4 pi, mu = 0.01, from 0.95 pi at rest.  With
-    a recording, SYSTEM is optional and its exact backbone is drawn over the measured one.
+    a recording, SYSTEM is optional and its exact backbone is drawn over the measured one; the oscillators that could
+    have made it are ranked.
 
     \b
     ridgeback report
     ridgeback report damped-duffing --set mu=0.02 --initial 1.5,0 --duration 60 -o duffing.html
     ridgeback report --recording decay.csv --column displacement -o decay.html
     """
+    if trials == 1:
+        raise click.UsageError("--trials 1 shows no spread; use at least 2, or 0 for no noise study")
     motion = Motion(choice, initial, duration, rate)
-    scope = Scope(order, orders, amplitudes, target)
+    scope = Scope(order, orders, amplitudes, target, trials)
     shown = as_typed(context.find_root().obj or ("report",))
     with Progress() as progress:
         if recording is None:
-            refuse({"--column": column, "--time-column": time_column}, "belongs to --recording FILE")
+            belonging = {"--column": column, "--time-column": time_column, "--predict-from": predict_from}
+            refuse(belonging, "belongs to --recording FILE")
             report = of_motion(motion, scope, shown, progress)
         else:
-            report = of_recording(Source(recording, column, time_column), motion, scope, shown, progress)
+            report = of_recording(Source(recording, column, time_column, predict_from), motion, scope, shown, progress)
     publish(report, output, style)
 
 
-def refuse(given: dict[str, object], why: str) -> None:
+def refuse(given: Mapping[str, object], why: str) -> None:
     """Raise click.UsageError for the first option that was given and has no place here."""
     for name, value in given.items():
         if value is not None:
@@ -134,6 +153,7 @@ def of_motion(motion: Motion, scope: Scope, shown: str, progress: Progress) -> R
         orders=scope.orders,
         amplitudes=scope.amplitudes,
         target=TARGET if scope.target is None else scope.target,
+        trials=scope.trials,
         command=shown,
         progress=progress,
     )
@@ -158,7 +178,7 @@ def setting_of(motion: Motion) -> Setting:
 
 def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progress: Progress) -> Report:
     """The report on a recording, with an oscillator's exact backbone over it when one is named."""
-    from compare.report import assemble_recording
+    from compare.recording_report import assemble_recording
 
     refuse({"--initial": motion.initial, "--duration": motion.duration}, "belongs to a simulation, not to a recording")
     studied = {"--order": scope.order, "--orders": scope.orders, "--amplitudes": scope.amplitudes}
@@ -171,6 +191,8 @@ def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progr
         time_column=source.time_column,
         rate=motion.rate,
         oscillator=motion.choice.oscillator() if motion.choice.made else None,
+        cycles=source.cycles,
+        trials=scope.trials,
         command=shown,
         progress=progress,
     )

@@ -6,7 +6,7 @@ import pytest
 from compare.backbone_fit import fit_backbone, formula_of
 from compare.bind import bind
 from compare.recording import compare_recording
-from compare.report import assemble_recording
+from compare.recording_report import assemble_recording
 from numeric.errors import InputError
 from numeric.trajectory import integrate
 from symbolic.systems import find
@@ -86,9 +86,12 @@ def test_a_method_that_fails_is_named_and_all_failing_is_an_error(path):
 
 
 def test_the_report_states_what_was_found(path):
-    report = assemble_recording(path, command="ridgeback report decay.csv")
+    report = assemble_recording(path, command="ridgeback report decay.csv", trials=2)
     assert report.title.endswith("hardening")
     assert report.decay is None
     assert len(report.cards) == 3
     assert report.provenance.input_hash == report.recording.sha256
     assert report.csv["backbone.csv"].startswith("amplitude,omega,omega_standard_deviation")
+    assert report.identification.best.omega[-1] > report.identification.best.omega[0]
+    assert report.summary[0].startswith("What made it: ")
+    assert report.noise.trials == 2

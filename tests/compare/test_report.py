@@ -9,18 +9,22 @@ import pytest
 
 from compare.motion import setting
 from compare.provenance import settings_hash
-from compare.report import assemble_recording, assemble_system, paper_case
+from compare.recording_report import assemble_recording
+from compare.report import assemble_system, paper_case
 from compare.results import Report
 from compare.study import ranges
 from compare.wording import amplitude, relative
 from numeric.errors import InputError as NumericError
+from numeric.estimate import METHODS
 from symbolic.errors import InputError
 from symbolic.systems import find
 
 
 def small(**options) -> Report:
     case = setting(find("damped-duffing-hardening"), initial=(0.8, 0.0), duration=40.0, rate=5.0)
-    return assemble_system(case, orders=(2, 6), amplitudes=np.linspace(0.1, 0.9, 9), order=6, **options)
+    return assemble_system(
+        case, orders=(2, 6), amplitudes=np.linspace(0.1, 0.9, 9), order=6, **{"trials": 2, **options}
+    )
 
 
 @pytest.fixture(scope="module")
@@ -48,11 +52,22 @@ def test_three_cards_and_every_part_is_there(report):
     assert report.provenance.command == "ridgeback report duffing"
 
 
+def test_every_estimator_stands_beside_the_others_and_in_noise(report):
+    assert {standing.method for standing in report.standings} == set(METHODS) - {"auto", "model-fit"}
+    for standing in report.standings:
+        assert standing.failed or standing.rms_interior < 0.05, standing
+    best = next(s for s in report.standings if s.method == "harmonic-least-squares")
+    assert best.rms_interior < 1e-3
+    assert 0.0 < best.half_width < 0.01
+    loud, quiet = (report.noise.cell("harmonic-least-squares", snr).rms for snr in (10.0, 40.0))
+    assert quiet < 0.1 * loud
+
+
 def test_the_same_request_gives_the_same_report_apart_from_times(report):
     def timeless(item):
-        return replace(
-            item, provenance=replace(item.provenance, command="", seconds={}), timings=(), cards=item.cards[:2]
-        )
+        still = tuple(replace(standing, seconds=0.0) for standing in item.standings)
+        made = replace(item.provenance, command="", seconds={})
+        return replace(item, provenance=made, timings=(), cards=item.cards[:2], standings=still)
 
     again = small()
     assert repr(timeless(again)) == repr(timeless(report))
@@ -62,7 +77,7 @@ def test_the_same_request_gives_the_same_report_apart_from_times(report):
 def test_another_setting_has_another_hash(report):
     other = assemble_system(
         setting(find("damped-duffing-hardening"), initial=(0.7, 0.0), duration=40.0, rate=5.0),
-        orders=(2,), order=2, amplitudes=[0.1],
+        orders=(2,), order=2, amplitudes=[0.1], trials=0,
     )  # fmt: skip
     assert other.provenance.settings_hash != report.provenance.settings_hash
     assert settings_hash({"a": 1}) != settings_hash({"a": 2})
@@ -91,7 +106,7 @@ def test_the_papers_case_is_the_papers():
 
 def test_a_limit_cycle_reports_in_eps():
     case = setting(find("van-der-pol").with_parameters({"eps": "0.4"}), initial=(1.0, 0.0), duration=40.0, rate=5.0)
-    report = assemble_system(case, orders=(2, 4), amplitudes=[0.2, 0.5], order=4)
+    report = assemble_system(case, orders=(2, 4), amplitudes=[0.2, 0.5], order=4, trials=0)
     assert "ε = 0.5" in report.title
     assert report.study.limit is None
     assert any("Amplitude of the limit cycle" in formula.title for formula in report.derivation.formulas)

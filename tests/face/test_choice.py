@@ -55,7 +55,20 @@ def test_a_file_serves_every_verb(ridgeback: Ridgeback, mine: str, tmp_path: Pat
     rows = ridgeback("study", mine, "--orders", "2", "--amplitudes", "0.5,1", "--format", "csv").out.splitlines()
     assert len(rows) == 3
     page = tmp_path / "mine.html"
-    small = ["--duration", "40", "--rate", "6", "--order", "2", "--orders", "2", "--amplitudes", "0.2,0.5"]
+    small = [
+        "--duration",
+        "40",
+        "--rate",
+        "6",
+        "--order",
+        "2",
+        "--orders",
+        "2",
+        "--amplitudes",
+        "0.2,0.5",
+        "--trials",
+        "0",
+    ]
     assert ridgeback("report", mine, *small, "-o", str(page)).code == 0
 
 

@@ -19,7 +19,20 @@ from ridgeback.verbs import report
 Ridgeback = Callable[..., Any]  # the fixture of conftest.py
 
 NONE = Choice(None, None, None, ())
-SMALL = ["--duration", "40", "--rate", "6", "--order", "2", "--orders", "2,4", "--amplitudes", "0.2,0.5"]
+SMALL = [
+    "--duration",
+    "40",
+    "--rate",
+    "6",
+    "--order",
+    "2",
+    "--orders",
+    "2,4",
+    "--amplitudes",
+    "0.2,0.5",
+    "--trials",
+    "0",
+]
 
 
 def test_a_system(ridgeback: Ridgeback, tmp_path: Path) -> None:
@@ -44,10 +57,11 @@ def test_a_recording(ridgeback: Ridgeback, tmp_path: Path) -> None:
     recording = tmp_path / "decay.csv"
     recording.write_text("t,x\n" + "".join(f"{i / 32!r},{x!r}\n" for i, x in enumerate(samples)), encoding="utf-8")
     page = tmp_path / "decay.html"
-    done = ridgeback("report", "--recording", str(recording), "--column", "x", "-o", str(page))
+    done = ridgeback("report", "--recording", str(recording), "--column", "x", "--trials", "0", "-o", str(page))
     assert (done.code, done.err) == (0, "")
     assert "1.25" in done.out.splitlines()[2]
-    assert page.exists()
+    assert "What made it: Linear oscillator" in done.out
+    assert "section-identification" in page.read_text(encoding="utf-8")
 
 
 def test_the_page_alone_on_standard_output(ridgeback: Ridgeback) -> None:
@@ -119,12 +133,20 @@ def test_a_recording_with_a_system_and_its_findings_as_json(ridgeback: Ridgeback
     recording.write_text("t,x\n" + "".join(f"{i / 32!r},{x!r}\n" for i, x in enumerate(samples)), encoding="utf-8")
     page = tmp_path / "decay.html"
     words = ["--recording", str(recording), "--column", "x", "linear", "--set", "k=7.85398", "--format", "json"]
+    words += ["--trials", "2", "--predict-from", "12"]
     done = ridgeback("report", *words, "-o", str(page))
     assert (done.code, done.err) == (0, "")
     found = json.loads(done.out)
     assert found["output"] == str(page)
     assert "1.25" in found["title"]
-    assert page.exists()
+    text = page.read_text(encoding="utf-8")
+    assert "prediction-phase" in text
+    assert "noise-ratio" in text
+
+
+def test_options_that_belong_elsewhere_are_refused(ridgeback: Ridgeback) -> None:
+    assert "--predict-from belongs to --recording" in ridgeback("report", "--predict-from", "9").err
+    assert "--trials 1 shows no spread" in ridgeback("report", "--trials", "1").err
 
 
 def test_an_overdamped_motion_is_refused_by_name(ridgeback: Ridgeback, tmp_path: Path) -> None:
