@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,8 @@ RATE_NAMES = ("rate", "fs", "sr", "sampling_rate", "sample_rate", "samplerate", 
 STEP_NAMES = ("dt", "ts", "time_step", "timestep", "sampling_interval")
 REAL = "biuf"
 MOST_COLUMNS = 4096
+KEPT = 100_000_000
+"""Bytes up to which a matrix is kept once it is read, for its other columns."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +92,9 @@ def lanes_of(stored: Stored) -> list[Lane]:
     if len(stored.lengths) == 1:
         return [Lane(stored, None)]
     if len(stored.lengths) == 2 and min(stored.lengths) <= MOST_COLUMNS:
-        return [Lane(stored, i) for i in range(min(stored.lengths))]
+        small = 8 * math.prod(stored.shape) <= KEPT
+        kept = replace(stored, load=lru_cache(maxsize=1)(stored.load)) if small else stored
+        return [Lane(kept, i) for i in range(min(stored.lengths))]
     return []
 
 

@@ -8,7 +8,19 @@ from collections.abc import Sequence
 from numeric.columns import Columns
 from numeric.errors import InputError
 
-TIME_NAMES = ("time", "t", "time_s", "t_s", "times", "seconds", "sec", "timestamp", "time_sec", "time_seconds")
+TIME_NAMES = (
+    "time",
+    "t",
+    "time_s",
+    "t_s",
+    "times",
+    "seconds",
+    "sec",
+    "timestamp",
+    "time_sec",
+    "time_seconds",
+    "datetime",
+)
 ALL = "all"
 SHOWN = 12
 """Column names that a message lists."""

@@ -7,8 +7,9 @@ than its text.
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from datetime import datetime
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,20 +41,60 @@ class TextTable:
         """Whether a comma is a decimal point: it is when it separates no cells."""
         return self.delimiter != ","
 
+    def cells(self, index: int) -> Iterator[str]:
+        """The cells of one column, one by one; empty where a row is too short."""
+        return (row[index] if index < len(row) else "" for row in cells_of(self.rows, self.delimiter))
+
     def column(self, index: int) -> Array:
-        """The numbers of one column, NaN where a cell is MISSING; InputError at the first that is not a number."""
+        """The numbers of one column, NaN where a cell is MISSING; InputError at the first that is not a number.
+
+        Dates with times of day (ISO 8601) become seconds since the first of them.
+        """
+        first = next((cell for cell in self.cells(index) if cell.lower() not in MISSING), "")
+        read = since(first) if is_stamp(first) else (decimal_comma if self.decimal_comma else float)
         values = np.empty(len(self.rows))
-        for i, row in enumerate(cells_of(self.rows, self.delimiter)):
-            cell = row[index] if index < len(row) else ""
+        for i, cell in enumerate(self.cells(index)):
             try:
-                values[i] = float(cell.replace(",", ".") if self.decimal_comma else cell)
-            except ValueError:
-                if cell.strip().lower() not in MISSING:
+                values[i] = read(cell)
+            except (ValueError, TypeError):  # a stamp with a time zone among those without raises the latter
+                if cell.lower() not in MISSING:
                     raise InputError(
                         f"{self.source}, line {self.lines[i]}, column {self.names[index]}: {cell!r} is not a number"
                     ) from None
                 values[i] = np.nan
         return values
+
+
+def decimal_comma(cell: str) -> float:
+    """A number whose decimal point may be a comma.
+
+    >>> decimal_comma("1,5")
+    1.5
+    """
+    return float(cell.replace(",", "."))
+
+
+def is_stamp(cell: str) -> bool:
+    """Whether a cell is a date with a time of day.
+
+    >>> is_stamp("2026-11-22T10:00:00.125"), is_stamp("20261122"), is_stamp("1.5")
+    (True, False, False)
+    """
+    try:
+        datetime.fromisoformat(cell)
+    except ValueError:
+        return False
+    return ":" in cell
+
+
+def since(first: str) -> Callable[[str], float]:
+    """A reader of stamps as seconds since the first.
+
+    >>> since("2026-11-22 10:00:00")("2026-11-22 10:00:01.5")
+    1.5
+    """
+    start = datetime.fromisoformat(first)
+    return lambda cell: (datetime.fromisoformat(cell) - start).total_seconds()
 
 
 def cells_of(rows: Iterable[str], delimiter: str) -> Iterator[list[str]]:
@@ -115,7 +156,7 @@ def parse_table(text: str, *, source: str) -> TextTable:
     delimiter = find_delimiter(lines[0], lines[-1])
     check_quotes(lines, delimiter, source)
     top = next(cells_of(lines[:1], delimiter))
-    headed = not all(is_number(cell) for cell in top)
+    headed = not all(is_number(cell) or is_stamp(cell) for cell in top)
     first = 1 if headed else 0
     if len(lines) == first:
         raise InputError(f"{source} holds no row of numbers below its header")

@@ -164,6 +164,8 @@ def piece_notes(samples: Uniform, drift: float, treatment: Treatment) -> list[st
     if samples.how:
         error = f"; the interpolation errs by about {samples.error:.1e} of the rms" if samples.error else ""
         notes.append(f"{samples.how[0].upper()}{samples.how[1:]}{error}.")
+        if "uneven" in samples.how:
+            notes.append("Standard deviations take noise as white, which interpolation makes it a little less.")
     if treatment.detrend != "none":
         what = "straight line" if treatment.detrend == "linear" else "slow part (a mean over six cycles)"
         notes.append(f"The {what} was removed.")

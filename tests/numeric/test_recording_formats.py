@@ -119,6 +119,19 @@ def test_blanks_percent_comments_and_empty_cells_in_text(tmp_path: Path) -> None
     assert np.abs(read_recording(path).values - U).max() < 1e-8
 
 
+def test_dates_with_times_of_day_are_seconds_since_the_first(tmp_path: Path) -> None:
+    path = tmp_path / "log.csv"
+    stamps = [f"2026-11-22T23:59:{58 + i // 20:02d}.{50 * (i % 20):03d}" for i in range(40)]
+    stamps += [f"2026-11-23T00:00:{i // 20:02d}.{50 * (i % 20):03d}" for i in range(24)]
+    path.write_text("\n".join(f"{t},{u!r}" for t, u in zip(stamps, U.tolist(), strict=True)), encoding="utf-8")
+    found = read_recording(path, time_column=1, column=2)
+    assert found.rate == pytest.approx(20.0)
+    assert np.array_equal(found.values, U)
+    path.write_text("time,u\n2026-11-22T10:00:00,1\n2026-11-22T10:00:01Z,1\n" + "3,1\n" * 20, encoding="utf-8")
+    with pytest.raises(InputError, match="line 3, column time: '2026-11-22T10:00:01Z' is not a number"):
+        read_recording(path)
+
+
 def test_plain_arrays_and_pickles(tmp_path: Path) -> None:
     np.save(tmp_path / "x.npy", U)
     assert np.array_equal(read_recording(tmp_path / "x.npy", rate=20.0).values, U)
