@@ -14,6 +14,7 @@ from reports.time_figures import Clock, traces_of
 from reports.wording import number, relative
 
 CLOCK = Clock("s")
+CRITERIA = {"bic": "BIC", "aicc": "AICc"}
 MOST = 4
 """Candidates drawn: the best, and those that come next."""
 
@@ -99,7 +100,7 @@ def prediction_figures(made: Prediction, found: Identification) -> tuple[Block, 
     share = ", ".join(f"{name} {100 * value:.0f} %" for name, value in made.coverage.items())
     errors = made.errors
     caption = (
-        f"{found.best.title if made.candidate == found.best.name else made.candidate} fitted to the first "
+        f"{_title(made.candidate, found)} fitted to the first "
         f"{number(made.cycles, 3)} cycles (up to t = {number(made.until)} s) foretells the rest. Bands: 95 %; share of "
         f"the measured values inside: {share}. Rms distance: amplitude {relative(errors.get('amplitude'))}, "
         f"frequency {relative(errors.get('omega'))}, phase {number(errors.get('phase'), 3)} rad."
@@ -127,6 +128,11 @@ def prediction_figures(made: Prediction, found: Identification) -> tuple[Block, 
             unit="rad",
         ),
     )
+
+
+def _title(name: str, found: Identification) -> str:
+    """The title of a candidate by its name; the name itself where it was not ranked."""
+    return next((c.title for c in found.candidates if c.name == name), name)
 
 
 def _foretold(
@@ -173,7 +179,7 @@ def ranking_table(found: Identification) -> Table:
     )
     return Table(
         "candidates",
-        f"Candidates by {found.criterion_name}, counted on {number(found.effective_samples, 3)} independent samples; "
+        f"Candidates by {CRITERIA.get(found.criterion_name, found.criterion_name)}, counted on {number(found.effective_samples, 3)} independent samples; "
         f"Δ is the distance from the best, weight its share; residual: rms of samples less model{_unit(found)}.",
         ("class", "Δ", "weight", "residual"),
         (*fitted, *(Row((text, "", "", ""), failed=True) for text in found.failed)),
