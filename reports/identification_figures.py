@@ -179,8 +179,9 @@ def ranking_table(found: Identification) -> Table:
     )
     return Table(
         "candidates",
-        f"Candidates by {CRITERIA.get(found.criterion_name, found.criterion_name)}, counted on {number(found.effective_samples, 3)} independent samples; "
-        f"Δ is the distance from the best, weight its share; residual: rms of samples less model{_unit(found)}.",
+        f"Candidates by {CRITERIA.get(found.criterion_name, found.criterion_name)}, counted on "
+        f"{number(found.effective_samples, 3)} independent samples; Δ is the distance from the best, weight its share; "
+        f"residual: rms of samples less model{_unit(found)}.",
         ("class", "Δ", "weight", "residual"),
         (*fitted, *(Row((text, "", "", ""), failed=True) for text in found.failed)),
     )
