@@ -8,15 +8,19 @@ from types import MappingProxyType
 
 from numpy.typing import ArrayLike
 
+from numeric.choice import for_auto, for_least_squares
+from numeric.decimation import PER_CYCLE, Decimated, decimated
 from numeric.errors import InputError
-from numeric.harmonic_fit import Shape
 from numeric.harmonics import harmonic_track
 from numeric.peak_track import by_pseudo_wigner, by_smoothed_pseudo_wigner, by_spectrogram, by_wigner
 from numeric.phase_track import by_harmonic_least_squares, by_hilbert, by_zero_crossing
 from numeric.polynomial_track import by_polynomial_wigner
 from numeric.reassigned_track import by_reassigned_spectrogram, by_synchrosqueezing
 from numeric.request import Request, prepared
+from numeric.samples import checked_rate, checked_real_samples
+from numeric.spline_track import by_harmonic_splines, with_spline_interval
 from numeric.track import Track
+from numeric.uncertainty import trial_of, with_interval
 
 
 def finish(track: Track, remove_bias: bool) -> Track:
@@ -26,20 +30,26 @@ def finish(track: Track, remove_bias: bool) -> Track:
     return replace(track, omega=track.omega - track.bias, settings={**track.settings, "bias_removed": True})
 
 
-def by_auto(request: Request) -> Track:
-    """Harmonic least squares where a window holds enough samples for it, else the pseudo-Wigner peak."""
-    if 2 * request.half + 1 >= 2 * Shape().size:
-        why = "harmonic least squares: efficient in noise and unbiased by curvature to third order in the phase"
-        track = by_harmonic_least_squares(request)
-    else:
-        why = "pseudo-Wigner: the window holds too few samples for a least-squares fit of a phase polynomial"
-        track = by_pseudo_wigner(request)
-    return replace(track, settings={**track.settings, "why": why})
+def by_least_squares(request: Request) -> Track:
+    """Harmonic least squares, local or global."""
+    return by_harmonic_splines(request) if request.scope == "global" else by_harmonic_least_squares(request)
+
+
+def vouched(track: Track, estimator: Callable[[Request], Track], request: Request) -> Track:
+    """The track with its bias and its interval, or with the reason why it has none."""
+    if not request.bias:
+        return track
+    if request.scope == "global":
+        return with_spline_interval(track, request)
+    try:
+        fixed = replace(request, known_models=request.models)
+    except InputError as error:
+        return replace(track, settings={**track.settings, "no_interval": str(error)})
+    return with_interval(track, fixed, trial_of(estimator, fixed, track), fixed.models)
 
 
 ESTIMATORS: Mapping[str, Callable[[Request], Track]] = MappingProxyType(
     {
-        "auto": by_auto,
         "wigner": by_wigner,
         "pseudo-wigner": by_pseudo_wigner,
         "smoothed-pseudo-wigner": by_smoothed_pseudo_wigner,
@@ -49,10 +59,10 @@ ESTIMATORS: Mapping[str, Callable[[Request], Track]] = MappingProxyType(
         "synchrosqueezed": by_synchrosqueezing,
         "hilbert": by_hilbert,
         "zero-crossing": by_zero_crossing,
-        "harmonic-least-squares": by_harmonic_least_squares,
+        "harmonic-least-squares": by_least_squares,
     }
 )
-METHODS = tuple(ESTIMATORS)
+METHODS = ("auto", *ESTIMATORS)
 OF_ONE_KERNEL = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner")
 """Methods whose lag kernel can be limited to a band or held in single precision."""
 
@@ -70,6 +80,7 @@ def estimate(
     harmonics: int | None = None,
     harmonic: int = 1,
     order: int = 6,
+    scope: str | None = None,
     band_limited: bool = False,
     single: bool = False,
     bias: bool = True,
@@ -99,17 +110,20 @@ def estimate(
     >>> bool(np.abs(inside.frequency_hz - 1.0 - 0.02 * inside.time).max() < 1e-3)
     True
     """
-    if method not in ESTIMATORS:
+    if method not in METHODS:
         raise InputError(f"method {method!r} is unknown; use one of {', '.join(METHODS)}")
     if (band_limited or single) and method not in OF_ONE_KERNEL:
         raise InputError(
             f"method {method!r} has no band-limited or single-precision form; {', '.join(OF_ONE_KERNEL)} have"
         )
+    few = Decimated(checked_real_samples(x, what="estimate"), checked_rate(rate), start, 1)
+    if method == "auto":
+        few = decimated(few.x, few.rate, start=start, band=band, per_cycle=max(PER_CYCLE, 4.0 * harmonic))
     request = prepared(
-        x,
-        rate,
+        few.x,
+        few.rate,
         band=band,
-        start=start,
+        start=few.start,
         lag_seconds=lag_seconds,
         smoothing_seconds=smoothing_seconds,
         lag_window=lag_window,
@@ -119,5 +133,10 @@ def estimate(
         band_limited=band_limited,
         single=single,
     )
-    track = finish(ESTIMATORS[method](request), remove_bias)
+    name, request = for_auto(request) if method == "auto" else (method, request)
+    if method == "harmonic-least-squares":
+        request = for_least_squares(request, scope)
+    track = finish(vouched(ESTIMATORS[name](request), ESTIMATORS[name], request), remove_bias)
+    if few.factor > 1:
+        track = replace(track, settings={**track.settings, "decimated_by": few.factor, "rate_given": rate})
     return track if harmonic == 1 else harmonic_track(request.x, request.rate, track, multiple=harmonic)

@@ -16,12 +16,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import make_interp_spline
-from scipy.signal import oaconvolve
 
 from numeric.errors import InputError
+from numeric.local_line import local_line
 from numeric.noise import Level, measure_level, peak_deviation
 from numeric.ridge import follow
-from numeric.samples import TWO_PI, Array, ComplexArray, Mask, checked_rate, checked_real_samples
+from numeric.samples import TWO_PI, Array, Mask, checked_rate, checked_real_samples
 from numeric.track import Track
 from numeric.wigner import wigner_kernel
 from numeric.windows import half_width, window
@@ -56,20 +56,6 @@ def carrier(fundamental: Track, size: int, rate: float, start: float) -> Carrier
     phase = make_interp_spline(time, omega, k=3).antiderivative()
     covered = (time >= inside.time[0]) & (time <= inside.time[-1])
     return Carrier(omega, phase(time) - phase(time[0]), covered)
-
-
-# Weighted least squares of a straight line through c over the window: value and slope decouple for a symmetric w.
-def local_line(c: ComplexArray, w: Array, rate: float) -> tuple[ComplexArray, ComplexArray]:
-    """Return the value and the slope per time unit of c under the symmetric window ``w``, same length as c.
-
-    Near the border the value is the weighted mean of what there is; the slope is right from half a window inside.
-    """
-    half = w.size // 2
-    j = np.arange(-half, half + 1)
-    present = oaconvolve(np.ones(c.size), w, mode="same")
-    value = oaconvolve(c, w, mode="same") / present
-    slope = oaconvolve(c, (w * j)[::-1] / (w * j * j).sum(), mode="same") * rate
-    return np.asarray(value, dtype=np.complex128), np.asarray(slope, dtype=np.complex128)
 
 
 def without_others(x: Array, phase: Array, w: Array, rate: float, *, multiple: int, top: int) -> Array:

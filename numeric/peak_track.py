@@ -6,7 +6,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from numeric.curvature import formula_bias, reestimated_bias
 from numeric.lag_kernel import LagKernel
 from numeric.noise import Level, full_length_deviation, peak_deviation
 from numeric.request import Request, need
@@ -26,32 +25,17 @@ def peak_estimate(
     bins: int,
     border: float,
     deviation: Callable[[Level], Array],
-    formula: LagKernel | None = None,
     **settings: object,
 ) -> Track:
-    """A ridge, on ``bins`` bins, with its deviation and its bias: by formula where given, else by estimating again."""
+    """A ridge, on ``bins`` bins, with the deviation that weak white noise gives it by formula."""
     time = request.time
     work = 20.0 * time.size * bins * (1.0 + np.log2(bins))
     checked_work(work, f"{method} of {time.size} samples by {bins} bins", "use a windowed method or less signal")
     ridge = ridge_of(request.z)
     valid = ridge.inside & request.away_from_border(border + request.ringing)
     need(valid, method, border + request.ringing)
-
-    level = request.level(ridge.omega, valid)
-
-    def again(z: ComplexArray) -> Array:
-        return ridge_of(level.amplitude * z).omega
-
-    bias: Array | None = None
-    if request.bias and formula is not None:
-        bias = formula_bias(time, ridge.omega, valid, kernel=formula)
-    elif request.bias:
-        bias = reestimated_bias(time, ridge.omega, valid, resolution=2.0 * border, estimator=again)
-    how: dict[str, object] = {"band_limited": request.band_limited, "single": request.single}
-    how |= {"bias_by": "formula" if formula is not None else "estimating again on the fitted chirp and amplitude"}
-    return Track(
-        time, ridge.omega, valid, method, deviation(level), bias, request.settings(noise=level.noise, **how, **settings)
-    )
+    how = request.settings(band_limited=request.band_limited, single=request.single, **settings)
+    return Track(time, ridge.omega, valid, method, request.deviation(deviation, ridge.omega, valid), None, how)
 
 
 def following(request: Request, make: Callable[[ComplexArray], Kernel]) -> Callable[[ComplexArray], Ridge]:
@@ -101,7 +85,6 @@ def by_pseudo_wigner(request: Request) -> Track:
         bins=kernel.n_fft,
         border=0.5 * request.lag_seconds,
         deviation=lambda level: peak_deviation(level, request.rate, half_lag_window(request)),
-        formula=kernel,
         lag_seconds=2.0 * request.half / request.rate,
         lag_window=request.lag_window,
     )

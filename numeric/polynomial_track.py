@@ -2,34 +2,25 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
-from numeric.harmonics import carrier, without_others
 from numeric.peak_track import following, peak_estimate
-from numeric.phase_track import by_harmonic_least_squares
 from numeric.polynomial_wigner import PolynomialKernel, half_lags, polynomial_deviation, polynomial_kernel
 from numeric.request import Request
 from numeric.samples import ComplexArray
 from numeric.track import Track
 from numeric.wigner import as_analytic
-from numeric.windows import half_width, window
-
-CLEANING_CYCLES = 2.5
-HIGHEST_REMOVED = 7
+from numeric.windows import window
 
 
 def by_polynomial_wigner(request: Request) -> Track:
     """Peak of the polynomial Wigner distribution after the harmonics have been taken out.
 
-    A product of six factors multiplies harmonics into cross terms on the fundamental, so they are removed first,
-    phase-locked to a harmonic least-squares track.
+    A product of six factors multiplies harmonics into cross terms on the fundamental, so they are removed first, as
+    the model of the whole signal has them.
     """
-    base = carrier(by_harmonic_least_squares(replace(request, bias=False)), request.x.size, request.rate, request.start)
-    seconds = CLEANING_CYCLES * request.cycle
-    w = window("blackman", half_width(seconds, request.rate, name="cleaning filter", longest=request.x.size))
-    top = max(1, min(HIGHEST_REMOVED, int(0.9 * math.pi * request.rate / base.omega.max())))
-    alone = without_others(request.x, base.phase, w, request.rate, multiple=1, top=top)
+    model = request.models.fine
+    alone = request.x - model.samples(keep=lambda h: h != 1)
     M = half_lags(request.lag_seconds, request.rate, request.order, request.x.size)
     h = window(request.lag_window, M)[M:]
 
@@ -48,5 +39,5 @@ def by_polynomial_wigner(request: Request) -> Track:
         lag_seconds=2.0 * request.half / request.rate,
         lag_window=request.lag_window,
         order=request.order,
-        harmonics_removed=tuple(range(2, top + 1)),
+        harmonics_removed=model.multiples,
     )

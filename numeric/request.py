@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,6 +15,7 @@ from numeric.errors import InputError
 from numeric.noise import Level, measure_level
 from numeric.samples import TWO_PI, Array, ComplexArray, Mask, checked_rate, checked_real_samples
 from numeric.search_band import Corridor, find_corridor
+from numeric.signal_model import SignalModels, signal_models
 from numeric.wigner import as_analytic
 from numeric.windows import half_width
 
@@ -42,6 +45,32 @@ class Request:
     offset: float
     band_limited: bool = False
     single: bool = False
+    lag_given: bool = False
+    """Whether the window was asked for, or is the default that a method may change."""
+    scope: str = "local"
+    """Of harmonic least squares: in a sliding window, or ``global``."""
+    phase_degree: int | None = None
+    why: str = ""
+    """Reason for what was chosen from the data."""
+    bare: bool = False
+    """Only the values are wanted, without a deviation: a trial, to be run many times."""
+    multiples: tuple[int, ...] | None = None
+    """Harmonics to fit beside the fundamental, where a trial is to use those of the track itself."""
+    hysteresis: float | None = None
+    """Of zero crossings, likewise."""
+    known_models: SignalModels | None = None
+    """Of the track's own signal, likewise."""
+
+    def on(self, x: Array) -> Request:
+        """The same request for other samples, of which only the values are wanted."""
+        return replace(self, x=x, z=as_analytic(x), bias=False, bare=True)
+
+    def like(self, settings: Mapping[str, object]) -> Request:
+        """The same request with what a track chose from the data fixed: for trials of that track's estimator."""
+        harmonics, hysteresis = settings.get("harmonics"), settings.get("hysteresis")
+        multiples = tuple(harmonics[1:]) if isinstance(harmonics, tuple) else None
+        known = hysteresis if isinstance(hysteresis, float) else None
+        return replace(self, multiples=multiples, hysteresis=known, known_models=self.models)
 
     @property
     def time(self) -> Array:
@@ -59,6 +88,11 @@ class Request:
         return TWO_PI / float(self.corridor.guide.min())
 
     @property
+    def margin(self) -> int:
+        """Samples at each end that expected errors leave out: half the default window, or a tenth of the record."""
+        return min(round(0.5 * LAG_CYCLES * self.cycle * self.rate), self.x.size // 10)
+
+    @property
     def band(self) -> tuple[float, float] | None:
         """The band that a band-limited Wigner kernel keeps, None for all."""
         return self.corridor.limits if self.band_limited else None
@@ -68,11 +102,23 @@ class Request:
         """How long the ends of the record ring in the filter of a band-limited kernel; 0 without it."""
         return 0.0 if self.band is None else ringing(*self.band)
 
+    @cached_property
+    def models(self) -> SignalModels:
+        """Models of the whole signal; raises InputError where there is none."""
+        if self.known_models is not None:
+            return self.known_models
+        multiples = None if self.harmonics is None else tuple(range(2, self.harmonics + 1))
+        return signal_models(self.x, self.rate, self.corridor.guide, half=self.half, multiples=multiples)
+
     def away_from_border(self, seconds: float) -> Mask:
         """True at samples at least ``seconds`` inside the record."""
         t = self.time - self.start
         slack = 1e-9 / self.rate
         return np.asarray((t >= seconds - slack) & (t <= t[-1] - seconds + slack), dtype=np.bool_)
+
+    def deviation(self, of: Callable[[Level], Array], omega: Array, valid: Mask) -> Array | None:
+        """What a formula gives for the amplitude and the noise along a track; None for a trial."""
+        return None if self.bare else of(self.level(omega, valid))
 
     def level(self, omega: Array, valid: Mask) -> Level:
         """Amplitude and noise along a track."""
@@ -87,6 +133,7 @@ class Request:
             "start": self.start,
             "band_rad": (low, high),
             "band_why": self.corridor.why,
+            **({"why": self.why} if self.why else {}),
             **more,
         }
 
@@ -129,6 +176,7 @@ def prepared(
         start=float(start),
         corridor=corridor,
         lag_seconds=LAG_CYCLES * cycle if lag_seconds is None else lag_seconds,
+        lag_given=lag_seconds is not None,
         lag_window=lag_window,
         smoothing_seconds=cycle if smoothing_seconds is None else smoothing_seconds,
         harmonics=harmonics,

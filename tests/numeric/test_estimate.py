@@ -49,10 +49,14 @@ def test_every_method_follows_a_chirp_and_fills_the_same_track(method: str) -> N
 def test_auto_says_what_it_chose_and_why() -> None:
     track = estimate(chirp()[1], 32.0)
     assert track.method == "harmonic-least-squares"
-    assert str(track.settings["why"]).startswith("harmonic least squares:")
-    coarse = estimate(chirp(rate=5.0, seconds=40.0)[1], 5.0)
-    assert coarse.method == "pseudo-wigner"
-    assert "too few samples" in str(coarse.settings["why"])
+    assert track.settings["scope"] == "global"
+    assert str(track.settings["why"]).startswith("harmonic least squares of the whole record: relative rms errors")
+    assert "pseudo-Wigner over" in str(track.settings["why"])
+    short = estimate(np.cos(2 * np.pi * 1.1 * np.arange(48) / 8.0), 8.0)
+    assert short.method == "pseudo-wigner"
+    assert "because harmonic least squares cannot: signal holds" in str(short.settings["why"])
+    assert short.interval is None
+    assert "needs more than" in str(short.settings["no_interval"])
 
 
 # Relative rms over 2 .. 18 s of the paper's case at 32 Hz, noise free, against the phase of the zero crossings.
@@ -62,14 +66,17 @@ def test_auto_says_what_it_chose_and_why() -> None:
         ("wigner", False, 9.2e-3, 9.8e-3),
         ("pseudo-wigner", False, 3.8e-4, 4.9e-4),
         ("pseudo-wigner", True, 0.0, 1.7e-5),
-        ("smoothed-pseudo-wigner", True, 0.0, 1.5e-4),
-        ("spectrogram", True, 0.0, 5e-5),
+        ("smoothed-pseudo-wigner", True, 0.0, 1.7e-5),
+        ("wigner", True, 0.0, 1.7e-5),
+        ("hilbert", True, 0.0, 1.7e-5),
+        ("polynomial-wigner", False, 0.0, 3.1e-5),
+        ("spectrogram", True, 0.0, 1.7e-5),
         ("reassigned-spectrogram", False, 4.5e-4, 6.5e-4),
-        ("reassigned-spectrogram", True, 0.0, 5e-5),
+        ("reassigned-spectrogram", True, 0.0, 1.7e-5),
         ("synchrosqueezed", False, 5.5e-4, 7.5e-4),
-        ("synchrosqueezed", True, 0.0, 5e-5),
+        ("synchrosqueezed", True, 0.0, 1.7e-5),
         ("zero-crossing", False, 0.9e-4, 1.5e-4),
-        ("zero-crossing", True, 0.0, 1.0e-5),
+        ("zero-crossing", True, 0.0, 1.1e-5),
         ("harmonic-least-squares", False, 0.0, 2.5e-5),
     ],
 )
@@ -79,8 +86,10 @@ def test_paper_case(pendulum_decay: Source, method: str, remove_bias: bool, low:
     error = decay.error(track.time, track.omega)
     assert low <= error < high
     if track.bias is not None and method in ("wigner", "pseudo-wigner", "zero-crossing") and not remove_bias:
-        predicted = np.sqrt(np.mean((track.between(2, 18).bias / track.between(2, 18).omega) ** 2))
-        assert predicted == pytest.approx(error, rel=0.06)
+        part = track.between(2, 18)
+        assert part.bias is not None
+        predicted = np.sqrt(np.mean((part.bias / part.omega) ** 2))
+        assert predicted == pytest.approx(error, rel=0.1)
 
 
 @pytest.mark.parametrize("method", ["wigner", "pseudo-wigner", "smoothed-pseudo-wigner"])
@@ -109,10 +118,12 @@ def test_single_precision_track_is_the_track_to_six_digits(method: str) -> None:
 
 def test_harmonic_least_squares_reaches_the_borders(pendulum_decay: Source) -> None:
     decay = pendulum_decay()
-    track = estimate(decay.u, 32.0, method="harmonic-least-squares")
-    assert decay.error(track.time, track.omega, low=18.0, high=20.0) < 1e-4
-    assert decay.error(track.time, track.omega, low=0.0, high=2.0) < 5e-3
-    assert not track.valid[0]
+    whole = estimate(decay.u, 32.0, method="harmonic-least-squares")
+    local = estimate(decay.u, 32.0, method="harmonic-least-squares", scope="local", bias=False)
+    for track in (whole, local):
+        assert decay.error(track.time, track.omega, low=18.0, high=20.0) < 1e-4
+        assert decay.error(track.time, track.omega, low=0.0, high=2.0) < 5e-3
+    assert (whole.valid[0], local.valid[0]) == (True, False)
 
 
 def test_one_percent_of_the_full_wigner_is_curvature_and_not_harmonics(pendulum_decay: Source) -> None:
@@ -146,7 +157,8 @@ def test_standard_deviation_is_that_of_repeated_trials(method: str) -> None:
     errors, claimed = [], []
     for seed in range(16):
         x = clean + 0.1 * np.random.default_rng(seed).normal(size=t.size)
-        track = estimate(x, 32.0, method=method, bias=False)
+        lag = 3.0 if method == "harmonic-least-squares" else None
+        track = estimate(x, 32.0, method=method, bias=False, lag_seconds=lag)
         errors.append((track.omega - omega)[middle])
         assert track.standard_deviation is not None
         claimed.append(track.standard_deviation[middle])
@@ -160,7 +172,7 @@ def test_deviation_falls_with_the_noise_and_with_the_window() -> None:
     noise = rng.normal(size=t.size)
 
     def typical(level: float, lag: float) -> float:
-        track = estimate(x + level * noise, 32.0, method="pseudo-wigner", lag_seconds=lag)
+        track = estimate(x + level * noise, 32.0, method="pseudo-wigner", lag_seconds=lag, bias=False)
         assert track.standard_deviation is not None
         return float(np.median(track.standard_deviation))
 
@@ -215,7 +227,12 @@ def test_harmonic_is_followed_on_request(pendulum_decay: Source) -> None:
         (chirp()[1], {"band_limited": True, "method": "spectrogram"}, "'spectrogram' has no band-limited or single"),
         (chirp()[1], {"single": True}, "'auto' has no band-limited or single-precision form"),
         (chirp()[1], {"harmonic": 30}, "harmonic 30 reaches .* Nyquist"),
-        (chirp()[1], {"harmonics": 40}, "window of .* samples is too short"),
+        (
+            chirp()[1],
+            {"scope": "wide", "method": "harmonic-least-squares"},
+            "scope 'wide' is unknown; use one of local",
+        ),
+        (chirp()[1], {"harmonics": 40, "method": "harmonic-least-squares"}, "window of .* samples is too short"),
         (np.arange(64.0), {"band": (1.0, 2.0)}, r"signal spans .* cycles .* 4 are needed"),
     ],
 )

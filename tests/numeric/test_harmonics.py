@@ -9,7 +9,8 @@ import pytest
 
 from numeric.errors import InputError
 from numeric.estimate import estimate
-from numeric.harmonics import harmonic_track, local_line, raw_harmonic_peak
+from numeric.harmonics import harmonic_track, raw_harmonic_peak
+from numeric.local_line import local_line
 from numeric.track import Track
 from numeric.windows import window
 

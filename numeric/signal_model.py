@@ -1,0 +1,64 @@
+"""Models of the whole signal on fewer and more knots: what estimators are tried on, corrected by and chosen from."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from numeric.harmonic_fit import choose_multiples
+from numeric.harmonic_spline import SplineModel, chosen, harmonic_splines
+from numeric.samples import TWO_PI, Array
+from numeric.spline_basis import DEGREE
+
+WINDOW_CYCLES = 4.0
+"""Shortest window, in cycles, in which the harmonics of the model are chosen."""
+
+
+@dataclass(frozen=True)
+class SignalModels:
+    """The best model by the criterion, and a finer and a coarser one, a step apart.
+
+    Where the best has the most knots that were tried it is the finer one itself; where none is coarser than it, the
+    coarser one is the best.
+    """
+
+    best: SplineModel
+    fine: SplineModel
+    coarse: SplineModel
+
+    # A spline of degree d on knots h apart gives a slope to O(h^d): b_coarse = r^d b_fine, r the ratio of distances.
+    @property
+    def remainder(self) -> float:
+        """Bias of the finer model as a share of its difference from the coarser one."""
+        ratio = self.coarse.cycles / self.fine.cycles
+        return 1.0 / (ratio**DEGREE - 1.0) if ratio > 1.0 else 0.0
+
+    @property
+    def cycles(self) -> float:
+        """How many cycles the record holds."""
+        return float(self.best.phase[-1] - self.best.phase[0]) / TWO_PI
+
+
+def signal_models(
+    x: Array, rate: float, guide: Array, *, half: int, multiples: tuple[int, ...] | None = None
+) -> SignalModels:
+    """Model the signal with the harmonics given, else with those that windows of 2 ``half`` + 1 samples show.
+
+    Raises InputError where no model of the whole signal settles, or the record is too short or too long for one.
+
+    >>> import numpy as np
+    >>> t = np.arange(640) / 32.0
+    >>> x = np.cos(7.0 * t + 0.1 * t**2) + 0.1 * np.random.default_rng(1).normal(size=640)
+    >>> models = signal_models(x, 32.0, np.full(640, 8.0), half=40)
+    >>> models.fine.cycles < models.best.cycles, round(models.cycles, 1)
+    (True, 28.6)
+    """
+    if multiples is None:
+        cycle = TWO_PI / float(guide.min())
+        wide = max(half, math.ceil(0.5 * WINDOW_CYCLES * cycle * rate))
+        multiples = choose_multiples(x, rate, guide, half=min((x.size - 1) // 2, wide))
+    models = harmonic_splines(x, rate, guide, multiples=multiples)
+    best = chosen(models)
+    at = next(i for i, model in enumerate(models) if model is best)
+    fine = models[min(at + 1, len(models) - 1)]
+    return SignalModels(best, fine, best if fine is not best else models[max(at - 1, 0)])

@@ -1,0 +1,186 @@
+"""What an estimator's values are worth on the signal at hand: its bias, its deviation, and the 95 % interval of both.
+
+The signal is modelled as a whole by harmonic least squares (``numeric.harmonic_spline``).  The model's samples are a
+clean signal whose frequency is known, much like the one measured.
+
+- Bias: the estimator run on the clean signal, less the model's frequency.  Curvature to all orders, harmonics, borders,
+  and whatever else the estimator suffers from are in it.
+- Deviation: the estimator run on the clean signal with white noise added, a few times over (a parametric bootstrap:
+  Efron and Tibshirani, An Introduction to the Bootstrap, 1993, ch. 6), from a stated seed.
+- Deviation of the corrected values.  With P the projection of the model's fit, the corrected estimate is that of the
+  model plus the estimator's answer to the residual (I - P) noise; both parts are replicated from the same noise.
+- Model: the same correction by a model on fewer knots.  Where the two differ by more than noise explains, the share of
+  the difference that should be left in the finer one, by the order at which the models converge, counts as one sigma.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.interpolate import make_interp_spline
+from scipy.ndimage import uniform_filter1d
+from scipy.special import stdtrit
+
+from numeric.harmonic_spline import SplineModel
+from numeric.request import Request
+from numeric.samples import TWO_PI, Array, Mask
+from numeric.signal_model import SignalModels
+from numeric.track import NORMAL_95, Track
+
+SEED = 20031
+ENOUGH = 64
+"""Independent windows wanted among all replicates: their deviation is then known to 9 %."""
+MOST_REPLICATES, FEWEST_REPLICATES = 24, 4
+POOLED_SHARE = 0.25
+"""Share of the record over which replicates are pooled."""
+AMBIGUOUS = 0.1
+"""Relative change of omega per cycle above which omega(t) is flagged as ambiguous."""
+ROOM = 0.2
+"""What the definition leaves open there: this times the square of that change (found between the readings of crossings
+and of turning points of the pendulum near its separatrix: 0.17 to 0.33)."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """An estimator as a function of the samples alone, read at fixed times, and what it should give on a model."""
+
+    time: Array
+    run: Callable[[Array], Array]
+    multiple: int = 1
+    efficient: bool = False
+    """Whether the track's own deviation is exact, as that of a least-squares fit is."""
+
+    def truth(self, model: SplineModel, change: Array | None = None) -> Array:
+        """The model's frequency at the times of the trial."""
+        omega = model.tone(self.multiple, change)[0]
+        if np.array_equal(self.time, model.time):
+            return omega
+        return np.asarray(make_interp_spline(model.time, omega, k=3)(self.time), dtype=np.float64)
+
+    def bias(self, model: SplineModel) -> Array:
+        """The estimator on the model's samples, less the model's frequency."""
+        return self.run(model.samples()) - self.truth(model)
+
+
+def trial_of(estimator: Callable[[Request], Track], request: Request, track: Track) -> Trial:
+    """The trial of one of the estimators, with what ``track`` chose from the data fixed, read at its times."""
+    fixed = request.like(track.settings)
+
+    def run(x: Array) -> Array:
+        found = estimator(fixed.on(x))
+        return np.asarray(np.interp(track.time, found.time, found.omega), dtype=np.float64)
+
+    return Trial(track.time - request.start, run, efficient=track.method == "harmonic-least-squares")
+
+
+@dataclass(frozen=True)
+class Replicates:
+    """Errors of the plain and of the corrected estimate in replicated noise, and of the models' difference."""
+
+    plain: Array
+    corrected: Array
+    between: Array
+
+
+def replicated(trial: Trial, models: SignalModels, clean: Array, count: int) -> Replicates:
+    """Run the trial on ``count`` noisy copies of the finer model; ``clean`` is what it gives without noise."""
+    rng, fine, coarse = np.random.default_rng(SEED), models.fine, models.coarse
+    samples, truth, truth_coarse = fine.samples(), trial.truth(fine), trial.truth(coarse)
+    plain, corrected, between = (np.empty((count, trial.time.size)) for _ in range(3))
+    for i in range(count):
+        noise = fine.noise * rng.normal(size=samples.size)
+        change, taken = fine.answer(noise)
+        moved = trial.truth(fine, change) - truth
+        plain[i] = 0.0 if trial.efficient else trial.run(samples + noise) - clean
+        corrected[i] = moved + trial.run(samples + noise - taken) - clean
+        between[i] = moved - (trial.truth(coarse, coarse.answer(noise)[0]) - truth_coarse)
+    return Replicates(plain, corrected, between)
+
+
+def pooled(errors: Array, shape: Array, width: int) -> Array:
+    """Root mean square over replicates and over ``width`` neighbours, of errors relative to ``shape``, times it.
+
+    >>> pooled(np.full((2, 4), 3.0), np.array([1.0, 1.0, 2.0, 2.0]), 1).tolist()
+    [3.0, 3.0, 3.0, 3.0]
+    """
+    return shape * np.sqrt(moving_mean(np.mean(np.square(errors / shape), axis=0), width))
+
+
+def moving_mean(values: Array, width: int) -> Array:
+    """Mean over ``width`` neighbours, the end values held beyond the ends; 0 where it is negative.
+
+    >>> moving_mean(np.array([0.0, 3.0, 0.0, -9.0]), 3).tolist()
+    [1.0, 1.0, 0.0, 0.0]
+    """
+    return np.maximum(uniform_filter1d(values, width, mode="nearest"), 0.0)
+
+
+def replicates_needed(windows: float) -> int:
+    """Few for a long record, which holds many independent windows itself."""
+    return int(np.clip(math.ceil(ENOUGH / windows), FEWEST_REPLICATES, MOST_REPLICATES))
+
+
+def with_interval(track: Track, request: Request, trial: Trial, models: SignalModels) -> Track:
+    """The track with its bias, both deviations, and so its interval."""
+    windows = request.x.size / request.rate / request.lag_seconds
+    count = replicates_needed(windows)
+    clean = trial.run(models.fine.samples())
+    bias = clean - trial.truth(models.fine)
+    copies = replicated(trial, models, clean, count)
+    noise, total = deviations(track, trial, copies, models.fine, windows)
+    apart = (trial.bias(models.coarse) - bias) ** 2 - copies.between.var(axis=0)
+    near = max(1, round(request.lag_seconds / float(np.median(np.diff(track.time)))))
+    unknown = np.maximum(total**2 - noise**2, 0.0) + models.remainder**2 * moving_mean(apart, near)
+    ambiguous, room = definition(trial.truth(models.best), trial.time, models.best)
+    how = {
+        "noise": models.fine.noise,
+        "model_harmonics": (1, *models.fine.multiples),
+        "model_cycles_per_knot": models.fine.cycles,
+        "bias_by": "running the method on a model of the signal",
+        "deviation_by": f"{count} noisy copies of the model",
+        "seed": SEED,
+    }
+    return replace(
+        track,
+        standard_deviation=noise,
+        bias=bias,
+        bias_deviation=np.sqrt(unknown + room**2),
+        ambiguous=ambiguous,
+        settings={**track.settings, **how},
+    )
+
+
+def deviations(
+    track: Track, trial: Trial, copies: Replicates, model: SplineModel, windows: float
+) -> tuple[Array, Array]:
+    """Deviation of the values as given, and of the corrected ones, pooled along time."""
+    width = max(1, round(POOLED_SHARE * track.time.size))
+    own = np.interp(trial.time, model.time, model.omega_deviation)
+    analytic = own if track.standard_deviation is None else track.standard_deviation
+    floor = 1e-15 * np.abs(track.omega)
+    noise = analytic if trial.efficient else pooled(copies.plain, analytic + floor, width)
+    freedom = copies.plain.shape[0] * max(1.0, windows * POOLED_SHARE)
+    return noise, few_sample_factor(freedom) * pooled(copies.corrected, np.hypot(analytic, own) + floor, width)
+
+
+# Student's t: a deviation that was itself estimated with few degrees of freedom holds 95 % only when it is enlarged.
+def few_sample_factor(freedom: float) -> float:
+    """How much larger the 97.5 % point of Student's t is than that of the normal distribution.
+
+    >>> round(few_sample_factor(10.0), 3), round(few_sample_factor(1e6), 3)
+    (1.137, 1.0)
+    """
+    return float(stdtrit(freedom, 0.975)) / NORMAL_95
+
+
+# Any definition of omega(t) of a decay (by crossings, by turning points, by the averaged action) holds to the square of
+# the relative change per cycle, 2 pi omega' / omega^2.
+def definition(omega: Array, time: Array, model: SplineModel) -> tuple[Mask, Array]:
+    """Where omega(t), at these times, is ambiguous, and there the room that its definitions leave (one sigma)."""
+    base = model.tone(1)[0]
+    change = np.interp(time, model.time, TWO_PI * np.gradient(base, model.time) / base**2)
+    ambiguous = np.abs(change) > AMBIGUOUS
+    return ambiguous, np.where(ambiguous, ROOM * change**2 * omega, 0.0)
