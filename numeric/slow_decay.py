@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,8 @@ from numeric.orbit_table import OrbitTable
 
 LEAST_RATE = 1e-9
 """Floor of R relative to omega: where damping is lost or turns to growth, the amplitude stays."""
+MOST_LOG = 50.0
+"""Amplitudes are kept within exp(-50) and exp(50), so that a step of a fit that goes astray has a finite cost."""
 
 
 @dataclass(frozen=True)
@@ -38,6 +41,21 @@ class Flow:
     amplitude: Array
     cosine: Array
     sine: Array | None = None
+
+    @cached_property
+    def slopes(self) -> Array:
+        """Derivatives of time and phase by the level, ``[2, node]``."""
+        return np.array([1 / self.rate, self.omega / self.rate])
+
+    @cached_property
+    def elapsed(self) -> Array:
+        """Time and phase from the first node, ``[2, node]``."""
+        return _accumulated(self.slopes, self.level)
+
+    @cached_property
+    def log_amplitude(self) -> Array:
+        """ln a at the nodes."""
+        return np.asarray(np.log(self.amplitude))
 
 
 @dataclass(frozen=True)
@@ -60,6 +78,16 @@ class ScaledOrbits:
     cosine: Array
     cubic: Array
     quartic: Array
+
+    @cached_property
+    def level(self) -> Array:
+        """ln J."""
+        return np.asarray(np.log(self.action))
+
+    @cached_property
+    def bend(self) -> Array:
+        """d ln a / d ln J of the fundamental amplitude: 1/2 for the linear oscillator."""
+        return np.asarray(np.gradient(np.log(self.cosine[1]), self.level))
 
 
 def refine(table: OrbitTable, peak: Array) -> ScaledOrbits:
@@ -108,13 +136,13 @@ def decay_flow(orbits: ScaledOrbits, *, k: float, length: float, rates: tuple[fl
     loss = rates[0] + (rates[1] * orbits.cubic + rates[2] * orbits.quartic) / power
     omega = k * orbits.omega
     loss = np.maximum(loss, LEAST_RATE * omega)
-    level, fundamental = np.log(orbits.action), orbits.cosine[1]
+    fundamental = orbits.cosine[1]
     down = slice(None, None, -1)
     return Flow(
-        level=-level[down],
+        level=-orbits.level[down],
         rate=loss[down],
         omega=np.sqrt(np.maximum(omega**2 - 0.25 * rates[0] ** 2, (0.1 * k) ** 2))[down],
-        growth=-(loss * np.gradient(np.log(fundamental), level))[down],
+        growth=-(loss * orbits.bend)[down],
         amplitude=length * fundamental[down],
         cosine=(orbits.cosine / fundamental)[:, down],
     )
@@ -133,18 +161,18 @@ def motion(flow: Flow, start: float, phase: float, time: Array, *, waveform: boo
     >>> np.allclose(at.u, np.exp([0.0, -0.2]) * np.cos([0.5, 6.5])), np.allclose(at.phase, [0.5, 6.5])
     (True, True)
     """
-    slopes = np.array([1 / flow.rate, flow.omega / flow.rate])
-    clock, turned = _accumulated(slopes, flow.level)
+    clock, turned = flow.elapsed
     begin = np.array([np.clip(start, flow.level[0], flow.level[-1])])
     at = _places(flow.level, begin)
-    began, done = (float(_hermite(at, v, s)[0]) for v, s in zip((clock, turned), slopes, strict=True))
+    began, done = (float(_hermite(at, v, s)[0]) for v, s in zip(flow.elapsed, flow.slopes, strict=True))
     want = began + time
     inside = np.minimum(want, clock[-1])
     late = want - inside
     place = _places(clock, inside)
     omega = _linear(place, flow.omega)
     angle = phase - done + _hermite(place, turned, flow.omega) + late * omega
-    size = np.exp(_hermite(place, np.log(flow.amplitude), flow.growth) + late * flow.growth[-1])
+    logarithm = _hermite(place, flow.log_amplitude, flow.growth) + late * flow.growth[-1]
+    size = np.exp(np.clip(logarithm, -MOST_LOG, MOST_LOG))
     wave = _wave(flow, place, angle) if waveform else np.zeros_like(angle)
     return Motion(angle, omega, size, size * wave)
 

@@ -28,6 +28,8 @@ ANCHORS = 60
 """Points of the record whose phase and amplitude start the fit."""
 STEPS = 40
 """Evaluations that a stage may take, Jacobians not counted."""
+COARSE, FINE = 1e-4, 1e-8
+"""Relative change of the sum of squares at which a first fit rests, and one that is worth its precision."""
 
 
 @dataclass(frozen=True)
@@ -69,9 +71,9 @@ def prepare(recording: Recording, track: Track) -> Data:
     """Measure what a fit starts from; InputError when the backbone cannot be measured."""
     first = float(recording.time[0])
     measured = backbone(track, recording.values, recording.rate, start=first)
-    length = float(measured.amplitude.max())
     x = recording.values - measured.offset
     phase, size = demodulated(x, recording.rate, track, first)
+    length = max(float(measured.amplitude.max()), float(size.max()))
     edge = round(2 * np.pi / float(np.median(measured.omega)) * recording.rate)
     at = np.unique(np.linspace(edge, x.size - 1 - edge, ANCHORS).astype(int))
     amplitude = size / length
@@ -98,7 +100,7 @@ def demodulated(x: Array, rate: float, track: Track, start: float) -> tuple[Arra
 
 
 def fit(model: Model, data: Data) -> Fit:
-    """Fit a model from the best starting shape of each of its groups; the best result.
+    """Fit a model from the best starting shape of each of its groups; the best result, coarsely (see ``refit``).
 
     Raises InputError when no start leads to a fit.
     """
@@ -110,9 +112,8 @@ def fit(model: Model, data: Data) -> Fit:
 
 
 def refit(model: Model, data: Data, theta: Array) -> Fit:
-    """Fit a model to the samples from a theta that is already near."""
-    low, high = bounds(model, data)
-    return by_samples(model, data, np.clip(theta, low, high), low, high)
+    """Fit a model to the samples, to rounding, from a theta that is already near."""
+    return by_samples(model, data, theta, FINE)
 
 
 def starts(model: Model, data: Data) -> list[Array]:
@@ -192,10 +193,10 @@ def refined(model: Model, data: Data, start: Array) -> Fit:
 
     try:
         near = (low[:-1], high[:-1])
-        rough = least_squares(anchors, inner[:-1], bounds=near, x_scale="jac", max_nfev=STEPS, ftol=1e-5)
+        rough = least_squares(anchors, inner[:-1], bounds=near, x_scale="jac", max_nfev=STEPS, ftol=COARSE)
     except (InputError, ValueError, FloatingPointError, np.linalg.LinAlgError):
         return failed(model, data, start)
-    return by_samples(model, data, np.append(rough.x, 0.0), low, high)
+    return by_samples(model, data, np.append(rough.x, 0.0), COARSE)
 
 
 def failed(model: Model, data: Data, theta: Array) -> Fit:
@@ -203,14 +204,16 @@ def failed(model: Model, data: Data, theta: Array) -> Fit:
     return Fit(model, theta, np.full(data.x.size, np.inf), np.eye(theta.size))
 
 
-def by_samples(model: Model, data: Data, theta: Array, low: Array, high: Array) -> Fit:
+def by_samples(model: Model, data: Data, theta: Array, tolerance: float) -> Fit:
     """Least squares of the samples less the model."""
+    limits = bounds(model, data)
 
     def samples(values: Array) -> Array:
         return model.signal(values, data.time) - data.x
 
     try:
-        fine = least_squares(samples, theta, bounds=(low, high), x_scale="jac", max_nfev=STEPS)
+        begin = np.clip(theta, *limits)
+        fine = least_squares(samples, begin, bounds=limits, x_scale="jac", max_nfev=STEPS, ftol=tolerance)
     except (InputError, ValueError, FloatingPointError, np.linalg.LinAlgError):
         return failed(model, data, theta)
     return Fit(model, np.asarray(fine.x), np.asarray(fine.fun), spread_of(np.asarray(fine.jac)))

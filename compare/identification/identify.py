@@ -35,6 +35,8 @@ PER_CYCLE = 24
 ENOUGH = 6000
 MOST_SAMPLES = 60_000
 FEWEST_CYCLES = 6
+METHOD = "harmonic-least-squares"
+"""Estimator of the track that starts the fits: one whose border values are one-sided fits, so that no cycle is lost."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +61,7 @@ def identify(
     candidates: Iterable[str] = NAMES,
     laws: Sequence[str] = LAWS,
     kind: str = "bic",
-    method: str = "auto",
+    method: str = METHOD,
     span: tuple[float, float] | None = None,
     progress: Progress = lambda _, __: None,
 ) -> Identification:
@@ -78,7 +80,7 @@ def identify(
     names, laws = checked(candidates, laws, kind)
     used, notes = usable(recording, span)
     progress(0.0, "frequency track")
-    track = estimate(used.values, used.rate, method=method, start=float(used.time[0]))
+    track = estimate(used.values, used.rate, method=method, start=float(used.time[0]), bias=False)
     data = prepare(used, track)
     cycles = float(data.time[-1]) / data.cycle
     if cycles < FEWEST_CYCLES:
@@ -163,7 +165,7 @@ def rank(data: Data, names: tuple[str, ...], laws: tuple[str, ...], kind: str, p
     kept = []
     for i, found in enumerate(first):
         progress(0.7 + 0.2 * i / len(first), f"{found.model.name}, other damping laws")
-        tried = [found, *other_laws(found, laws[1:], data)] if found.sum_of_squares <= WORTH_TRYING * least else [found]
+        tried = polished(found, laws[1:], data) if found.sum_of_squares <= WORTH_TRYING * least else [found]
         kept.append(min(tried, key=lambda f: criterion(f, f.residual.size, kind)))
     best = min(kept, key=lambda f: criterion(f, f.residual.size, kind))
     effective = min(float(data.x.size), effective_number(best.residual) + best.model.count)
@@ -179,15 +181,16 @@ def best_with(name: str, law: str, data: Data) -> Fit:
     return min(fits, key=lambda f: criterion(f, f.residual.size, "bic"))
 
 
-def other_laws(found: Fit, laws: tuple[str, ...], data: Data) -> list[Fit]:
-    """The same class with other damping laws, started from what was found."""
+def polished(found: Fit, laws: tuple[str, ...], data: Data) -> list[Fit]:
+    """The fit to rounding, and the same class with other damping laws, started from it."""
+    fine = refit(found.model, data, found.theta)
     if found.model.name == VAN_DER_POL:
-        return []
-    tried = []
+        return [fine]
+    tried = [fine]
     for law in laws:
         model = with_law(found, law)
         if model.size > found.model.size:
-            theta = np.insert(found.theta, 1 + found.model.size, 0.05 * abs(found.theta[found.model.size]))
+            theta = np.insert(fine.theta, 1 + found.model.size, 0.05 * abs(fine.theta[found.model.size]))
             tried.append(refit(model, data, theta))
         else:
             tried.append(fit(model, data))

@@ -76,7 +76,7 @@ class Model:
 
 def level_at(flow: Flow, log_amplitude: float) -> float:
     """The level of a fundamental amplitude on a flow, whichever way it runs."""
-    known = np.log(flow.amplitude)
+    known = flow.log_amplitude
     if known[-1] < known[0]:
         return float(np.interp(-log_amplitude, -known, flow.level))
     return float(np.interp(log_amplitude, known, flow.level))
@@ -104,9 +104,13 @@ def potential_model(potential: Potential, law: str) -> Model:
     orbits = lru_cache(maxsize=8)(potential.orbits)
     shapes, rates = len(potential.lower), 1 if law == LAWS[0] else 2
 
+    @lru_cache(maxsize=4)
+    def numbers_to_flow(numbers: tuple[float, ...]) -> Flow:
+        table: ScaledOrbits = orbits(numbers[1 : 1 + shapes])
+        return decay_flow(table, k=numbers[0], length=1.0, rates=rates_of(law, np.array(numbers[1 + shapes :])))
+
     def flow(theta: Array, _: float) -> Flow:
-        table: ScaledOrbits = orbits(tuple(float(x) for x in theta[1 : 1 + shapes]))
-        return decay_flow(table, k=float(theta[0]), length=1.0, rates=rates_of(law, theta[1 + shapes : -1]))
+        return numbers_to_flow(tuple(theta[:-1].tolist()))
 
     def physical(numbers: Array, length: float) -> tuple[Described, ...]:
         k, shape = float(numbers[0]), tuple(float(x) for x in numbers[1 : 1 + shapes])

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from compare.identification.fitting import Data, Fit, demodulated, prepare
-from compare.identification.identify import FEWEST_CYCLES, Progress, Ranked, checked, part_of, rank, usable
+from compare.identification.identify import FEWEST_CYCLES, METHOD, Progress, Ranked, checked, part_of, rank, usable
 from compare.identification.models import LAWS, NAMES
 from compare.identification.ranking import covariance, spread_along
 from compare.identification.results import NORMAL_95, Prediction
@@ -49,7 +49,7 @@ def predict(
     candidates: Iterable[str] = NAMES,
     laws: Sequence[str] = LAWS,
     kind: str = "bic",
-    method: str = "auto",
+    method: str = METHOD,
     span: tuple[float, float] | None = None,
     progress: Progress = lambda _, __: None,
 ) -> Prediction:
@@ -68,12 +68,12 @@ def predict(
     names, laws = checked(candidates, laws, kind)
     used, _ = usable(recording, span)
     start = float(used.time[0])
-    whole = estimate(used.values, used.rate, method=method, start=start)
+    whole = estimate(used.values, used.rate, method=method, start=start, bias=False)
     offset = float(used.values.mean())
     phase, _ = demodulated(used.values - offset, used.rate, whole, start)
     cut = cut_after(phase, cycles, used)
     first = part_of(used, used.time[:cut], used.values[:cut], used.rate)
-    track = estimate(first.values, first.rate, method=method, start=start)
+    track = estimate(first.values, first.rate, method=method, start=start, bias=False)
     data = prepare(first, track)
     ranked = rank(data, names, laws, kind, progress)
     rest = measured_rest(used, whole, phase, first.time[-1] - start)
