@@ -53,6 +53,11 @@ class Flow:
         return _accumulated(self.slopes, self.level)
 
     @cached_property
+    def chirp(self) -> Array:
+        """d omega / dt at the nodes."""
+        return np.asarray(self.rate * np.gradient(self.omega, self.level))
+
+    @cached_property
     def log_amplitude(self) -> Array:
         """ln a at the nodes."""
         return np.asarray(np.log(self.amplitude))
@@ -169,7 +174,7 @@ def motion(flow: Flow, start: float, phase: float, time: Array, *, waveform: boo
     inside = np.minimum(want, clock[-1])
     late = want - inside
     place = _places(clock, inside)
-    omega = _linear(place, flow.omega)
+    omega = _hermite(place, flow.omega, flow.chirp)
     angle = phase - done + _hermite(place, turned, flow.omega) + late * omega
     logarithm = _hermite(place, flow.log_amplitude, flow.growth) + late * flow.growth[-1]
     size = np.exp(np.clip(logarithm, -MOST_LOG, MOST_LOG))
