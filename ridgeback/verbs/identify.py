@@ -11,6 +11,7 @@ from ridgeback.failure import PartialError
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.progress import Progress
+from ridgeback.recording_options import Reading, Treatment, treatment_options
 from ridgeback.tables import aligned, csv_text, readable
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ def names(text: str | None) -> tuple[str, ...] | None:
 )
 @click.option("--time-column", default=None, metavar="NAME", help="The times.  Default: found by its name.")
 @click.option("--rate", type=POSITIVE, default=None, metavar="R", help="Samples per second, in place of a time column.")
+@treatment_options
 @click.option(
     "--candidates", default=None, metavar="NAME,...", help="Classes to try.  Default: all; a wrong name lists them."
 )
@@ -59,6 +61,7 @@ def command(
     column: str | None,
     time_column: str | None,
     rate: float | None,
+    treatment: Treatment,
     candidates: str | None,
     damping: str | None,
     criterion: str,
@@ -67,7 +70,7 @@ def command(
     style: str,
     output: str,
 ) -> None:
-    """Fit oscillator classes to the free decay in FILE (CSV, NPZ or WAV), and rank them.
+    """Fit oscillator classes to the free decay in FILE (CSV, NPZ, WAV, MAT, HDF5), and rank them.
 
     Each class is fitted to the samples along its slow flow; the information criterion weighs what is left against
     the number of parameters.  CSV has one row per parameter, JSON also the backbones with their 95 % bands.
@@ -77,9 +80,7 @@ def command(
     ridgeback identify decay.csv --candidates linear,pendulum,duffing-softening --format json
     ridgeback identify decay.csv --span 0,40 --predict-from 20
     """
-    from numeric.recording import read_recording
-
-    recording = read_recording(file, column=column, time_column=time_column, rate=rate)
+    recording = Reading(column, time_column, rate, treatment=treatment).one(file)
     with Progress() as progress:
         found = identified(
             recording,

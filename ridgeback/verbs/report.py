@@ -15,6 +15,7 @@ from ridgeback.failure import PartialError, say
 from ridgeback.options import format_option, unique
 from ridgeback.output import STDOUT, json_text, output_path, write_text
 from ridgeback.progress import Progress
+from ridgeback.recording_options import Reading, Treatment, treatment_options
 
 if TYPE_CHECKING:
     from compare.motion import Setting
@@ -52,6 +53,7 @@ class Source:
     column: str | None
     time_column: str | None
     cycles: float | None
+    treatment: Treatment
 
 
 @click.command("report", short_help="Write the comparison as one HTML page.")
@@ -65,9 +67,12 @@ class Source:
 @click.option("--orders", type=ORDERS, default=None, metavar="N,N,...", help="Orders of the accuracy study.")
 @click.option("--amplitudes", type=GRID, default=None, metavar="START:STOP:COUNT", help="Amplitudes of the study.")
 @click.option("--target", type=POSITIVE, default=None, metavar="E", help="Relative error aimed at.  Default: 0.001.")
-@click.option("--recording", default=None, metavar="FILE", help="Report on a recording (CSV, NPZ, WAV) instead.")
+@click.option(
+    "--recording", default=None, metavar="FILE", help="Report on a recording instead: CSV, NPZ, WAV, MAT, HDF5."
+)
 @click.option("--column", default=None, metavar="NAME", help="The recording's samples.")
 @click.option("--time-column", default=None, metavar="NAME", help="The recording's times.")
+@treatment_options
 @click.option(
     "--predict-from", type=POSITIVE, default=None, metavar="CYCLES", help="Foretell the rest of a recording from these."
 )
@@ -105,6 +110,7 @@ def command(
     column: str | None,
     time_column: str | None,
     predict_from: float | None,
+    treatment: Treatment,
     trials: int,
     style: str,
     output: str,
@@ -128,10 +134,12 @@ def command(
     with Progress() as progress:
         if recording is None:
             belonging = {"--column": column, "--time-column": time_column, "--predict-from": predict_from}
-            refuse(belonging, "belongs to --recording FILE")
+            treating = {f"--{name}": value for name, value in treatment.given().items()}
+            refuse({**belonging, **treating}, "belongs to --recording FILE")
             report = of_motion(motion, scope, shown, progress)
         else:
-            report = of_recording(Source(recording, column, time_column, predict_from), motion, scope, shown, progress)
+            source = Source(recording, column, time_column, predict_from, treatment)
+            report = of_recording(source, motion, scope, shown, progress)
     publish(report, output, style)
 
 
@@ -185,11 +193,9 @@ def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progr
     refuse({**studied, "--target": scope.target}, "belongs to the study of a system, not to a recording")
     if not motion.choice.made and motion.choice.assignments:
         raise click.UsageError("--set needs a SYSTEM whose parameters it sets; name one, or leave it out")
+    reading = Reading(source.column, source.time_column, motion.rate, treatment=source.treatment)
     return assemble_recording(
-        source.file,
-        column=source.column,
-        time_column=source.time_column,
-        rate=motion.rate,
+        reading.one(source.file),
         oscillator=motion.choice.oscillator() if motion.choice.made else None,
         cycles=source.cycles,
         trials=scope.trials,

@@ -12,6 +12,8 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
+from numeric.errors import InputError
+from numeric.recording import Recording
 from tests.face.conftest import Ridgeback
 
 RATE = 20.0
@@ -195,3 +197,29 @@ def test_refusals_are_one_line(ridgeback: Ridgeback, tmp_path: Path, words: tupl
     assert done.out == ""
     assert message in done.err
     assert done.err.count("\n") == 1
+
+
+def test_treatment_belongs_to_a_recording(ridgeback: Ridgeback) -> None:
+    done = ridgeback("report", "--fill", "0.1")
+    assert done.code == 2
+    assert "--fill belongs to --recording FILE" in done.err
+
+
+def test_a_report_reads_what_estimate_reads(
+    ridgeback: Ridgeback, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The recording that reaches the page is the one that the options describe."""
+    seen: list[Recording] = []
+
+    def taken(recording: Recording, **_: object) -> None:
+        seen.append(recording)
+        raise InputError("that is enough")
+
+    monkeypatch.setattr("compare.recording_report.assemble_recording", taken)
+    x = decay()
+    x[250] = np.nan
+    path = written(tmp_path / "a.csv", t=T, u=x)
+    assert ridgeback("report", "--recording", path).code == 2
+    assert ridgeback("report", "--recording", path, "--fill", "0.2", "--detrend", "linear").code == 2
+    assert [recording.values.size for recording in seen] == [250, 500]
+    assert seen[1].facts["detrend"] == "linear"
