@@ -120,7 +120,7 @@ class SlowFlow:
         count, found = len(self.weights), []
         for n, grade in enumerate(grades):
             by_power: dict[tuple[int, ...], sympy.Expr] = {}
-            for powers, value in _rows(grade, len(self.names)).items():
+            for powers, value in rows(grade, len(self.names)).items():
                 small, others = powers[:count], powers[count:]
                 part = as_sympy(value) * _monomial(self.names[count:], others) * self.unit(powers, rate=rate)
                 by_power[small] = by_power.get(small, sympy.S.Zero) + part
@@ -251,8 +251,12 @@ def _monomial(names: tuple[str, ...], powers: tuple[int, ...]) -> sympy.Expr:
     return sympy.Mul(*[sympy.Symbol(name, real=True) ** int(n) for name, n in pairs])
 
 
-def _rows(grade: Scalar, count: int) -> dict[tuple[int, ...], fmpq]:
-    """Coefficients by the powers of the parameters."""
+def rows(grade: Scalar, count: int) -> dict[tuple[int, ...], fmpq]:
+    """Rational coefficients by the powers of the parameters, ``count`` of them.
+
+    >>> rows(fmpq(-1, 2), 1)
+    {(0,): -1/2}
+    """
     if isinstance(grade, int | fmpq):
         return {(0,) * count: fmpq(grade)} if grade != 0 else {}
     return {tuple(int(p) for p in powers[1:]): value for powers, value in grade.to_dict().items()}

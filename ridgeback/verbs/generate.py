@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
 import click
 
+from ridgeback.arguments import rational, written
 from ridgeback.choice import Choice, choosing
+from ridgeback.demand import Demand, degrees
 from ridgeback.derivation import Request, derived, requesting
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
+from ridgeback.resumming import resummed_from
+
+if TYPE_CHECKING:
+    from symbolic.expansion import Expansion
+    from symbolic.oscillator import Oscillator
+    from symbolic.resummation import Resummation
+    from symbolic.slow_flow import SlowFlow
 
 
 @click.command("generate", short_help="Write an expansion as Python or C.")
@@ -20,6 +32,22 @@ from ridgeback.output import json_text, write_text
     help="Target language.",
 )
 @requesting
+@click.option(
+    "--resummed",
+    type=click.Choice(("pade", "map")),
+    default=None,
+    help="A quotient of polynomials in place of the series: a Padé approximant, or Euler's map where that is the one.",
+)
+@click.option(
+    "--degrees", type=written(degrees), default=None, metavar="M/N", help="With --resummed: degrees.  Default: equal."
+)
+@click.option(
+    "--up-to",
+    type=written(rational),
+    default=None,
+    metavar="R",
+    help="With --resummed: no pole up to there, and rounding bounded over that range.",
+)
 @format_option("source", "json", default="source")
 @output_option
 def command(
@@ -27,24 +55,61 @@ def command(
     choice: Choice,
     language: str,
     request: Request,
+    resummed: str | None,
+    degrees: tuple[int, int] | None,
+    up_to: Fraction | None,
     style: str,
     output: str,
 ) -> None:
     """Write the frequency of SYSTEM as source text: a Python module, or C99 functions.
 
-    Each exact coefficient is rounded once, to the nearest double.
+    Each exact coefficient is rounded once, to the nearest double, and what rounding can do to the result is proved
+    and written beside it.  Parameters without a value become arguments, as do all small ones of a slow flow.
 
     \b
     ridgeback generate pendulum --order 12 -o pendulum.py
     ridgeback generate pendulum --order 12 --language c -o pendulum.c
     ridgeback generate damped-pendulum --order 6          omega0(a, mu) and damping(a, mu)
+    ridgeback generate pendulum --order 16 --resummed pade --up-to 3
+    ridgeback generate --equation "u'' + u + c*u**3 = 0"   omega0(A, c)
     """
-    from compare.derivation import described, limit_of
-    from symbolic.codegen import generate
-
+    if resummed is None and (degrees is not None or up_to is not None):
+        raise click.UsageError(f"--{'up-to' if degrees is None else 'degrees'} needs --resummed; leave it out")
+    if up_to is not None and up_to <= 0:
+        raise click.BadParameter("the range must end above 0", param_hint="--up-to")
     oscillator = choice.oscillator()
-    result = derived(oscillator, request)
-    limit = limit_of(oscillator) if result.amplitude == "peak" else None
-    source = generate(result, language, equation=described(oscillator), limit=limit)
+    result: Expansion | SlowFlow | Resummation
+    result = series = derived(oscillator, request)
+    if resummed is not None:
+        at = None if up_to is None else (up_to,)
+        result = resummed_from(oscillator, series, Demand(resummed=resummed, degrees=degrees, at=at))
+    source = written_out(oscillator, series, result, language, up_to)
     described_so = {"language": language, **result.to_dict(), "source": source}
     write_text(output, json_text(described_so) if style == "json" else source)
+
+
+def written_out(
+    oscillator: Oscillator,
+    series: Expansion | SlowFlow,
+    result: Expansion | SlowFlow | Resummation,
+    language: str,
+    up_to: Fraction | None,
+) -> str:
+    """The source with what is known about the formula: where the oscillation ends, and its certified error."""
+    from compare.derivation import described, limit_of
+    from symbolic.codegen import generate
+    from symbolic.slow_flow import SlowFlow
+
+    limit = limit_of(oscillator) if result.amplitude == "peak" and not free(oscillator) else None
+    if isinstance(result, SlowFlow) or isinstance(series, SlowFlow):
+        return generate(result, language, equation=described(oscillator), limit=limit)
+    from symbolic.codegen.facts import before_pole, certified_facts, reach_of
+
+    end = up_to or (reach_of(oscillator, series, result) if limit is None else before_pole(Fraction(limit), result))
+    facts = () if end is None else certified_facts(oscillator, result, end)
+    return generate(result, language, equation=described(oscillator), limit=limit, up_to=end, more=facts)
+
+
+def free(oscillator: Oscillator) -> bool:
+    """Whether a parameter has no value, so that no limit can be computed."""
+    return any(value is None for value in oscillator.parameters.values())

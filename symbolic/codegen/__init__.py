@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
 
 from symbolic.codegen import c99, python
 from symbolic.codegen.build import expansion_form, slow_flow_form
 from symbolic.codegen.form import Form
+from symbolic.codegen.quotient import quotient_form
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion
+from symbolic.resummation import Resummation
 from symbolic.slow_flow import SlowFlow
 
 # A further language is a function from the form to its text, and a line here.
@@ -22,13 +26,20 @@ LANGUAGES = tuple(WRITERS)
 
 
 def generate(
-    result: Expansion | SlowFlow, language: str = "python", *, equation: str = "", limit: float | None = None
+    result: Expansion | SlowFlow | Resummation,
+    language: str = "python",
+    *,
+    equation: str = "",
+    limit: float | None = None,
+    up_to: Fraction | None = None,
+    more: tuple[str, ...] = (),
 ) -> str:
-    r"""Source text that evaluates an expansion (omega0 and its slope) or a slow flow (omega0 and damping).
+    r"""Source text of an expansion (omega0 and its slope), a slow flow (omega0 and damping) or a resummation (omega0).
 
-    Angular frequency in rad per time unit.  ``equation`` and ``limit`` (the amplitude at which the oscillation
-    ends) go into the documentation.  Raises InputError for a language without a writer and for a coefficient that
-    has no double.
+    Angular frequency in rad per time unit.  ``equation``, ``limit`` (the amplitude at which the oscillation ends) and
+    ``more`` lines go into the documentation, with a proved bound of the rounding error; ``up_to`` is the end of the
+    range of a resummation.  Raises InputError for a language without a writer, for a coefficient that has no double,
+    and for a resummation that is no quotient of polynomials.
 
     >>> from symbolic.lindstedt import lindstedt
     >>> from symbolic.systems import find
@@ -43,11 +54,20 @@ def generate(
     """
     if language not in WRITERS:
         raise InputError(f"no code is generated for '{language}'; the languages are {', '.join(WRITERS)}")
-    return WRITERS[language](form_of(result, equation=equation, limit=limit))
+    return WRITERS[language](form_of(result, equation=equation, limit=limit, up_to=up_to, more=more))
 
 
-def form_of(result: Expansion | SlowFlow, *, equation: str = "", limit: float | None = None) -> Form:
-    """The coefficient form of either result."""
-    if isinstance(result, SlowFlow):
-        return slow_flow_form(result, equation=equation, limit=limit)
-    return expansion_form(result, equation=equation, limit=limit)
+def form_of(
+    result: Expansion | SlowFlow | Resummation,
+    *,
+    equation: str = "",
+    limit: float | None = None,
+    up_to: Fraction | None = None,
+    more: tuple[str, ...] = (),
+) -> Form:
+    """The coefficient form of any of them; a resummation without ``up_to`` is bounded for values up to 1."""
+    if isinstance(result, Resummation):
+        return quotient_form(result, up_to=up_to or Fraction(1), equation=equation, limit=limit, more=more)
+    build = slow_flow_form if isinstance(result, SlowFlow) else expansion_form
+    form = build(result, equation=equation, limit=limit)  # type: ignore[arg-type]
+    return replace(form, facts=(*form.facts, *more))

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
+from textwrap import wrap
 
 from sympy import Expr
 from sympy.printing.c import C99CodePrinter
 
 from symbolic.codegen.form import Constant, Form, Function
+
+WIDTH = 110
 
 
 def write(form: Form) -> str:
@@ -60,6 +63,7 @@ def write_function(form: Form, function: Function) -> str:
             "/*",
             f" * {function.summary}",
             *(f" * {a.name}: {comment_safe(a.meaning)}" for a in function.arguments),
+            *(f" * {line}" for note in function.notes for line in wrap(comment_safe(note), WIDTH)),
             " */",
         ]
     )

@@ -7,17 +7,19 @@ same double for the same argument (as long as the compiler does not fuse a produ
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
 from sympy import Add, Expr, Integer, Mul, Rational, Symbol
 from sympy.codegen.ast import Assignment
 
+from symbolic.codegen.rounding import rounding_note, roundings
 from symbolic.errors import InputError
 
+K = Symbol("k")
 Powers = tuple[int, ...]
-Terms = Mapping[Powers, Rational]
+Terms = Mapping[Powers, Expr]
 
 
 @dataclass(frozen=True)
@@ -25,7 +27,7 @@ class Constant:
     """An exact coefficient under the name it has in the code, and the one double that stands for it."""
 
     name: str
-    exact: Rational
+    exact: Expr
     nearest: float
 
 
@@ -48,6 +50,8 @@ class Function:
     constants: tuple[Constant, ...]
     steps: tuple[Assignment, ...]
     result: Expr
+    notes: tuple[str, ...] = ()
+    """What is proved about the result."""
 
 
 @dataclass(frozen=True)
@@ -61,21 +65,26 @@ class Form:
     functions: tuple[Function, ...]
 
 
-def nearest_double(exact: Rational) -> float:
-    """The double nearest to a rational: one rounding, half to even.
+DIGITS = 40
+"""Enough that rounding an algebraic number to a double is decided."""
+
+
+def nearest_double(exact: Expr) -> float:
+    """The double nearest to a rational (one rounding, half to even) or algebraic number.
 
     Raises InputError when the number is beyond the doubles or would become zero.
 
     >>> nearest_double(Rational(1, 3072)).hex()
     '0x1.5555555555555p-12'
     """
+    ratio = exact if exact.is_Rational else Rational(str(exact.evalf(DIGITS)))
     try:
-        value = int(exact.p) / int(exact.q)  # Python's division of integers rounds correctly
+        value = int(ratio.p) / int(ratio.q)  # Python's division of integers rounds correctly
     except OverflowError:
         value = math.inf
     if not math.isfinite(value) or (value == 0 and exact != 0):
         raise InputError(
-            f"a coefficient of about 10^{decimal_exponent(exact)} has no double; generate code for a lower order"
+            f"a coefficient of about 10^{decimal_exponent(ratio)} has no double; generate code for a lower order"
         )
     return value
 
@@ -106,7 +115,7 @@ def constants_of(prefix: str, terms: Terms) -> tuple[Constant, ...]:
     [('C0', 1.0), ('C2', -0.0625)]
     """
     return tuple(
-        Constant(constant_name(prefix, powers), Rational(terms[powers]), nearest_double(Rational(terms[powers])))
+        Constant(constant_name(prefix, powers), terms[powers], nearest_double(terms[powers]))
         for powers in sorted(terms)
     )
 
@@ -134,6 +143,26 @@ class Steps:
         self.taken.append(Assignment(symbol, value))
         return symbol
 
+    def measured(self, name: str, dimension: int) -> str:
+        """A quantity over its power of k, computed when there is one; return the name of what is computed."""
+        if dimension == 0:
+            return name
+        power: Expr = K
+        if name.startswith("("):
+            return "k" if dimension < 0 else str(self.once("k_inverse", 1 / K).name)
+        for n in range(2, abs(dimension) + 1):
+            power = self.once(f"k_{n}", product(K, power))
+        if dimension > 0:
+            suffix = "by_k" if dimension == 1 else f"by_k_{dimension}"
+            return str(self.once(f"{name}_{suffix}", Symbol(name) / power).name)
+        suffix = "times_k" if dimension == -1 else f"times_k_{-dimension}"
+        return str(self.once(f"{name}_{suffix}", product(Symbol(name), power)).name)
+
+    def once(self, name: str, value: Expr) -> Symbol:
+        """Append ``name = value`` unless the name has been computed, and return it."""
+        known = any(step.lhs.name == name for step in self.taken)
+        return Symbol(name) if known else self.assign(name, value)
+
     def square(self, variable: Symbol) -> Symbol:
         """The square of an argument, computed on first use."""
         if variable not in self.squares:
@@ -158,8 +187,8 @@ def add(term: Expr, coefficient: Expr | None) -> Expr:
     return term if coefficient is None else Add(coefficient, term)
 
 
-def polynomial(prefix: str, names: tuple[str, ...], terms: Terms, steps: Steps) -> Expr:
-    """Append the Horner steps of a polynomial in one or two variables; of two, the outer rule runs over the second.
+def polynomial(prefix: str, names: tuple[str, ...], terms: Terms, steps: Steps, name: str = "y") -> Expr:
+    """Append the Horner steps of a polynomial; the outermost rule runs over the last variable.
 
     >>> steps = Steps()
     >>> polynomial("C", ("A",), {(0,): Rational(1), (2,): Rational(-1, 16)}, steps)
@@ -169,28 +198,25 @@ def polynomial(prefix: str, names: tuple[str, ...], terms: Terms, steps: Steps) 
     """
     if not terms:
         return Integer(0)
-    inner = dict(by_outer_power(prefix, terms))
+    rows: dict[Powers, Expr] = {powers: Symbol(constant_name(prefix, powers)) for powers in sorted(terms)}
+    return nested(names, rows, steps, name)
+
+
+def nested(names: tuple[str, ...], rows: Mapping[Powers, Expr], steps: Steps, name: str) -> Expr:
+    """Horner's rule over the last variable, its coefficients by the same rule over the others."""
+    last = sorted({powers[-1] for powers in rows})
     if len(names) == 1:
-        return steps.horner("y", Symbol(names[0]), inner[0])
-    first = Symbol(names[0])
-    outer = {power: steps.horner(f"y{power}", first, row) for power, row in inner.items()}
-    return steps.horner("y", Symbol(names[1]), outer)
+        return steps.horner(name, Symbol(names[0]), {power: rows[(power,)] for power in last})
+    if last == [0]:
+        return nested(names[:-1], {powers[:-1]: value for powers, value in rows.items()}, steps, name)
+    outer = {}
+    for power in last:
+        below = {powers[:-1]: value for powers, value in rows.items() if powers[-1] == power}
+        outer[power] = nested(names[:-1], below, steps, f"{name}{power}" if name == "y" else f"{name}_{power}")
+    return steps.horner(name, Symbol(names[-1]), outer)
 
 
-def by_outer_power(prefix: str, terms: Terms) -> Iterator[tuple[int, dict[int, Expr]]]:
-    """Coefficient symbols by the power of the second variable (0 where there is none), then of the first."""
-    for outer in sorted({powers[1] if len(powers) > 1 else 0 for powers in terms}):
-        yield (
-            outer,
-            {
-                powers[0]: Symbol(constant_name(prefix, powers))
-                for powers in sorted(terms)
-                if (powers[1] if len(powers) > 1 else 0) == outer
-            },
-        )
-
-
-def derivative(terms: Terms) -> dict[Powers, Rational]:
+def derivative(terms: Terms) -> dict[Powers, Expr]:
     """Exact derivative of a polynomial by its first variable.
 
     >>> derivative({(0,): Rational(1), (2,): Rational(-1, 16)})
@@ -207,20 +233,21 @@ def function(
     terms: Terms,
     *,
     factor: Symbol | None = None,
-    per: Mapping[str, Symbol] | None = None,
+    units: Mapping[str, int] | None = None,
 ) -> Function:
-    """A polynomial in the leading arguments.
+    """A polynomial in the leading arguments, or in the quantities that ``units`` names in their order.
 
-    ``factor`` (the natural frequency) multiplies the result; ``per`` names the arguments that enter divided by it.
+    ``factor`` (the natural frequency k) multiplies the result; ``units`` gives the power of k that a quantity is
+    measured in, and the quantity with a name in brackets, as ``"(k)"``, is 1.
     """
-    count = len(next(iter(terms), (0,)))
     kept = {powers: coefficient for powers, coefficient in terms.items() if coefficient != 0}
+    units, count = units or {}, len(next(iter(terms), (0,)))
+    ordered = tuple(units) if len(units) == count else tuple(a.name for a in arguments[:count])
+    used = [any(powers[index] for powers in kept) for index in range(count)]
     steps = Steps()
-    names = tuple(a.name for a in arguments[:count])
-    for index, own in enumerate(names):
-        if per and own in per and any(powers[index] for powers in kept):
-            scaled = steps.assign(f"{own}_by_{per[own]}", Symbol(own) / per[own])
-            names = (*names[:index], scaled.name, *names[index + 1 :])
-    value = polynomial(prefix, names, kept, steps)
+    names = [steps.measured(n, units.get(n, 0)) if u else n for n, u in zip(ordered, used, strict=True)]
+    value = polynomial(prefix, tuple(names), kept, steps)
     result = value if factor is None else product(factor, value)
-    return Function(name, summary, arguments, constants_of(prefix, kept), tuple(steps.taken), result)
+    constants = constants_of(prefix, kept)
+    note = rounding_note(roundings(constants, steps.taken, result))
+    return Function(name, summary, arguments, constants, tuple(steps.taken), result, (note,))

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from textwrap import wrap
+
 from sympy import Expr
 from sympy.printing.pycode import PythonCodePrinter
 
 from symbolic.codegen.form import Constant, Form, Function
+
+WIDTH = 110
 
 
 def write(form: Form) -> str:
@@ -59,7 +63,9 @@ def signature(function: Function) -> str:
 def documentation(function: Function) -> str:
     """The docstring: one line per argument."""
     arguments = "\n".join(f"    {a.name}: {a.meaning}" for a in function.arguments)
-    return f'    """{function.summary}\n\n{arguments}\n    """'
+    lines = (line for note in function.notes for line in wrap(safe(note), WIDTH))
+    notes = "\n" + "".join(f"\n    {line}" for line in lines)
+    return f'    """{function.summary}\n\n{arguments}{notes}\n    """'
 
 
 def body_lines(function: Function) -> list[str]:
