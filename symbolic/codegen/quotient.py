@@ -6,7 +6,7 @@ from decimal import ROUND_FLOOR, Context
 from fractions import Fraction
 from typing import Final
 
-from flint import arb, ctx, fmpq
+from flint import arb, ctx
 from sympy import Expr, Mul, Pow, Rational, Symbol
 
 from symbolic.balls import ball, natural_frequency, whole_power
@@ -116,6 +116,7 @@ def condition(coefficients: Coefficients, end: arb) -> Fraction:
 
     Raises InputError where the polynomial may vanish.
 
+    >>> from flint import fmpq
     >>> 1 <= condition((fmpq(1), fmpq(1)), arb(1)) < 1.02
     True
     >>> 3 <= condition((fmpq(1), fmpq(-1, 2)), arb(1)) < 3.1
