@@ -14,13 +14,16 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from compare.bind import bind as bind
+    from compare.measurement import survey as survey
     from compare.recording_report import assemble_recording as assemble_recording
     from compare.report import assemble_system as assemble_system
     from compare.study import study as study
     from numeric.backbone import backbone as backbone
     from numeric.dynamics import Dynamics as Dynamics
     from numeric.estimate import estimate as estimate
+    from numeric.half_cycles import half_cycles as half_cycles
     from numeric.recording import read_recording as read_recording
+    from numeric.recording import read_recordings as read_recordings
     from numeric.track import Track as Track
     from numeric.trajectory import Trajectory as Trajectory
     from numeric.trajectory import integrate as integrate
@@ -56,7 +59,10 @@ HOMES = {
     "integrate": "numeric.trajectory",
     "lindstedt": "symbolic.lindstedt",
     "multiple_scales": "symbolic.multiple_scales",
+    "half_cycles": "numeric.half_cycles",
     "read_recording": "numeric.recording",
+    "read_recordings": "numeric.recording",
+    "survey": "compare.measurement",
     "render": "reports.page",
     "study": "compare.study",
 }
