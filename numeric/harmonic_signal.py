@@ -8,7 +8,7 @@ of the sine of the fundamental is then turned into its phase, so that omega is e
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
@@ -39,6 +39,8 @@ class HarmonicSignal:
     sine: Array
     offset: Array
     start: float = 0.0
+    parameters: int = 0
+    """Spline coefficients that were fitted, 0 for a signal that was not."""
 
     def __post_init__(self) -> None:
         for name in ("phase", "omega", "cosine", "sine", "offset"):
@@ -64,9 +66,15 @@ class HarmonicSignal:
         h = np.array(self.multiples, dtype=float)[:, None]
         return np.asarray((h * (self.sine * np.cos(self.angles) - self.cosine * np.sin(self.angles))).sum(axis=0))
 
-    def power(self) -> float:
-        """Mean square of the samples about their mean: the signal's part of a signal-to-noise ratio."""
-        return float(np.var(self.values()))
+    # (b cos h phi + c sin h phi)' = (b' + h omega c) cos h phi + (c' - h omega b) sin h phi
+    def rate_of_change(self) -> HarmonicSignal:
+        """The derivative by time, as harmonics of the same phase."""
+        turn = np.multiply.outer(np.array(self.multiples, dtype=float), self.omega)
+        slopes = [make_interp_spline(self.time, part, k=3, axis=-1).derivative()(self.time) for part in self._parts()]
+        return replace(self, cosine=slopes[0] + turn * self.sine, sine=slopes[1] - turn * self.cosine, offset=slopes[2])
+
+    def _parts(self) -> tuple[Array, Array, Array]:
+        return self.cosine, self.sine, self.offset
 
 
 def uniform_knots(last: float, spacing: float, degree: int = 3) -> Array:
@@ -111,7 +119,7 @@ def decompose(
     parts = _slow_parts(x, time, knots, waves)
     slopes = [BSpline(knots, c, 3).derivative()(time) for c in (parts[1], parts[1 + len(multiples)])]
     values = np.stack([BSpline(knots, c, 3)(time) for c in parts])
-    return _folded(rate, start, phase, omega, multiples, values, slopes)
+    return _folded(rate, start, phase, omega, multiples, values, slopes, parts.size)
 
 
 def _slow_parts(x: Array, time: Array, knots: Array, waves: list[Array]) -> Array:
@@ -134,6 +142,7 @@ def _folded(
     multiples: tuple[int, ...],
     values: Array,
     slopes: list[Array],
+    parameters: int,
 ) -> HarmonicSignal:
     count = len(multiples)
     even, odd = values[1 : 1 + count], values[1 + count :]
@@ -149,4 +158,5 @@ def _folded(
         sine=odd * np.cos(turn) - even * np.sin(turn),
         offset=values[0],
         start=start,
+        parameters=parameters,
     )
