@@ -11,7 +11,10 @@ from numpy.typing import ArrayLike
 from numeric.choice import for_auto, for_least_squares
 from numeric.decimation import PER_CYCLE, Decimated, decimated
 from numeric.errors import InputError
+from numeric.family import Family
 from numeric.harmonics import harmonic_track
+from numeric.model_fit import model_fit
+from numeric.model_track import model_track
 from numeric.peak_track import by_pseudo_wigner, by_smoothed_pseudo_wigner, by_spectrogram, by_wigner
 from numeric.phase_track import by_harmonic_least_squares, by_hilbert, by_zero_crossing
 from numeric.polynomial_track import by_polynomial_wigner
@@ -63,6 +66,8 @@ ESTIMATORS: Mapping[str, Callable[[Request], Track]] = MappingProxyType(
     }
 )
 METHODS = ("auto", *ESTIMATORS)
+MODEL_FIT = "model-fit"
+"""The method that needs an oscillator beside the signal."""
 OF_ONE_KERNEL = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner")
 """Methods whose lag kernel can be limited to a band or held in single precision."""
 
@@ -85,6 +90,7 @@ def estimate(
     single: bool = False,
     bias: bool = True,
     remove_bias: bool = False,
+    family: Family | None = None,
 ) -> Track:
     """Estimate the fundamental frequency omega0(t) of the real signal ``x``, shape ``(N,)``, sampled at ``rate``.
 
@@ -98,6 +104,8 @@ def estimate(
     where the filter rings (not counted as valid).  ``single=True`` computes these three in complex64: an error near
     1e-8 of omega for a clean signal.  Other methods refuse both.
     ``harmonic`` above 1 asks for the track of that harmonic, phase-locked to the fundamental found by ``method``.
+    ``method="model-fit"`` fits the oscillator ``family`` to the samples (:func:`numeric.model_fit.model_fit`), of the
+    other settings only ``band`` counts then.
     ``bias=False`` leaves the bias estimate out; ``remove_bias=True`` takes it off.  The mean is removed.
 
     Raises InputError for an unknown method, values that are not finite, a constant signal, a record too short for the
@@ -110,8 +118,10 @@ def estimate(
     >>> bool(np.abs(inside.frequency_hz - 1.0 - 0.02 * inside.time).max() < 1e-3)
     True
     """
+    if family is not None or method == MODEL_FIT:
+        return of_model(x, rate, method, family, band=band, start=start, harmonic=harmonic)
     if method not in METHODS:
-        raise InputError(f"method {method!r} is unknown; use one of {', '.join(METHODS)}")
+        raise InputError(f"method {method!r} is unknown; use one of {', '.join((*METHODS, MODEL_FIT))}")
     if (band_limited or single) and method not in OF_ONE_KERNEL:
         raise InputError(
             f"method {method!r} has no band-limited or single-precision form; {', '.join(OF_ONE_KERNEL)} have"
@@ -140,3 +150,23 @@ def estimate(
     if few.factor > 1:
         track = replace(track, settings={**track.settings, "decimated_by": few.factor, "rate_given": rate})
     return track if harmonic == 1 else harmonic_track(request.x, request.rate, track, multiple=harmonic)
+
+
+def of_model(
+    x: ArrayLike,
+    rate: float,
+    method: str,
+    family: Family | None,
+    *,
+    band: tuple[float, float] | None,
+    start: float,
+    harmonic: int,
+) -> Track:
+    """The frequency of an oscillator fitted to the signal."""
+    if family is None or method != MODEL_FIT:
+        raise InputError(f"method {method!r} and an oscillator do not go together: {MODEL_FIT} needs one, others none")
+    track = model_track(model_fit(x, rate, family, start=start, band=band))
+    if harmonic == 1:
+        return track
+    samples = checked_real_samples(x, what="estimate")
+    return harmonic_track(samples - samples.mean(), rate, track, multiple=harmonic, start=start)
