@@ -28,7 +28,8 @@ CLEAR = 5.0
 class Backbone:
     """omega0 and a'/a against the amplitude a; ``definition`` says which amplitude, "fundamental" or "peak".
 
-    Along time: ``time, amplitude, omega, damping`` (a'/a per time unit, negative in a decay) with one-sigma ``_sd``.
+    Along time: ``time, amplitude, omega, damping`` (a'/a per time unit, negative in a decay) with one-sigma ``_sd``,
+    that of omega with the track's bias in it.
     The curve: ``curve_amplitude`` rising, ``curve_omega``, ``curve_damping`` with ``_sd``: means over bins of
     amplitude, all weighted by the precision of omega; their deviation joins the estimates' own with the scatter in
     the bin, counting one independent value per window length.  ``offset`` is the mean that was removed; amplitudes
@@ -114,14 +115,31 @@ def backbone(
             f"{'' if clean.all() else ' and of clipped samples'}; give a longer or less noisy record"
         )
     omega = base.omega[centres]
-    omega_sd = fit.standard_deviation
-    if track.standard_deviation is not None:
-        omega_sd = np.interp(fit.time, track.time, track.standard_deviation)
+    total = total_deviation(track)
+    omega_sd = fit.standard_deviation if total is None else np.interp(fit.time, track.time, total)
     points = Points(fit.time, fit.amplitude, fit.amplitude_sd, omega, omega_sd, fit.growth, fit.growth_sd).at(usable)
     crowding = max(1.0, fit.window_seconds / float(np.median(np.diff(fit.time))))
     settings = {"track": track.method, "window_seconds": fit.window_seconds, "harmonics": (1, *shape.multiples)}
     notes = [f"The mean of the samples, {offset:.4g}, was removed.", *left_out_notes(usable, clean)]
     return assemble(points, crowding=crowding, offset=offset, settings=settings, notes=notes)
+
+
+def total_deviation(track: Track) -> Array | None:
+    """Standard deviation of a track's values with what is known of their bias; None where the track knows nothing.
+
+    A bias that is still in the values counts whole, one that was taken off with its own deviation.
+
+    >>> flat = np.full(3, 6.0)
+    >>> track = Track(np.arange(3.0), flat, flat > 0, "example", 0.3 + 0 * flat, 0.4 + 0 * flat)
+    >>> total_deviation(track).round(12).tolist()
+    [0.5, 0.5, 0.5]
+    """
+    if track.standard_deviation is None:
+        return None
+    removed = bool(track.settings.get("bias_removed"))
+    left = np.zeros_like(track.omega) if track.bias is None or removed else track.bias
+    unsure = np.zeros_like(track.omega) if track.bias_deviation is None else track.bias_deviation
+    return np.asarray(np.sqrt(track.standard_deviation**2 + left**2 + unsure**2))
 
 
 def touched(size: int, centres: NDArray[np.intp], half: int, exclude: Mask | None) -> Mask:
