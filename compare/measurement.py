@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from compare.results import Array, Mask
+from numeric.amplitude import estimate_amplitude
 from numeric.backbone import Backbone, backbone
 from numeric.combined_backbone import CombinedBackbone, combine
 from numeric.errors import InputError
@@ -20,7 +21,7 @@ from numeric.estimate import estimate
 from numeric.half_cycles import HalfCycles, half_cycles
 from numeric.harmonics import harmonic_track
 from numeric.recording import Recording
-from numeric.track import NORMAL_95, Track
+from numeric.track import NORMAL_95, AmplitudeTrack, Track
 
 COMBINE = ("runs", "all", "none")
 Row = dict[str, float | bool]
@@ -43,6 +44,8 @@ class Measurement:
     found: Track | HalfCycles
     backbone: Backbone | None
     notes: tuple[str, ...]
+    size: AmplitudeTrack | None = None
+    """The amplitude of a higher harmonic."""
 
     @property
     def method(self) -> str:
@@ -72,10 +75,14 @@ class Measurement:
         if isinstance(self.found, HalfCycles):
             return [dict(row) for row in self.found.rows()]
         rows: list[Row] = [dict(row) for row in self.found.rows()]
+        columns: Mapping[str, Array] = {}
         if self.backbone is not None:
-            for name, values in amplitude_columns(self.backbone, self.found.time).items():
-                for row, value in zip(rows, values.tolist(), strict=True):
-                    row[name] = value
+            columns = amplitude_columns(self.backbone, self.found.time)
+        elif self.size is not None:
+            columns = size_columns(self.size, self.found.time)
+        for name, values in columns.items():
+            for row, value in zip(rows, values.tolist(), strict=True):
+                row[name] = value
         return rows
 
 
@@ -115,6 +122,29 @@ def amplitude_columns(curve: Backbone, time: Array) -> Mapping[str, Array]:
     }
 
 
+def size_columns(size: AmplitudeTrack, time: Array) -> Mapping[str, Array]:
+    """The amplitude of a harmonic along ``time``, with its 95 % interval where it claims one."""
+    columns = {"amplitude": size.amplitude}
+    if size.standard_deviation is not None:
+        columns["amplitude_standard_deviation"] = size.standard_deviation
+    if size.interval is not None:
+        columns |= {"amplitude_low_95": size.interval.low, "amplitude_high_95": size.interval.high}
+    return {name: np.interp(time, size.time, values) for name, values in columns.items()}
+
+
+def of_harmonic(recording: Recording, fundamental: Track, multiple: int, settings: Mapping[str, object]) -> Measurement:
+    """Measure a harmonic: its track, phase-locked to the fundamental's, and its amplitude where the data show it."""
+    start, notes = float(recording.time[0]), recording.notes
+    track = harmonic_track(recording.values, recording.rate, fundamental, multiple=multiple, start=start)
+    size = None
+    try:
+        band: Any = settings.get("band")
+        size = estimate_amplitude(recording.values, recording.rate, harmonic=multiple, band=band, start=start)
+    except InputError as error:
+        notes = (*notes, f"No amplitude: {error}.")
+    return Measurement(recording, track, None, notes, size)
+
+
 def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **settings: object) -> Measurement:
     """Measure one signal; ``settings`` are those of :func:`numeric.estimate.estimate`, ``halves`` takes half cycles.
 
@@ -132,8 +162,7 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
     start = float(recording.time[0])
     track = estimate(recording.values, recording.rate, start=start, **settings)  # type: ignore[arg-type]
     if harmonic > 1:
-        track = harmonic_track(recording.values, recording.rate, track, multiple=harmonic, start=start)
-        return Measurement(recording, track, None, recording.notes)
+        return of_harmonic(recording, track, harmonic, settings)
     try:
         curve = backbone(track, recording.values, recording.rate, start=start, exclude=marked(recording))
     except InputError as error:
@@ -143,9 +172,9 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
 
 def of_half_cycles(recording: Recording, settings: Mapping[str, object]) -> Measurement:
     """Measure one signal half cycle by half cycle; those with clipped samples stay out of the backbone."""
-    band = settings.get("band")
+    band: Any = settings.get("band")
     start = float(recording.time[0])
-    found = half_cycles(recording.values, recording.rate, start=start, band=band)  # type: ignore[arg-type]
+    found = half_cycles(recording.values, recording.rate, start=start, band=band)
     hit = None if not recording.clipped.any() else overlapping(recording, found)
     try:
         curve = found.backbone(hit)

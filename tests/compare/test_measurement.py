@@ -61,6 +61,12 @@ def test_a_harmonic_has_no_backbone():
     track = found.frequency()
     known = np.isfinite(track.omega)
     assert np.abs(track.omega[known] - 12.0).max() < 0.05
+    for row in found.rows()[50:450:20]:
+        expected = 0.1 * np.exp(-0.06 * row["time_s"])
+        assert row["amplitude"] == pytest.approx(expected, rel=1e-3)
+        assert row["amplitude_low_95"] <= row["amplitude"] <= row["amplitude_high_95"]
+    second = measure(Recording(T, x, RATE, "u", "", "a.csv", "0"), harmonic=2, **QUICK)
+    assert any(note.startswith("No amplitude") for note in second.notes)
 
 
 def test_a_short_stretch_is_left_out_and_a_short_signal_fails():
