@@ -12,14 +12,14 @@ from numeric.choice import for_auto, for_least_squares
 from numeric.decimation import PER_CYCLE, Decimated, decimated
 from numeric.errors import InputError
 from numeric.family import Family
-from numeric.harmonics import harmonic_track
+from numeric.harmonics import harmonic_track, vouched_harmonic
 from numeric.model_fit import model_fit
 from numeric.model_track import model_track
 from numeric.peak_track import by_pseudo_wigner, by_smoothed_pseudo_wigner, by_spectrogram, by_wigner
 from numeric.phase_track import by_harmonic_least_squares, by_hilbert, by_zero_crossing
 from numeric.polynomial_track import by_polynomial_wigner
 from numeric.reassigned_track import by_reassigned_spectrogram, by_synchrosqueezing
-from numeric.request import Request, prepared
+from numeric.request import Request, prepared, refuse_cross_term
 from numeric.samples import checked_rate, checked_real_samples
 from numeric.spline_track import by_harmonic_splines, with_spline_interval
 from numeric.track import Track
@@ -68,6 +68,8 @@ ESTIMATORS: Mapping[str, Callable[[Request], Track]] = MappingProxyType(
 METHODS = ("auto", *ESTIMATORS)
 MODEL_FIT = "model-fit"
 """The method that needs an oscillator beside the signal."""
+QUADRATIC = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner", "polynomial-wigner")
+"""Methods whose distribution has cross terms on the harmonics."""
 OF_ONE_KERNEL = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner")
 """Methods whose lag kernel can be limited to a band or held in single precision."""
 
@@ -143,13 +145,15 @@ def estimate(
         band_limited=band_limited,
         single=single,
     )
+    if method in QUADRATIC and band is not None:
+        refuse_cross_term(request, method)
     name, request = for_auto(request) if method == "auto" else (method, request)
     if method == "harmonic-least-squares":
         request = for_least_squares(request, scope)
     track = finish(vouched(ESTIMATORS[name](request), ESTIMATORS[name], request), remove_bias)
     if few.factor > 1:
         track = replace(track, settings={**track.settings, "decimated_by": few.factor, "rate_given": rate})
-    return track if harmonic == 1 else harmonic_track(request.x, request.rate, track, multiple=harmonic)
+    return track if harmonic == 1 else of_harmonic(harmonic, request, track, remove_bias)
 
 
 def of_model(
@@ -170,3 +174,9 @@ def of_model(
         return track
     samples = checked_real_samples(x, what="estimate")
     return harmonic_track(samples - samples.mean(), rate, track, multiple=harmonic, start=start)
+
+
+def of_harmonic(multiple: int, request: Request, fundamental: Track, remove_bias: bool) -> Track:
+    """The track of a harmonic, locked to the fundamental's."""
+    track = harmonic_track(request.x, request.rate, fundamental, multiple=multiple)
+    return finish(vouched_harmonic(track, request, fundamental) if request.bias else track, remove_bias)

@@ -103,11 +103,12 @@ class SplineModel:
         Raises InputError for a harmonic that the model does not hold.
         """
         c = self.coefficients if change is None else self.coefficients + change
-        omega = np.asarray(self.basis.slopes @ c[:, -1], dtype=np.float64)
         if multiple == 1:
-            return omega, np.asarray(self.basis.values @ c[:, 0], dtype=np.float64)
+            return np.asarray(self.basis.slopes @ c[:, -1]), np.asarray(self.basis.values @ c[:, 0])
         if multiple not in self.multiples:
             raise InputError(f"harmonic {multiple} is not in the model of the signal; it holds {(1, *self.multiples)}")
+        # b_h and c_h are solved for beside cos and sin of h times the phase as it was, before it takes its increment
+        omega = self.basis.slopes @ self.coefficients[:, -1]
         at = 1 + 2 * self.multiples.index(multiple)
         turning = c[:, at] - 1j * c[:, at + 1]
         value, slope = self.basis.values @ turning, self.basis.slopes @ turning

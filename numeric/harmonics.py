@@ -11,7 +11,7 @@ through of the other harmonics (the fundamental may be thirty times the third) i
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,9 +20,11 @@ from scipy.interpolate import make_interp_spline
 from numeric.errors import InputError
 from numeric.local_line import local_line
 from numeric.noise import Level, measure_level, peak_deviation
+from numeric.request import Request
 from numeric.ridge import follow
 from numeric.samples import TWO_PI, Array, Mask, checked_rate, checked_real_samples
 from numeric.track import Track
+from numeric.uncertainty import Trial, with_interval
 from numeric.wigner import wigner_kernel
 from numeric.windows import half_width, window
 
@@ -132,6 +134,26 @@ def harmonic_track(
     }
     time = first + index / rate
     return Track(time, multiple * base.omega + drift, valid, "phase-locked", deviation, None, settings)
+
+
+def vouched_harmonic(track: Track, request: Request, fundamental: Track) -> Track:
+    """The harmonic's track with its bias and its interval; without, and with the reason, where no model holds it.
+
+    The fundamental stays as it is in the trials: what is wrong with it the phase-locked filter finds again.
+    """
+    multiple = int(str(track.settings["multiple"]))
+    seconds = float(str(track.settings["filter_seconds"]))
+
+    def run(x: Array) -> Array:
+        return harmonic_track(x, request.rate, fundamental, multiple=multiple, filter_seconds=seconds).omega
+
+    try:
+        models = request.models
+        models.fine.tone(multiple)
+        models.coarse.tone(multiple)
+    except InputError as error:
+        return replace(track, settings={**track.settings, "no_interval": str(error)})
+    return with_interval(track, request, Trial(track.time - request.start, run, multiple), models)
 
 
 def raw_harmonic_peak(

@@ -14,13 +14,15 @@ from numeric.curvature import held
 from numeric.errors import InputError
 from numeric.noise import Level, measure_level
 from numeric.samples import TWO_PI, Array, ComplexArray, Mask, checked_rate, checked_real_samples
-from numeric.search_band import Corridor, find_corridor
+from numeric.search_band import Corridor, find_corridor, strongest_frequency
 from numeric.signal_model import SignalModels, signal_models
 from numeric.wigner import as_analytic
 from numeric.windows import half_width
 
 FEWEST_SAMPLES = 16
 FEWEST_VALID = 8
+NEAR_MULTIPLE = 0.05
+"""Relative distance within which a frequency counts as a multiple of another."""
 SWING = (1e-40, 1e40)
 """Magnitudes whose sixth powers (the polynomial kernel) and their squares stay within float64."""
 LAG_CYCLES = 4.0
@@ -185,6 +187,24 @@ def prepared(
         offset=offset,
         band_limited=band_limited,
         single=single,
+    )
+
+
+def refuse_cross_term(request: Request, method: str) -> None:
+    """Refuse the peak of a quadratic distribution near a multiple of the strongest component, which lies outside.
+
+    Components m and n of a signal leave a cross term at (m + n) / 2: of an oscillation's harmonics 1 and 2 h - 1, and
+    h - 1 and h + 1, it falls exactly on harmonic h.
+    """
+    low, high = request.corridor.limits
+    strongest, here = strongest_frequency(request.x, request.rate), request.corridor.centre
+    h = round(here / strongest)
+    if request.band_limited or h < 2 or low <= strongest <= high or abs(here / strongest - h) > NEAR_MULTIPLE * h:
+        return
+    raise InputError(
+        f"{method}: the band {low:.4g} .. {high:.4g} lies round {h} times the strongest component at {strongest:.4g} "
+        f"rad per time unit, where the cross term of harmonics 1 and {2 * h - 1} falls; use harmonic {h} with a band "
+        f"round the fundamental, or band_limited, which takes the other harmonics out first"
     )
 
 

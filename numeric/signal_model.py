@@ -12,6 +12,8 @@ from numeric.spline_basis import DEGREE
 
 WINDOW_CYCLES = 4.0
 """Shortest window, in cycles, in which the harmonics of the model are chosen."""
+WINDOW_HALF = 64
+"""Half of its fewest samples, where the record has eight times as many: room for six harmonics."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ def signal_models(
     """
     if multiples is None:
         cycle = TWO_PI / float(guide.min())
-        wide = max(half, math.ceil(0.5 * WINDOW_CYCLES * cycle * rate))
+        wide = max(half, math.ceil(0.5 * WINDOW_CYCLES * cycle * rate), min(WINDOW_HALF, x.size // 8))
         multiples = choose_multiples(x, rate, guide, half=min((x.size - 1) // 2, wide))
     models = harmonic_splines(x, rate, guide, multiples=multiples)
     best = chosen(models)

@@ -6,9 +6,10 @@ Ordered knot by knot, index k F + f, its normal matrix has a bandwidth of 6 F, w
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
+from itertools import combinations_with_replacement
 
 import numpy as np
 from scipy.interpolate import BSpline
@@ -19,8 +20,8 @@ from numeric.samples import Array
 
 DEGREE = 5
 """Of the splines: with quintics the phase of a decay needs half the knots that cubics need (measured)."""
-ROWS = 32_768
-"""Samples whose products of weights are held at a time."""
+PRODUCTS = 8_000_000
+"""Products of weights that are held at a time (64 MB)."""
 FLOOR = 1e-12
 """Added to the unit diagonal: a column that the data leave empty is no reason to fail."""
 
@@ -127,6 +128,19 @@ class NormalEquations:
         return np.maximum(total, 0.0)
 
 
+def overlap_sums(basis: SplineBasis, weights: Array, pairs: list[tuple[int, int]]) -> Iterator[Array]:
+    """Sums over n of B_k B_(k+j) w_f w_g as ``(K, pairs)``, for j = 0 .. DEGREE in turn."""
+    left, right = np.array(pairs).T
+    sums = [np.zeros((basis.count, len(pairs))) for _ in basis.overlaps]
+    rows = max(1024, PRODUCTS // len(pairs))
+    for first in range(0, weights.shape[0], rows):
+        part = weights[first : first + rows]
+        products = part[:, left] * part[:, right]
+        for total, overlap in zip(sums, basis.overlaps, strict=True):
+            total += (overlap if len(part) == len(weights) else overlap[:, first : first + rows]) @ products
+    yield from sums
+
+
 def normal_equations(basis: SplineBasis, weights: Array) -> NormalEquations:
     """Form and factor J^T J of the model with ``weights``, ``(N, F)``.
 
@@ -140,14 +154,12 @@ def normal_equations(basis: SplineBasis, weights: Array) -> NormalEquations:
     families = weights.shape[1]
     size = basis.count * families
     bands = np.zeros(((DEGREE + 1) * families, size))
-    for j, overlap in enumerate(basis.overlaps):
-        block = np.zeros((basis.count, families * families))
-        for first in range(0, weights.shape[0], ROWS):
-            part = weights[first : first + ROWS]
-            block += overlap[:, first : first + ROWS] @ (part[:, :, None] * part[:, None, :]).reshape(len(part), -1)
-        for f, g in product(range(families), repeat=2):
-            if j or g >= f:
-                bands[j * families + g - f, f::families] += block[:, f * families + g]
+    pairs = list(combinations_with_replacement(range(families), 2))
+    for j, sums in enumerate(overlap_sums(basis, weights, pairs)):
+        for column, (f, g) in enumerate(pairs):
+            bands[j * families + g - f, f::families] = sums[:, column]
+            if j and g > f:  # the sums of w_f w_g are symmetric; below the diagonal of a block there is the same again
+                bands[j * families + f - g, g::families] = sums[:, column]
     scale = np.sqrt(np.where(bands[0] > 0.0, bands[0], 1.0))
     bands /= scale
     for r in range(bands.shape[0]):

@@ -134,7 +134,7 @@ def with_interval(track: Track, request: Request, trial: Trial, models: SignalMo
     apart = (trial.bias(models.coarse) - bias) ** 2 - copies.between.var(axis=0)
     near = max(1, round(request.lag_seconds / float(np.median(np.diff(track.time)))))
     unknown = np.maximum(total**2 - noise**2, 0.0) + models.remainder**2 * moving_mean(apart, near)
-    ambiguous, room = definition(trial.truth(models.best), trial.time, models.best)
+    ambiguous, room = definition(trial.truth(models.fine), trial.time, models.best)
     how = {
         "noise": models.fine.noise,
         "model_harmonics": (1, *models.fine.multiples),
@@ -158,7 +158,7 @@ def deviations(
 ) -> tuple[Array, Array]:
     """Deviation of the values as given, and of the corrected ones, pooled along time."""
     width = max(1, round(POOLED_SHARE * track.time.size))
-    own = np.interp(trial.time, model.time, model.omega_deviation)
+    own = trial.multiple * np.interp(trial.time, model.time, model.omega_deviation)
     analytic = own if track.standard_deviation is None else track.standard_deviation
     floor = 1e-15 * np.abs(track.omega)
     noise = analytic if trial.efficient else pooled(copies.plain, analytic + floor, width)
