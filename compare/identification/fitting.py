@@ -26,8 +26,8 @@ from numeric.windows import half_width, window
 
 ANCHORS = 60
 """Points of the record whose phase and amplitude start the fit."""
-STEPS = 40
-"""Evaluations that a stage may take, Jacobians not counted."""
+NEAR_STEPS, STEPS = 10, 30
+"""Evaluations that the anchors and the samples may take, Jacobians not counted; the anchors need only come near."""
 COARSE, FINE = 1e-4, 1e-8
 """Relative change of the sum of squares at which a first fit rests, and one that is worth its precision."""
 
@@ -193,10 +193,19 @@ def refined(model: Model, data: Data, start: Array) -> Fit:
 
     try:
         near = (low[:-1], high[:-1])
-        rough = least_squares(anchors, inner[:-1], bounds=near, x_scale="jac", max_nfev=STEPS, ftol=COARSE)
+        rough = least_squares(anchors, inner[:-1], bounds=near, x_scale="jac", max_nfev=NEAR_STEPS, ftol=COARSE)
     except (InputError, ValueError, FloatingPointError, np.linalg.LinAlgError):
         return failed(model, data, start)
-    return by_samples(model, data, np.append(rough.x, 0.0), COARSE)
+    theta = np.append(rough.x, 0.0)
+    if model.mirror is not None:
+        sides = [theta, np.clip(model.mirror(theta), low, high)]
+        theta = min(sides, key=lambda side: levelled(model, data, side))
+    return by_samples(model, data, theta, COARSE)
+
+
+def levelled(model: Model, data: Data, theta: Array) -> float:
+    """Variance of the samples less the model: the offset is free."""
+    return float(np.var(model.signal(theta, data.time) - data.x))
 
 
 def failed(model: Model, data: Data, theta: Array) -> Fit:

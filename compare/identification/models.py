@@ -51,6 +51,8 @@ class Model:
     groups: tuple[tuple[Shape, ...], ...]
     """Starting shapes, from each group the best; none: they are fitted.  Rates are appended by the fit."""
     rates: int
+    mirror: Callable[[Array], Array] | None = None
+    """theta of the oscillator turned round, u -> -u, where that is another one with the same backbone."""
 
     @property
     def count(self) -> int:
@@ -112,6 +114,11 @@ def potential_model(potential: Potential, law: str) -> Model:
     def flow(theta: Array, _: float) -> Flow:
         return numbers_to_flow(tuple(theta[:-1].tolist()))
 
+    def mirrored(theta: Array) -> Array:
+        assert potential.mirror is not None  # noqa: S101 - it is only handed on when there is one
+        factor, shape = potential.mirror(tuple(theta[1 : 1 + shapes].tolist()))
+        return np.concatenate(([factor * theta[0]], shape, theta[1 + shapes :]))
+
     def physical(numbers: Array, length: float) -> tuple[Described, ...]:
         k, shape = float(numbers[0]), tuple(float(x) for x in numbers[1 : 1 + shapes])
         own = potential.physical(k, length, shape)
@@ -129,6 +136,7 @@ def potential_model(potential: Potential, law: str) -> Model:
         upper=(*potential.upper, *(1.0 for _ in range(rates))),
         groups=potential.groups,
         rates=rates,
+        mirror=None if potential.mirror is None else mirrored,
     )
 
 

@@ -41,7 +41,8 @@ class Potential:
     lower: Shape = ()
     upper: Shape = ()
     groups: tuple[tuple[Shape, ...], ...] = (((),),)
-    note: str = ""
+    mirror: Callable[[Shape], tuple[float, Shape]] | None = None
+    """Factor of k and shape of the potential turned round, u -> -u, whose backbone is the same; None: it is itself."""
 
 
 def smooth_orbits(dynamics: Dynamics, limit: float) -> ScaledOrbits:
@@ -212,7 +213,8 @@ POTENTIALS: tuple[Potential, ...] = (
         ),
         (-3.0, -0.9),
         (3.0, 20.0),
-        (HELMHOLTZ, tuple((-a, e) for a, e in HELMHOLTZ)),
+        (HELMHOLTZ,),
+        lambda shape: (1.0, (-shape[0], shape[1])),
     ),
     Potential(
         "bilinear",
@@ -225,7 +227,8 @@ POTENTIALS: tuple[Potential, ...] = (
         ),
         (0.1,),
         (10.0,),
-        (((0.8,),), ((1.25,),)),
+        (((1.25,),),),
+        lambda shape: (shape[0], (1 / shape[0],)),
     ),
     _stop("bilinear-stop", "Bilinear oscillator, switching at u = s", "k1^2 u, with k2 in place of k1 beyond u = s", 1),
     _stop("bilinear-stop-below", "Bilinear oscillator, switching at u = -s", "k1^2 u, with k2 beyond u = -s", -1),
