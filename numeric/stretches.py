@@ -40,6 +40,11 @@ class Stamped:
         """The median step."""
         return float(np.median(np.diff(self.time)))
 
+    @property
+    def mean(self) -> float:
+        """The mean step."""
+        return float(self.time[-1] - self.time[0]) / (self.time.size - 1)
+
 
 # Infinity is an overflow, not a value left out: it is refused, NaN is a gap.
 def stamped(

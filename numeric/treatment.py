@@ -3,7 +3,7 @@
 The rules, in this order:
 1. A value or time that is missing, or a step over GAP_STEPS usual ones, is a gap and cuts the signal.  ``fill`` lets
    neighbours up to that far apart stay together and interpolates between them; with ``resample`` the default for it
-   is RESAMPLED_STEPS usual steps.
+   is RESAMPLED_STEPS steps, usual ones or those of the new rate, whichever are longer.
 2. A stretch on a uniform grid is kept as it is.  Nearly even times are interpolated, others only by ``resample``.
 3. Stretches with too few samples, or constant, are left out.
 4. Clipped samples are kept and marked; who needs amplitudes must leave their neighbourhood out.
@@ -28,6 +28,8 @@ from numeric.uniform import EASY, JITTER, TOLERANCE, Grid, Uniform, grid_of, off
 
 FEWEST_SAMPLES = 16
 RESAMPLED_STEPS = 4.0
+SCATTERED = 0.02
+"""Share of steps over GAP_STEPS usual ones from which on times are uneven altogether, not even with gaps."""
 PLACES = 4
 """Places that a note lists."""
 
@@ -56,8 +58,9 @@ class Treatment:
 
     def longest(self, usual: float) -> float:
         """The longest step that is no gap."""
-        least = (RESAMPLED_STEPS if self.resample is not None else GAP_STEPS) * usual
-        return least if self.fill is None else max(self.fill * (1 + 1e-9), GAP_STEPS * usual)
+        if self.fill is not None:
+            return max(self.fill * (1 + 1e-9), GAP_STEPS * usual)
+        return GAP_STEPS * usual if self.resample is None else RESAMPLED_STEPS * max(usual, 1.0 / self.resample)
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,8 @@ def treated(
     Raises InputError when no stretch is long enough, or times are uneven and no rate to resample to is given.
     """
     longest = treatment.longest(samples.usual)
+    if treatment.resample is None:
+        check_not_scattered(samples, columns)
     flat = clipped(samples.values)
     parts, gaps = split(samples, longest)
     marks = np.split(flat, np.cumsum([part.time.size for part in parts])[:-1])
@@ -119,12 +124,24 @@ def uniform(part: Stamped, mark: Mask, whole: Grid, columns: Columns, treatment:
     return found
 
 
+def check_not_scattered(samples: Stamped, columns: Columns) -> None:
+    """Refuse times of which many leave any grid, rather than take each step for a gap."""
+    steps = np.diff(samples.time) / samples.usual
+    off = np.abs(steps - np.maximum(1.0, np.rint(steps))) > EASY
+    if np.count_nonzero((steps > GAP_STEPS) & off) > SCATTERED * steps.size:
+        raise InputError(
+            f"{columns.source}: {np.count_nonzero(off)} of {steps.size} steps of the time differ from the usual one, "
+            f"{samples.usual:.6g}, by more than {EASY:.0%}; resample the recording, for instance to "
+            f"{1.0 / samples.mean:.4g} per time unit"
+        )
+
+
 def check_not_slower(rate: float, part: Stamped, columns: Columns) -> None:
     """Refuse to pick samples from uneven ones at a rate at which they would alias."""
-    if rate < 0.9 / part.usual:
+    if rate < 0.9 / part.mean:
         raise InputError(
-            f"{columns.source}: resampling uneven times to {rate:g} per time unit, below their usual "
-            f"{1 / part.usual:.6g}, would alias; give at least that rate"
+            f"{columns.source}: resampling uneven times to {rate:g} per time unit, below their own mean rate of "
+            f"{1.0 / part.mean:.6g}, would alias; give at least that rate"
         )
 
 
@@ -138,7 +155,7 @@ def refuse_uneven(part: Stamped, columns: Columns, more: str = "") -> None:
     raise InputError(
         f"{columns.source}, {columns.place(int(part.row[at]))}: time {part.time[at]:.9g} comes {steps[at - 1]:.6g} "
         f"after the one above, the usual step is {part.usual:.6g}; steps must agree to {2 * JITTER:.0%} (resample the "
-        f"recording to about {1 / part.usual:.4g} per time unit, or give its rate if the stamps are at fault){more}"
+        f"recording to about {1.0 / part.mean:.4g} per time unit, or give its rate if the stamps are at fault){more}"
     )
 
 
@@ -183,7 +200,8 @@ def signal_notes(samples: Stamped, header: str, gaps: Sequence[Gap], lost: Seque
     """Gaps, stretches left out and clipped samples of a signal in words, with counts and places."""
     notes = []
     if samples.absent:
-        notes.append(f"{samples.absent} rows of {header} have no value or no time.")
+        rows = "row has" if samples.absent == 1 else "rows have"
+        notes.append(f"{header}: {samples.absent} {rows} no value or no time.")
     if gaps:
         notes.append(
             f"{len(gaps)} {'gap' if len(gaps) == 1 else 'gaps'}: {places([gap_text(gap) for gap in gaps])}; each "

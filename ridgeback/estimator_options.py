@@ -46,6 +46,19 @@ class Estimator:
         }
         return {name: value for name, value in said.items() if value is not None}
 
+    def beside(self, *names: str) -> list[str]:
+        """Options that were given although only those of these settings have a meaning.
+
+        >>> Estimator("auto", None, 2.0, True).beside("band", "lag_seconds")
+        ['--remove-bias']
+        """
+        unset = {"method": "auto", "remove_bias": False}
+        given = [name for name, value in self.given().items() if name not in names and value != unset.get(name)]
+        return [SPELLED.get(name, "--" + name.replace("_", "-")) for name in given]
+
+
+SPELLED = {"lag_seconds": "--lag", "lag_window": "--window", "smoothing_seconds": "--smoothing"}
+
 
 def estimator_options(command: Command) -> Command:
     """Give a verb the options of the estimators, as one ``estimator``."""

@@ -78,10 +78,11 @@ def command(
     ridgeback estimate take.wav --half-cycles
     ridgeback estimate --monte-carlo 100 --snr 0,10,20,30
     """
-    check_fit(harmonic, half_cycles=half_cycles, backbone=backbone_wanted)
+    check_fit(harmonic, estimator, half_cycles=half_cycles, backbone=backbone_wanted)
     if monte_carlo is not None:
         if backbone_wanted or half_cycles or harmonic != 1 or plot is not None or len(files) > 1:
             raise click.UsageError("--monte-carlo is about the track of the fundamental; leave out what else is asked")
+        refuse_beside(estimator, "--monte-carlo", "method", "band", "lag_seconds", "remove_bias")
         trials, file = trials_and_file(monte_carlo, files[0] if files else None)
         monte_carlo_verb(
             None if file is None else reading.one(file),
@@ -111,8 +112,17 @@ def command(
     own_up(found)
 
 
-def check_fit(harmonic: int, *, half_cycles: bool, backbone: bool) -> None:
+def refuse_beside(estimator: Estimator, option: str, *names: str) -> None:
+    """Refuse settings of the estimator that an option would leave unused."""
+    unused = estimator.beside(*names)
+    if unused:
+        raise click.UsageError(f"{option} has no use for {', '.join(unused)}; leave out")
+
+
+def check_fit(harmonic: int, estimator: Estimator, *, half_cycles: bool, backbone: bool) -> None:
     """Refuse what does not go together."""
+    if half_cycles:
+        refuse_beside(estimator, "--half-cycles", "band")
     if backbone and harmonic != 1:
         raise click.UsageError(
             f"--backbone is that of the fundamental, not of harmonic {harmonic}; leave one of them out"

@@ -184,6 +184,8 @@ def test_settings_reach_the_estimator(ridgeback: Ridgeback, tmp_path: Path) -> N
         (("--plot", "a.gif"), "does not end in .svg, .png or .pdf"),
         (("--half-cycles", "--harmonic", "3"), "--half-cycles are those of the signal"),
         (("--backbone", "--harmonic", "3"), "--backbone is that of the fundamental"),
+        (("--half-cycles", "--method", "wigner", "--lag", "3"), "no use for --method, --lag"),
+        (("--monte-carlo", "5", "--window", "hann", "--single"), "no use for --window, --single"),
         (("--resample", "-3"), "'-3' is not above 0"),
         (("--detrend", "cubic"), "'cubic' is not one of"),
         (("--method", "hilbert", "--single"), "has no band-limited or single-precision form"),

@@ -107,7 +107,7 @@ def test_uneven_times_are_refused_until_a_rate_is_given(tmp_path: Path) -> None:
     rng = np.random.default_rng(5)
     t = np.cumsum(rng.uniform(0.5, 1.5, 800)) / 40.0
     path = written(tmp_path / "a.csv", t, wave(t))
-    with pytest.raises(InputError, match=r"line \d+: time .*resample the recording to about 39.73"):
+    with pytest.raises(InputError, match=r"\d+ of 799 steps .*resample the recording, for instance to 40\.\d+ per"):
         read_recording(path)
     found = read_recording(path, resample=40.0)
     inside = slice(20, -20)
@@ -117,6 +117,17 @@ def test_uneven_times_are_refused_until_a_rate_is_given(tmp_path: Path) -> None:
     assert np.sqrt(np.mean(error**2)) < found.facts["interpolation_error"]  # the cubic errs more than the quintic
     with pytest.raises(InputError, match="would alias"):
         read_recording(path, resample=10.0)
+
+
+def test_times_scattered_at_random_are_resampled_with_the_error_that_is_stated(tmp_path: Path) -> None:
+    t = np.sort(np.random.default_rng(3).uniform(0.0, 30.0, 1500))
+    path = written(tmp_path / "a.csv", t, wave(t))
+    with pytest.raises(InputError, match="of 1499 steps of the time differ"):
+        read_recording(path)
+    found = read_recording(path, resample=60.0, fill=0.3)
+    error = (found.values - wave(found.time))[10:-10]
+    stated = found.facts["interpolation_error"] * np.std(X)
+    assert np.sqrt(np.mean(error**2)) < stated < 0.02
 
 
 def test_a_gap_among_uneven_times_stays_a_gap(tmp_path: Path) -> None:
