@@ -250,7 +250,7 @@ def test_a_noise_study_shows_each_cell_with_its_uncertainty_and_the_refusals(tre
         *("harmonic-least-squares", "0 dB", "2.1 ± 0.084 %", "−2 × 10⁻⁵", "1.05 ± 0.05", "95 %", "0", "0")
     ]
     assert rows[-1] == ["the record is too short"]
-    assert _cells(tree, "estimators")[1][4:6] == ["–", "–"]
+    assert _cells(tree, "estimators")[1][5:7] == ["–", "–"]
 
 
 def test_a_recording_without_a_backbone_still_renders() -> None:
