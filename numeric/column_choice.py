@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from numeric.columns import Columns
 from numeric.errors import InputError
@@ -21,6 +22,20 @@ TIME_NAMES = (
     "time_seconds",
     "datetime",
 )
+SECONDS: Mapping[str, float] = MappingProxyType(
+    {
+        **dict.fromkeys(("s", "sec", "second", "seconds"), 1.0),
+        **dict.fromkeys(("ms", "msec", "millisecond", "milliseconds"), 1e-3),
+        **dict.fromkeys(("us", "µs", "μs", "usec", "microsecond", "microseconds"), 1e-6),
+        **dict.fromkeys(("ns", "nanosecond", "nanoseconds"), 1e-9),
+        **dict.fromkeys(("min", "minute", "minutes"), 60.0),
+        **dict.fromkeys(("h", "hr", "hour", "hours"), 3600.0),
+        **dict.fromkeys(("d", "day", "days"), 86400.0),
+    }
+)
+"""Units of time and their lengths in seconds."""
+TAILS = ("ms", "us", "ns", "min")
+"""Units that may end a time column's name after an underscore."""
 ALL = "all"
 SHOWN = 12
 """Column names that a message lists."""
@@ -44,6 +59,29 @@ def short(name: str) -> str:
     """
     bare = name_and_units(name)[0].rpartition("/")[2]
     return bare.rpartition(".")[2].strip().lower()
+
+
+def is_time(name: str) -> bool:
+    """Whether a column's name is that of a time.
+
+    >>> is_time("Time [ms]"), is_time("t_ms"), is_time("temperature")
+    (True, True, False)
+    """
+    head, _, tail = short(name).rpartition("_")
+    return short(name) in TIME_NAMES or (head in ("t", "time") and tail in TAILS)
+
+
+def time_unit(header: str) -> tuple[str, float]:
+    """The unit of a time column and its length in seconds; 1 for none stated and for one that is not known.
+
+    >>> time_unit("t [ms]"), time_unit("time_min"), time_unit("t"), time_unit("t [samples]")
+    (('ms', 0.001), ('min', 60.0), ('', 1.0), ('samples', 1.0))
+    """
+    unit = name_and_units(header)[1].strip()
+    tail = short(header).rpartition("_")[2]
+    if not unit and tail in TAILS:
+        unit = tail
+    return unit, SECONDS.get(unit.lower(), 1.0)
 
 
 def listed(columns: Columns, indices: Sequence[int] | None = None) -> str:
@@ -73,7 +111,7 @@ def time_index(columns: Columns, wanted: str | int | None, rate: float | None) -
         if columns.rate is not None and wanted not in columns.names:
             raise InputError(f"{columns.source} states its sampling rate and has no time column; leave {wanted} out")
         return find_column(columns, wanted)
-    hits = [i for i, name in enumerate(columns.names) if short(name) in TIME_NAMES]
+    hits = [i for i, name in enumerate(columns.names) if is_time(name)]
     if hits:
         return hits[0]
     if rate is None and columns.rate is None:

@@ -66,6 +66,13 @@ def combine(curves: Sequence[Backbone], labels: Sequence[str]) -> CombinedBackbo
     """Average the curves of several backbones on a common grid of amplitudes.
 
     Raises InputError for none, or for amplitudes of different definitions.
+
+    >>> from numeric.half_cycles import half_cycles
+    >>> t = np.arange(1280) / 32.0
+    >>> runs = [a * np.exp(-0.05 * t) * np.cos(8.0 * t) for a in (1.0, 2.0)]
+    >>> found = combine([half_cycles(x, 32.0).backbone() for x in runs], ["first", "second"])
+    >>> bool(np.abs(found.omega - 8.0).max() < 1e-3), sorted(set(found.runs.tolist()))
+    (True, [1.0, 2.0])
     """
     definitions = sorted({curve.definition for curve in curves})
     if len(definitions) != 1:

@@ -16,7 +16,7 @@ from types import MappingProxyType
 import numpy as np
 
 from numeric.arrays import frozen, frozen_flags
-from numeric.column_choice import find_column, name_and_units, signal_indices, time_index
+from numeric.column_choice import SECONDS, find_column, name_and_units, signal_indices, time_index, time_unit
 from numeric.columns import FILE_BUDGET, Columns
 from numeric.errors import InputError
 from numeric.file_columns import READERS
@@ -140,9 +140,19 @@ def read_recordings(
     ``columns`` is a name, a number, several, or "all".  Where values or times are missing (an empty cell, NaN) the
     signal is cut; ``fill`` interpolates instead where neighbouring samples are at most so many time units apart.
     Uneven times are refused, unless they are nearly even, or ``resample`` gives the rate to interpolate to (a lower
-    rate than that of even samples filters them first).  ``detrend`` is "none", "linear" or "slow".
+    rate than that of even samples filters them first).  ``detrend`` is "none", "linear" or "slow".  A unit of time in
+    the header, such as "t [ms]", is converted to seconds.
 
     Raises as :func:`read_recording` does.
+
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "run.csv"
+    ...     rows = [f"{i / 10},{i % 3},{'' if i == 20 else i % 4}" for i in range(50)]
+    ...     _ = path.write_text("t_s,u,w" + chr(10) + chr(10).join(rows))
+    ...     found = read_recordings([path], columns="all")
+    >>> [(recording.name, recording.stretch, recording.values.size) for recording in found]
+    [('u', 0, 50), ('w', 1, 20), ('w', 2, 29)]
     """
     treatment = Treatment(resample, fill, detrend)
     several = len(paths) > 1
@@ -240,7 +250,11 @@ def stamps(signal: Signal, size: int, rate: float | None) -> tuple[Array, str]:
             f"{columns.source}: {columns.names[signal.index]} has {size} samples, the time column "
             f"{columns.names[clock]} {columns.sizes[clock]}; name columns of one length"
         )
-    return columns.values(clock)[signal.rows], ""
+    unit, seconds = time_unit(columns.names[clock])
+    note = "" if seconds == 1.0 else f"times in {unit} were converted to seconds"
+    if unit and unit.lower() not in SECONDS:
+        note = f"the unit of time, {unit}, is not known: what is printed per second is per {unit}"
+    return seconds * columns.values(clock)[signal.rows], note
 
 
 def span(begin: float, end: float) -> str:

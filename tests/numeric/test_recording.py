@@ -50,6 +50,19 @@ def test_unit_in_brackets_decimal_comma_and_byte_order_mark(tmp_path: Path) -> N
     assert np.abs(read_recording(path).values - VALUES).max() < 1e-6
 
 
+@pytest.mark.parametrize(
+    ("header", "factor", "word"),
+    [("t [ms],u", 1e3, "times in ms"), ("time_us,u", 1e6, "times in us"), ("Time (min),u", 1 / 60, "times in min")],
+)
+def test_a_unit_of_time_is_converted_and_said(tmp_path: Path, header: str, factor: float, word: str) -> None:
+    rows = [f"{t * factor!r},{v!r}" for t, v in zip(TIME.tolist(), VALUES.tolist(), strict=True)]
+    found = read_recording(table(tmp_path / "run.csv", header, rows))
+    assert found.rate == pytest.approx(20.0, rel=1e-9)
+    assert any(word in note for note in found.notes)
+    strange = read_recording(table(tmp_path / "odd.csv", "t [frames],u", rows))
+    assert any("frames, is not known" in note for note in strange.notes)
+
+
 def test_columns_by_name_and_number_and_rate_in_place_of_time(tmp_path: Path) -> None:
     rows = [f"{t},{v},{2 * v}" for t, v in zip(TIME, VALUES, strict=True)]
     path = table(tmp_path / "run.csv", "t,u,w", rows)
