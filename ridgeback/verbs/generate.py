@@ -34,13 +34,14 @@ if TYPE_CHECKING:
 @requesting
 @click.option(
     "--resummed",
-    type=click.Choice(("pade", "map")),
+    type=click.Choice(("pade", "map", "nome")),
     default=None,
-    help="A quotient of polynomials in place of the series: a Padé approximant, or Euler's map where that is the one.",
+    help="Another formula from the same coefficients in place of the series; see derive.",
 )
 @click.option(
     "--degrees", type=written(degrees), default=None, metavar="M/N", help="With --resummed: degrees.  Default: equal."
 )
+@click.option("--growth", type=written(rational), default=None, metavar="P", help="With --resummed map: see derive.")
 @click.option(
     "--up-to",
     type=written(rational),
@@ -57,6 +58,7 @@ def command(
     request: Request,
     resummed: str | None,
     degrees: tuple[int, int] | None,
+    growth: Fraction | None,
     up_to: Fraction | None,
     style: str,
     output: str,
@@ -73,8 +75,9 @@ def command(
     ridgeback generate pendulum --order 16 --resummed pade --up-to 3
     ridgeback generate --equation "u'' + u + c*u**3 = 0"   omega0(A, c)
     """
-    if resummed is None and (degrees is not None or up_to is not None):
-        raise click.UsageError(f"--{'up-to' if degrees is None else 'degrees'} needs --resummed; leave it out")
+    needless = [n for n, v in (("degrees", degrees), ("growth", growth), ("up-to", up_to)) if v is not None]
+    if resummed is None and needless:
+        raise click.UsageError(f"--{needless[0]} needs --resummed; leave it out")
     if up_to is not None and up_to <= 0:
         raise click.BadParameter("the range must end above 0", param_hint="--up-to")
     oscillator = choice.oscillator()
@@ -82,7 +85,7 @@ def command(
     result = series = derived(oscillator, request)
     if resummed is not None:
         at = None if up_to is None else (up_to,)
-        result = resummed_from(oscillator, series, Demand(resummed=resummed, degrees=degrees, at=at))
+        result = resummed_from(oscillator, series, Demand(resummed=resummed, degrees=degrees, growth=growth, at=at))
     source = written_out(oscillator, series, result, language, up_to)
     described_so = {"language": language, **result.to_dict(), "source": source}
     write_text(output, json_text(described_so) if style == "json" else source)

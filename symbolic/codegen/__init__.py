@@ -9,7 +9,7 @@ from fractions import Fraction
 from symbolic.codegen import c99, python
 from symbolic.codegen.build import expansion_form, slow_flow_form
 from symbolic.codegen.form import Form
-from symbolic.codegen.quotient import quotient_form
+from symbolic.codegen.resummations import resummation_form
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion
 from symbolic.resummation import Resummation
@@ -67,7 +67,7 @@ def form_of(
 ) -> Form:
     """The coefficient form of any of them; a resummation without ``up_to`` is bounded for values up to 1."""
     if isinstance(result, Resummation):
-        return quotient_form(result, up_to=up_to or Fraction(1), equation=equation, limit=limit, more=more)
+        return resummation_form(result, up_to=up_to or Fraction(1), equation=equation, limit=limit, more=more)
     build = slow_flow_form if isinstance(result, SlowFlow) else expansion_form
     form = build(result, equation=equation, limit=limit)  # type: ignore[arg-type]
     return replace(form, facts=(*form.facts, *more))

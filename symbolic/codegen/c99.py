@@ -15,7 +15,8 @@ WIDTH = 110
 
 def write(form: Form) -> str:
     """The source file: every function, with its constants inside it."""
-    return "\n\n".join([header_comment(form), *(write_function(form, f) for f in form.functions)]) + "\n"
+    library = ["#include <math.h>"] if form.uses_library else []
+    return "\n\n".join([header_comment(form), *library, *(write_function(form, f) for f in form.functions)]) + "\n"
 
 
 def write_header(form: Form) -> str:

@@ -9,6 +9,8 @@ from symbolic.accuracy import settled_limits
 from symbolic.codegen.rounding import upwards
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion
+from symbolic.mapping import CutPlane
+from symbolic.nome import NomeForm
 from symbolic.oscillator import Oscillator
 from symbolic.pade import RationalForm
 from symbolic.readings import readings
@@ -36,7 +38,9 @@ def reach_of(oscillator: Oscillator, series: Expansion, formula: Expansion | Res
 
 
 def before_pole(reach: Fraction, formula: Expansion | Resummation) -> Fraction:
-    """The same range, or less when the formula has a pole in it."""
+    """The same range, or less when the formula has a pole in it or ends where the oscillation does."""
+    if isinstance(formula, NomeForm) or (isinstance(formula, RationalForm) and isinstance(formula.mapping, CutPlane)):
+        return INSIDE * reach
     pole = formula.pole if isinstance(formula, RationalForm) else None
     return reach if pole is None else min(reach, INSIDE * Fraction(float(pole)))
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from sympy import Add, Expr, Integer, Mul, Rational, Symbol
+from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos
 from sympy.codegen.ast import Assignment
 
 from symbolic.codegen.rounding import rounding_note, roundings
@@ -63,6 +63,12 @@ class Form:
     facts: tuple[str, ...]
     """Lines of documentation: equation, method, amplitude definition, order, range of use."""
     functions: tuple[Function, ...]
+
+    @property
+    def uses_library(self) -> bool:
+        """Whether a square root or a cosine is taken, which the languages have in their mathematical library."""
+        found = [step.rhs for function in self.functions for step in function.steps]
+        return any(rhs.has(cos) or any(p.exp == Rational(1, 2) for p in rhs.atoms(Pow)) for rhs in found)
 
 
 DIGITS = 40

@@ -45,11 +45,14 @@ _C: Final = frozenset(
         "main",
     }
 )
-_OWN: Final = frozenset({"k", "omega0", "omega0_slope", "amplitude", "damping"})
+_OWN: Final = frozenset(
+    {"k", "omega0", "omega0_slope", "amplitude", "damping", "math", "quotient", "k_inverse", "a"}
+) | {
+    *("scaled", "rest", "root", "fall", "rise", "inner", "moved", "distance", "vanishing", "grown"),
+    *("sqrt", "cos", "A"),
+}
 # Constants (C4, W2_1), Horner's intermediate results (y, y1_2, z) and what is computed from an argument.
-_MADE: Final = re.compile(
-    r"[A-Z]\d+(_\d+)*|[yzwk]\d*(_\d+)*|.*_(squared|(by|times)_k(_\d+)?)|k_inverse|quotient|a|A|__.*"
-)
+_MADE: Final = re.compile(r"[A-Z]\d+(_\d+)*|[yzwk]\d*(_\d+)*|.*_(squared|(by|times)_k(_\d+)?)|__.*")
 
 
 def argument_name(name: str) -> str:

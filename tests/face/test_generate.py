@@ -56,8 +56,10 @@ def test_a_resummation_as_code_with_its_pole(ridgeback: Ridgeback) -> None:
         ("pendulum --degrees 2/2", "needs --resummed"),
         ("pendulum --resummed pade --up-to 0", "above 0"),
         ("pendulum --resummed pade --order 16 --up-to 4", "pole at A = 3.339"),
-        ("pendulum --resummed map", "quotients of polynomials"),
-        ("pendulum --resummed nome", "'nome' is not one of"),
+        ("pendulum --growth 1/2", "needs --resummed"),
+        ("duffing --resummed map --growth 1/3", "multiples of 1/2"),
+        ("van-der-pol --resummed nome", "peak amplitude"),
+        ("pendulum --resummed nome --up-to 4", "near A = 3.14"),
         ("damped-pendulum --resummed pade", "slow flow"),
     ],
 )
