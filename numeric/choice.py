@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from numeric.curvature import curvature_bias
 from numeric.errors import InputError
 from numeric.harmonic_fit import Shape
 from numeric.harmonic_spline import SplineModel
 from numeric.noise import Level, peak_deviation
 from numeric.request import Request
-from numeric.samples import Array
 from numeric.spline_track import spline_error
 from numeric.window_choice import Window, best_window, expected_error, lengths
 from numeric.windows import window
@@ -106,14 +106,11 @@ def candidates_of(request: Request) -> Iterator[Candidate]:
         yield Candidate("pseudo-wigner", peak, peak_error(models.best, request, half), words)
 
 
-# The bias is omega'' <h tau^4> / (24 <h tau^2>), see numeric.curvature.
 def peak_error(model: SplineModel, request: Request, half: int) -> float:
     """Relative rms error that a pseudo-Wigner peak should have: its curvature bias and its noise."""
     omega, amplitude = model.tone(1)
     h = window(request.lag_window, half)[half:]
-    tau = 2.0 / request.rate * np.arange(half + 1)
-    bend = np.gradient(np.gradient(omega, model.time), model.time)
-    bias: Array = bend * float((h * tau**4).sum() / (24.0 * (h * tau**2).sum()))
+    bias = curvature_bias(model.time, omega, np.linspace(0.0, 2.0 * half / request.rate, half + 1), h)
     level = Level(np.maximum(np.abs(amplitude), 1e-3 * np.abs(amplitude).max()), model.noise)
     noise = peak_deviation(level, request.rate, h)
     inner = slice(request.margin, omega.size - request.margin)

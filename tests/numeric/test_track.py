@@ -10,8 +10,9 @@ from numpy.polynomial.chebyshev import chebval
 from scipy.fft import hfft
 
 from numeric.bin_interpolation import DEGREE, derivative_weights, neighbour_weights, neighbours
-from numeric.curvature import chirp, curvature_coefficient, formula_bias, reestimated_bias, smooth_fit
+from numeric.curvature import curvature_bias, curvature_coefficient
 from numeric.errors import InputError
+from numeric.estimate import estimate
 from numeric.lag_kernel import LagKernel
 from numeric.ridge import follow, highest
 from numeric.search_band import continuous_path, find_corridor
@@ -133,43 +134,25 @@ def test_curvature_bias_follows_the_formula_to_leading_order(name: str) -> None:
         z = np.exp(1j * (40.0 * t + c * t**3 / 6.0))
         kernel = wigner_kernel(z, rate, lag_seconds=3.0, lag_window=name)
         omega = follow(kernel, 20.0 * ones, 60.0 * ones).omega[400]
-        departures.append((omega - 40.0) / (curvature_coefficient(kernel) * c) - 1.0)
+        departures.append((omega - 40.0) / (curvature_coefficient(kernel.lags, kernel.lag_window) * c) - 1.0)
     assert abs(departures[1]) < 0.02
     assert departures[0] / departures[1] == pytest.approx(4.0, rel=0.3)
 
 
-@pytest.mark.parametrize("way", ["formula", "again"])
-def test_curvature_bias_is_found_from_the_track_itself(way: str) -> None:
+def test_bias_by_trials_is_that_of_the_formula_where_the_curvature_is_small() -> None:
     rate = 32.0
-    t = np.arange(641) / rate
-    true = 8.0 + 1.5 * np.sin(0.5 * t)
-    z = np.exp(1j * (8.0 * t - 3.0 * np.cos(0.5 * t)))
-    low, high, keep = 4.0 * np.ones(t.size), 16.0 * np.ones(t.size), (t >= 1.5) & (t <= 18.5)
-
-    def track(signal: np.ndarray) -> np.ndarray:
-        return follow(wigner_kernel(signal, rate, lag_seconds=3.0), low, high).omega
-
-    omega = track(z)
-    raw = np.abs(omega - true)[keep].max()
-    if way == "formula":
-        bias = formula_bias(t, omega, keep, kernel=wigner_kernel(z, rate, lag_seconds=3.0))
-    else:
-        bias = reestimated_bias(t, omega, keep, resolution=3.0, estimator=track)
-    assert raw > 0.02
-    left = np.abs(omega - bias - true)
-    assert left[(t >= 3.0) & (t <= 17.0)].max() < 0.05 * raw
-    assert left[keep].max() < 0.2 * raw  # the ends of the fit are its weakest part
-    assert bias[0] == bias[np.flatnonzero(keep)[0]]
-
-
-def test_smooth_fit_does_not_follow_noise() -> None:
-    t = np.linspace(0.0, 10.0, 200)
-    rng = np.random.default_rng(5)
-    fit = smooth_fit(t, 3.0 + 0.1 * t + 0.01 * rng.normal(size=200), np.ones(200, bool), 1.0)
-    assert fit.degree() <= 2
-    assert smooth_fit(t, t**5, np.ones(200, bool), 1.0).degree() == 5
-    z = chirp(fit, t)
-    assert np.abs(np.abs(z) - 1.0).max() < 1e-14
+    t = np.arange(640) / rate
+    mean, slow = 2 * np.pi * 26 / 20.0, 2 * np.pi / 20.0  # whole periods: the analytic signal is exact
+    true = mean + 1.5 * np.sin(slow * t)
+    x = np.cos(mean * t - 1.5 / slow * np.cos(slow * t))
+    track = estimate(x, rate, method="pseudo-wigner", lag_seconds=3.0)
+    kernel = wigner_kernel(x, rate, lag_seconds=3.0, lag_window="blackman")
+    predicted = curvature_bias(t, true, kernel.lags, kernel.lag_window)
+    middle = (t > 3.0) & (t < 17.0)
+    assert track.bias is not None
+    assert np.abs(predicted[middle]).max() > 0.01
+    assert np.abs(track.bias - predicted)[middle].max() < 0.05 * np.abs(predicted[middle]).max()
+    assert np.abs(track.omega - track.bias - true)[middle].max() < 0.02 * np.abs(predicted[middle]).max()
 
 
 def test_path_prefers_continuity_to_a_lone_peak() -> None:
