@@ -96,10 +96,14 @@ def estimate(
 ) -> Track:
     """Estimate the fundamental frequency omega0(t) of the real signal ``x``, shape ``(N,)``, sampled at ``rate``.
 
-    ``method`` is one of METHODS.  ``band`` limits the search, (low, high) in rad per time unit; by default a corridor
-    around the strongest component is found from the data.  ``lag_seconds`` is the stretch of signal under the window
-    of the windowed methods (default four cycles), ``smoothing_seconds`` the time smoothing (default one cycle).
-    ``harmonics`` is the highest multiple that harmonic least squares fits (default: those the data show).
+    ``method`` is one of METHODS; ``auto`` takes that, over the window, that should have the least error on a model of
+    the signal, says so in ``settings["why"]``, and decimates records of more than 16,384 samples first, where the rate
+    allows.  ``band`` limits the search, (low, high) in rad per time unit; by default a corridor around the strongest
+    component is found from the data.  ``lag_seconds`` is the stretch of signal under the window of the windowed methods
+    (default four cycles), ``smoothing_seconds`` the time smoothing (default one cycle).
+    ``scope`` is that of harmonic least squares: ``"global"``, splines over the whole record (the default without a
+    ``lag_seconds``), or ``"local"``, a polynomial in a sliding window, whose length and degree are then chosen by the
+    least expected error.  ``harmonics`` is the highest multiple that they fit (default: those the data show).
     ``order`` is that of the polynomial Wigner distribution, 4 or 6.
     ``band_limited=True`` limits the signal to the band before a Wigner, pseudo- or smoothed pseudo-Wigner distribution
     and decimates its lags: faster, free of cross terms with what lies outside, and less exact near the ends,
@@ -108,7 +112,11 @@ def estimate(
     ``harmonic`` above 1 asks for the track of that harmonic, phase-locked to the fundamental found by ``method``.
     ``method="model-fit"`` fits the oscillator ``family`` to the samples (:func:`numeric.model_fit.model_fit`), of the
     other settings only ``band`` counts then.
-    ``bias=False`` leaves the bias estimate out; ``remove_bias=True`` takes it off.  The mean is removed.
+    ``bias=False`` leaves the bias estimate out, and so the 95 % interval ``Track.interval``; ``remove_bias=True`` takes
+    it off.  The interval holds the noise, what is not known of the bias, and near a separatrix what the definition of
+    omega0(t) leaves open (``Track.ambiguous``); it supposes white noise and one smooth oscillation with its harmonics.
+    Where no model of the signal settles there is none, and ``settings["no_interval"]`` says why.  The mean is removed.
+    A Wigner peak is refused in a ``band`` round a harmonic of a stronger component: a cross term falls on it.
 
     Raises InputError for an unknown method, values that are not finite, a constant signal, a record too short for the
     window, or a band beyond the Nyquist frequency.
