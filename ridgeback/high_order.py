@@ -56,11 +56,12 @@ def by_primes(oscillator: Oscillator, request: Request, workers: int) -> Expansi
         raise click.UsageError(f"--workers belongs to lindstedt, not to {request.method}; leave one of the two out")
     refuse_weights(request, "--workers")
     from symbolic.cost import Budget, predict
-    from symbolic.modular import law, lindstedt_by_primes
+    from symbolic.modular import expected_bits, law, lindstedt_by_primes
     from symbolic.pool import processes
 
     cost = predict(law(oscillator), request.order, workers=workers)
     allowed = cost.within(request.budget or Budget())
+    last = expected_bits(oscillator, request.order)
     with (
         Watch(f"order {request.order} modulo many primes", cost if allowed else None) as watch,
         processes(workers) as executor,
@@ -71,7 +72,7 @@ def by_primes(oscillator: Oscillator, request: Request, workers: int) -> Expansi
             amplitude=request.amplitude or "peak",
             executor=executor,
             workers=workers,
-            progress=lambda bits, done: watch(float(done), f"{bits} bits of modulus"),
+            progress=lambda bits, done: watch(1.0 if done else min(bits / last, 0.99), f"{bits} bits of modulus"),
             budget=request.budget,
         )
 

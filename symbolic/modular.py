@@ -122,6 +122,19 @@ def lindstedt_by_primes(
     )
 
 
+def expected_bits(oscillator: Oscillator, order: int) -> int:
+    """About how many bits of modulus an order needs, for progress only: it grows like the square of the order.
+
+    Measured: van der Pol 1.4 order^2 at 24 and 48; pendulum 0.25 to 0.15 at 50 and 100, Helmholtz-Duffing 0.24 at 40.
+
+    >>> from symbolic.systems import find
+    >>> expected_bits(find("van-der-pol"), 48)
+    3226
+    """
+    per_mille = 1400 if oscillator.kind == "limit-cycle" else 200
+    return 1 + per_mille * order**2 // 1000
+
+
 def law(oscillator: Oscillator) -> str:
     """The law of ``symbolic.cost`` that this derivation follows."""
     return "primes of a limit-cycle" if oscillator.kind == "limit-cycle" else "primes"

@@ -56,7 +56,6 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     ridgeback derive pendulum --at 1,2.5                       certified errors of the series
     ridgeback derive --equation "u'' + u**3 = 0" --at 1,2      no expansion, but an exact frequency
     ridgeback derive pendulum --order 16 --resummed pade --at 2.5
-
     ridgeback derive damped-pendulum --order 2 --transient 0.5 --until 100
     ridgeback derive damped-pendulum --order 4 --harmonics
 
@@ -64,6 +63,7 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     coefficient.  Of balls also radius, ball and certain_digits (null: exact), and limits.  With --verify certificate.
     With --at a list of amplitude, omega0, radius (of its certified ball), formula_omega0, relative_error and
     error_bound.  Of a self-excited slow flow fixed_points with their slope and whether they are stable.  With
+    --resummed expression, and of a quotient numerator, denominator (in w), growth and the first pole.  With
     --transient closed_form (or null) and rows of time, amplitude, phase, omega0, u.  With --harmonics, harmonics.
     """
     try:
