@@ -19,7 +19,6 @@ from numeric.combined_backbone import CombinedBackbone, combine
 from numeric.errors import InputError
 from numeric.estimate import estimate
 from numeric.half_cycles import HalfCycles, half_cycles
-from numeric.harmonics import harmonic_track
 from numeric.recording import Recording
 from numeric.track import NORMAL_95, AmplitudeTrack, Track
 
@@ -132,10 +131,9 @@ def size_columns(size: AmplitudeTrack, time: Array) -> Mapping[str, Array]:
     return {name: np.interp(time, size.time, values) for name, values in columns.items()}
 
 
-def of_harmonic(recording: Recording, fundamental: Track, multiple: int, settings: Mapping[str, object]) -> Measurement:
-    """Measure a harmonic: its track, phase-locked to the fundamental's, and its amplitude where the data show it."""
+def of_harmonic(recording: Recording, track: Track, multiple: int, settings: Mapping[str, object]) -> Measurement:
+    """A harmonic with its track, phase-locked to the fundamental's, and its amplitude where the data show it."""
     start, notes = float(recording.time[0]), recording.notes
-    track = harmonic_track(recording.values, recording.rate, fundamental, multiple=multiple, start=start)
     size = None
     try:
         band: Any = settings.get("band")
@@ -160,7 +158,7 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
     if halves:
         return of_half_cycles(recording, settings)
     start = float(recording.time[0])
-    track = estimate(recording.values, recording.rate, start=start, **settings)  # type: ignore[arg-type]
+    track = estimate(recording.values, recording.rate, start=start, harmonic=harmonic, **settings)  # type: ignore[arg-type]
     if harmonic > 1:
         return of_harmonic(recording, track, harmonic, settings)
     try:
