@@ -25,6 +25,7 @@ from compare.results import Array
 from numeric.errors import InputError
 from numeric.estimate import estimate
 from numeric.recording import Recording
+from numeric.track import Track
 
 Progress = Callable[[float, str], None]
 MOST_TERMS = 4
@@ -35,8 +36,8 @@ PER_CYCLE = 24
 ENOUGH = 6000
 MOST_SAMPLES = 60_000
 FEWEST_CYCLES = 6
-METHOD = "harmonic-least-squares"
-"""Estimator of the track that starts the fits: one whose border values are one-sided fits, so that no cycle is lost."""
+WINDOW_CYCLES = 4.0
+"""Window of the local harmonic least squares that start the fits; their border values are one-sided fits."""
 
 
 @dataclass(frozen=True)
@@ -61,14 +62,13 @@ def identify(
     candidates: Iterable[str] = NAMES,
     laws: Sequence[str] = LAWS,
     kind: str = "bic",
-    method: str = METHOD,
     span: tuple[float, float] | None = None,
     progress: Progress = lambda _, __: None,
 ) -> Identification:
     """Fit every candidate to a decay and rank them; ``span`` limits the recording to times from .. to.
 
-    ``kind`` is ``bic`` or ``aicc``; ``method`` the estimator of the track that starts the fits.  Raises InputError for
-    unknown names, a span without enough cycles, more samples than fit the budget, and when no candidate can be fitted.
+    ``kind`` is ``bic`` or ``aicc``.  Raises InputError for unknown names, a span without enough cycles, more samples
+    than fit the budget, and when no candidate can be fitted.
 
     >>> t = np.arange(400) / 4.0
     >>> noise = 0.01 * np.random.default_rng(1).normal(size=400)
@@ -80,13 +80,30 @@ def identify(
     names, laws = checked(candidates, laws, kind)
     used, notes = usable(recording, span)
     progress(0.0, "frequency track")
-    track = estimate(used.values, used.rate, method=method, start=float(used.time[0]), bias=False)
+    track = local_track(used)
     data = prepare(used, track)
     cycles = float(data.time[-1]) / data.cycle
     if cycles < FEWEST_CYCLES:
         raise InputError(f"{used.source}: {cycles:.1f} cycles are too few to tell oscillators apart; give 6 or more")
     ranked = rank(data, names, laws, kind, progress)
     return assembled(used, data, ranked, kind, (*used.notes, *notes, *data.measured.notes), track.method)
+
+
+def local_track(recording: Recording) -> Track:
+    """The fundamental's track by harmonic least squares in windows of four cycles; auto where they hold too little."""
+    x, rate, start = recording.values, recording.rate, float(recording.time[0])
+    lag = WINDOW_CYCLES * samples_per_cycle(recording) / rate
+    try:
+        return estimate(x, rate, method="harmonic-least-squares", lag_seconds=lag, start=start, bias=False)
+    except InputError:
+        return estimate(x, rate, start=start, bias=False)
+
+
+def samples_per_cycle(recording: Recording) -> float:
+    """Samples in one cycle of the strongest component."""
+    x = recording.values - recording.values.mean()
+    spectrum = np.abs(np.fft.rfft(x * np.hanning(x.size)))
+    return float(x.size / max(1, int(spectrum.argmax())))
 
 
 def checked(candidates: Iterable[str], laws: Sequence[str], kind: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -144,10 +161,7 @@ def thinning(recording: Recording) -> int:
     """Factor by which samples may be thinned and still leave PER_CYCLE in each cycle of the strongest component."""
     if recording.values.size <= ENOUGH:
         return 1
-    x = recording.values - recording.values.mean()
-    spectrum = np.abs(np.fft.rfft(x * np.hanning(x.size)))
-    per_cycle = x.size / max(1, int(spectrum.argmax()))
-    return max(1, min(int(per_cycle / PER_CYCLE), math.ceil(recording.values.size / ENOUGH)))
+    return max(1, min(int(samples_per_cycle(recording) / PER_CYCLE), math.ceil(recording.values.size / ENOUGH)))
 
 
 def rank(data: Data, names: tuple[str, ...], laws: tuple[str, ...], kind: str, progress: Progress) -> Ranked:

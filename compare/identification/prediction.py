@@ -1,7 +1,10 @@
 """The rest of a decay foretold from its first cycles, and held against what was then measured.
 
 Candidates are fitted to the first part alone.  The prediction is their mean by Akaike weights, and its variance is that
-of the parameters and of the candidates' disagreement: sum of w (sigma^2 + (value - mean)^2).
+of the parameters and of the candidates' disagreement: sum of w (sigma^2 + (value - mean)^2).  Where no candidate is
+quite right this is too narrow.  So the same candidates, fitted to the first three fifths of that part, predict its last
+two fifths, and each band is widened by the ratio of what they missed to what they expected to miss, if above 1.  What
+only shows at amplitudes that the fitted part never reached, no such rehearsal can foresee.
 """
 
 from __future__ import annotations
@@ -11,20 +14,22 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from compare.identification.fitting import Data, Fit, demodulated, prepare
-from compare.identification.identify import FEWEST_CYCLES, METHOD, Progress, Ranked, checked, part_of, rank, usable
+from compare.identification.fitting import Data, Fit, demodulated, fit, prepare, refit
+from compare.identification.identify import FEWEST_CYCLES, Progress, Ranked, checked, local_track, part_of, rank, usable
 from compare.identification.models import LAWS, NAMES
 from compare.identification.ranking import covariance, spread_along
 from compare.identification.results import NORMAL_95, Prediction
 from compare.results import Array
 from numeric.backbone import backbone
 from numeric.errors import InputError
-from numeric.estimate import estimate
 from numeric.recording import Recording
 from numeric.track import Track
 
 LEAST_WEIGHT = 0.01
 """Candidates of less weight are left out of the mean."""
+REHEARSAL = 0.6
+"""Share of the fitted part from which the rest of it is predicted, to see how wide the bands must be."""
+NAMED = ("amplitude", "omega", "phase")
 
 
 @dataclass(frozen=True)
@@ -49,7 +54,6 @@ def predict(
     candidates: Iterable[str] = NAMES,
     laws: Sequence[str] = LAWS,
     kind: str = "bic",
-    method: str = METHOD,
     span: tuple[float, float] | None = None,
     progress: Progress = lambda _, __: None,
 ) -> Prediction:
@@ -68,16 +72,19 @@ def predict(
     names, laws = checked(candidates, laws, kind)
     used, _ = usable(recording, span)
     start = float(used.time[0])
-    whole = estimate(used.values, used.rate, method=method, start=start, bias=False)
+    whole = local_track(used)
     offset = float(used.values.mean())
     phase, _ = demodulated(used.values - offset, used.rate, whole, start)
     cut = cut_after(phase, cycles, used)
     first = part_of(used, used.time[:cut], used.values[:cut], used.rate)
-    track = estimate(first.values, first.rate, method=method, start=start, bias=False)
+    track = local_track(first)
     data = prepare(first, track)
     ranked = rank(data, names, laws, kind, progress)
     rest = measured_rest(used, whole, phase, first.time[-1] - start)
-    return held_against(data, ranked, rest, cycles, start)
+    progress(0.95, "prediction")
+    kept = Weighted.of(ranked)
+    widening = rehearsed(first, track, kept)
+    return held_against(data, kept, rest, widening, cycles=cycles, start=start)
 
 
 def cut_after(phase: Array, cycles: float, recording: Recording) -> int:
@@ -107,75 +114,98 @@ def measured_rest(recording: Recording, track: Track, phase: Array, until: float
     return Rest(time, amplitude, sd, found.omega[later], found.omega_sd[later], phase[at], sd / amplitude, cut)
 
 
-def held_against(data: Data, ranked: Ranked, rest: Rest, cycles: float, start: float) -> Prediction:
-    """The mean of the candidates, its band, and how much of what was measured lies inside."""
-    best = ranked.fits[0]
-    kept = [(f, w) for f, w in zip(ranked.fits, ranked.weights, strict=True) if w >= LEAST_WEIGHT]
-    weights = np.array([w for _, w in kept]) / sum(w for _, w in kept)
-    parts = [ahead(f, data, rest.time) for f, _ in kept]
-    values, deviations = (np.array([p[i] for p in parts]) for i in (0, 1))
-    mean = np.tensordot(weights, values, 1)
-    sd = np.sqrt(np.tensordot(weights, deviations**2 + (values - mean) ** 2, 1))
-    a, omega, phase = np.split(mean, 3)
-    a_sd, omega_sd, phase_sd = np.split(sd, 3)
+@dataclass(frozen=True)
+class Weighted:
+    """Fits with their weights, the best first; the weights sum to 1."""
+
+    fits: tuple[Fit, ...]
+    weights: Array
+
+    @staticmethod
+    def of(ranked: Ranked) -> Weighted:
+        """Those candidates of a ranking that have weight."""
+        kept = [(f, w) for f, w in zip(ranked.fits, ranked.weights, strict=True) if w >= LEAST_WEIGHT]
+        weights = np.array([w for _, w in kept])
+        return Weighted(tuple(f for f, _ in kept), weights / weights.sum())
+
+    def ahead(self, data: Data, time: Array) -> tuple[Array, Array]:
+        """Mean and deviation of amplitude, frequency and phase, ``[3, time]``."""
+        parts = [ahead(f, data, time) for f in self.fits]
+        values, deviations = (np.array([p[i] for p in parts]) for i in (0, 1))
+        mean = np.tensordot(self.weights, values, 1)
+        variance = np.tensordot(self.weights, deviations**2 + (values - mean) ** 2, 1)
+        return mean.reshape(3, -1), np.sqrt(variance).reshape(3, -1)
+
+
+def missed(kept: Weighted, data: Data, rest: Rest, mean: Array) -> Array:
+    """Measured less predicted, ``[3, time]``: amplitude, frequency, phase."""
     # the two phases count whole turns from different starts, and agree at the end of what was fitted
+    best = kept.fits[0]
     apart = rest.at_cut - float(best.model.motion(best.theta, data.time).phase[-1])
-    late = rest.phase - phase - 2 * np.pi * np.round(apart / (2 * np.pi))
-    inside = {
-        "amplitude": covered(rest.amplitude - a, np.hypot(a_sd, rest.amplitude_sd)),
-        "omega": covered(rest.omega - omega, np.hypot(omega_sd, rest.omega_sd)),
-        "phase": covered(late, np.hypot(phase_sd, rest.phase_sd)),
-    }
-    errors = {
-        "amplitude": rms(rest.amplitude / a - 1),
-        "omega": rms(rest.omega / omega - 1),
-        "phase": rms(late),
-    }
+    turns = 2 * np.pi * np.round(apart / (2 * np.pi))
+    return np.array([rest.amplitude, rest.omega, rest.phase - turns]) - mean
+
+
+def expected(rest: Rest, deviation: Array) -> Array:
+    """Deviation of measured less predicted: that of both."""
+    return np.asarray(np.hypot(deviation, np.array([rest.amplitude_sd, rest.omega_sd, rest.phase_sd])))
+
+
+def rehearsed(first: Recording, track: Track, kept: Weighted) -> Array:
+    """How many times what was expected the same candidates miss the end of the fitted part; 1 where it is too short."""
+    start = float(first.time[0])
+    phase, _ = demodulated(first.values - float(first.values.mean()), first.rate, track, start)
+    cut = int(np.searchsorted(phase - phase[0], REHEARSAL * (phase[-1] - phase[0]))) + 1
+    try:
+        early = part_of(first, first.time[:cut], first.values[:cut], first.rate)
+        data = prepare(early, local_track(early))
+        rest = measured_rest(first, track, phase, float(early.time[-1]) - start)
+        again = Weighted(tuple(refit(f.model, data, fit(f.model, data).theta) for f in kept.fits), kept.weights)
+        mean, deviation = again.ahead(data, rest.time)
+    except InputError:
+        return np.ones(3)
+    ratio = missed(again, data, rest, mean) / expected(rest, deviation)
+    return np.asarray(np.maximum(1.0, np.sqrt(np.mean(ratio**2, axis=1))))
+
+
+def held_against(data: Data, kept: Weighted, rest: Rest, widening: Array, *, cycles: float, start: float) -> Prediction:
+    """The mean of the candidates, its widened band, and how much of what was measured lies inside."""
+    mean, deviation = kept.ahead(data, rest.time)
+    deviation = deviation * widening[:, None]
+    error = missed(kept, data, rest, mean)
+    inside = np.abs(error) <= NORMAL_95 * expected(rest, deviation)
+    scale = np.array([mean[0], mean[1], np.ones_like(mean[2])])
+    size = np.sqrt(np.mean((error / scale) ** 2, axis=1))
+    (a, omega, _), (a_half, omega_half, phase_half) = mean, NORMAL_95 * deviation
+    shares = ", ".join(f"{f.model.name} ({w:.0%})" for f, w in zip(kept.fits, kept.weights, strict=True))
+    wider = ", ".join(f"{name} {w:.1f}" for name, w in zip(NAMED, widening.tolist(), strict=True))
     return Prediction(
-        candidate=best.model.name,
+        candidate=kept.fits[0].model.name,
         cycles=cycles,
         until=start + float(data.time[-1]),
         time=start + rest.time,
         amplitude=a,
-        amplitude_low=a - NORMAL_95 * a_sd,
-        amplitude_high=a + NORMAL_95 * a_sd,
+        amplitude_low=a - a_half,
+        amplitude_high=a + a_half,
         measured_amplitude=rest.amplitude,
         omega=omega,
-        omega_low=omega - NORMAL_95 * omega_sd,
-        omega_high=omega + NORMAL_95 * omega_sd,
+        omega_low=omega - omega_half,
+        omega_high=omega + omega_half,
         measured_omega=rest.omega,
-        phase_error=late,
-        phase_band=NORMAL_95 * phase_sd,
-        coverage=inside,
-        errors=errors,
-        note="Mean of " + ", ".join(f"{f.model.name} ({w:.0%})" for (f, _), w in zip(kept, weights, strict=True)),
+        phase_error=error[2],
+        phase_band=phase_half,
+        coverage=dict(zip(NAMED, inside.mean(axis=1).tolist(), strict=True)),
+        errors=dict(zip(NAMED, size.tolist(), strict=True)),
+        note=f"Mean of {shares}; bands widened, by a rehearsal within the fitted part, by factors of {wider}",
     )
 
 
-def ahead(fit: Fit, data: Data, time: Array) -> tuple[Array, Array]:
+def ahead(found: Fit, data: Data, time: Array) -> tuple[Array, Array]:
     """Amplitude, frequency and phase of one candidate at later times, end to end, with their deviations."""
-    model, length = fit.model, data.length
+    model, length = found.model, data.length
 
     def values(theta: Array) -> Array:
         at = model.motion(theta, time)
         return np.concatenate((length * at.amplitude, at.omega, at.phase))
 
-    return values(fit.theta), spread_along(values, fit, data, covariance(fit))
-
-
-def covered(error: Array, deviation: Array) -> float:
-    """Share of errors within the 95 % interval of their deviations.
-
-    >>> covered(np.array([0.0, 1.9, 2.1]), np.ones(3))
-    0.6666666666666666
-    """
-    return float(np.mean(np.abs(error) <= NORMAL_95 * deviation))
-
-
-def rms(values: Array) -> float:
-    """Root mean square.
-
-    >>> rms(np.array([3.0, -3.0]))
-    3.0
-    """
-    return float(np.sqrt(np.mean(values**2)))
+    return values(found.theta), spread_along(values, found, data, covariance(found))

@@ -131,7 +131,7 @@ def text_of(found: Identification, style: str) -> str:
     if style == "csv":
         rows = parameter_rows(found)
         return csv_text(list(rows[0]), rows)
-    return reading(found)
+    return prose(found)
 
 
 def parameter_rows(found: Identification) -> list[Row]:
@@ -156,7 +156,7 @@ def parameter_rows(found: Identification) -> list[Row]:
     ]
 
 
-def reading(found: Identification) -> str:
+def prose(found: Identification) -> str:
     """The verdict, the ranking, and the parameters of the best candidate."""
     unit = f" [{found.unit}]" if found.unit else ""
     parts = [
