@@ -29,6 +29,7 @@ Progress = Callable[[float, str], None]
 
 METHODS = (
     "harmonic-least-squares",
+    "harmonic-least-squares/local",
     "pseudo-wigner",
     "smoothed-pseudo-wigner",
     "polynomial-wigner",
@@ -210,6 +211,7 @@ def _run(
         snr_db=(case.snr_db,),
         trials=trials,
         seed=seed,
+        intervals=False,
         executor=executor,
         progress=progress,
     )

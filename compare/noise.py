@@ -10,23 +10,36 @@ import math
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from compare.noise_results import NoiseCell, NoiseStudy, Trial, cell_of
+from compare.family import family
+from compare.noise_results import NoiseCell, NoiseStudy, Trial, Window, cell_of
 from compare.noise_truth import Truth, paper_truth, recording_truth
-from compare.results import Array
+from compare.results import Array, Mask
+from numeric.choice import SCOPES
+from numeric.cramer_rao import PHASE_DEGREE
 from numeric.errors import InputError
 from numeric.estimate import METHODS as ESTIMATORS
-from numeric.estimate import estimate
+from numeric.estimate import MODEL_FIT, estimate
+from numeric.family import Family
 from numeric.recording import Recording
 from numeric.track import Track
+from symbolic.oscillator import Oscillator
 
-METHODS = ("harmonic-least-squares", "pseudo-wigner", "smoothed-pseudo-wigner", "spectrogram", "zero-crossing")
+METHODS = (
+    "harmonic-least-squares",
+    "harmonic-least-squares/local",
+    "pseudo-wigner",
+    "spectrogram",
+    "zero-crossing",
+)
+"""``harmonic-least-squares`` chooses its scope; ``/local`` and ``/global`` settle it."""
+SCOPED = "harmonic-least-squares"
 SNR_DB = (0.0, 10.0, 20.0, 30.0, 40.0)
-TRIALS = 20
+TRIALS = 12
 MOST_TRIALS = 100_000
 BUDGET_SECONDS = 3600.0
 BLOCK = 5
@@ -61,6 +74,8 @@ def monte_carlo(
     lag_seconds: float | None = None,
     remove_bias: bool = False,
     intervals: bool = True,
+    oscillator: Oscillator | None = None,
+    free: Sequence[str] = (),
     executor: Executor | None = None,
     budget_seconds: float = BUDGET_SECONDS,
     progress: Progress = lambda _, __: None,
@@ -70,6 +85,8 @@ def monte_carlo(
     ``source`` is a :class:`Truth`, or a recording or the samples of one (at ``rate``), whose smooth harmonic model is
     then the truth; by default the paper's case.  ``band``, ``lag_seconds`` and ``remove_bias`` are those
     of the estimators; without ``intervals`` no coverage is found, in a tenth of the time.
+    ``oscillator`` with its ``free`` parameters is what the method model-fit fits, by default that of the truth.
+
     The cost is predicted from one noise-free run of every method.  An interrupt (KeyboardInterrupt) ends the study
     with the trials done so far and ``complete=False``; before any trial is done it passes through.  Raises InputError
     for an unknown method, trials or ratios out of range, and a study that would take more than ``budget_seconds``.
@@ -81,6 +98,8 @@ def monte_carlo(
     """
     _check(methods, snr_db, trials)
     truth = truth_of(source, rate)
+    if oscillator is not None:
+        truth = replace(truth, oscillator=oscillator, free=tuple(free) or tuple(oscillator.parameters))
     ratios = tuple(float(value) for value in snr_db)
     options = {"band": band, "lag_seconds": lag_seconds, "remove_bias": remove_bias, "bias": intervals}
     _check_cost(truth, methods, len(ratios) * trials, options, budget_seconds)
@@ -123,8 +142,10 @@ def truth_of(source: Truth | Recording | ArrayLike | None, rate: float | None = 
 
 def _check(methods: Sequence[str], snr_db: Sequence[float], trials: int) -> None:
     for method in methods:
-        if method not in ESTIMATORS:
-            raise InputError(f"method {method!r} is unknown; use one of {', '.join(ESTIMATORS)}")
+        name, slash, scope = method.partition("/")
+        if name not in (*ESTIMATORS, MODEL_FIT) or (slash and (name != SCOPED or scope not in SCOPES)):
+            known = (*ESTIMATORS, MODEL_FIT, *(f"{SCOPED}/{scope}" for scope in SCOPES))
+            raise InputError(f"method {method!r} is unknown; use one of {', '.join(known)}")
     for name, values in (("method", methods), ("ratio", snr_db)):
         if len(values) == 0 or len(set(values)) < len(values):
             raise InputError(f"{len(values)} values of {name}, some of them twice or none at all; name each once")
@@ -152,10 +173,21 @@ def _check_cost(
 
 def attempt(truth: Truth, x: Array, method: str, options: Mapping[str, object]) -> Track | InputError:
     """One estimate of a record, or the reason why there is none."""
+    name, _, scope = method.partition("/")
     try:
-        return estimate(x, truth.rate, method=method, start=truth.start, **options)  # type: ignore[arg-type]
+        if name == MODEL_FIT:
+            return estimate(x, truth.rate, method=name, start=truth.start, family=family_of(truth))
+        more = {"scope": scope} if scope else {}
+        return estimate(x, truth.rate, method=name, start=truth.start, **options, **more)  # type: ignore[arg-type]
     except InputError as refusal:
         return refusal
+
+
+def family_of(truth: Truth) -> Family:
+    """The oscillator that model-fit fits; InputError when the study names none."""
+    if truth.oscillator is None:
+        raise InputError(f"{MODEL_FIT} needs an oscillator; name it and its free parameters, or leave the method out")
+    return family(truth.oscillator, truth.free)
 
 
 def noisy(truth: Truth, snr_db: float, seed: int, trial: int) -> Array:
@@ -188,9 +220,24 @@ def judged(truth: Truth, track: Track | InputError) -> Trial:
     covered = None
     if track.interval is not None:
         covered = float(np.mean((track.interval.low[keep] <= expected) & (expected <= track.interval.high[keep])))
-    lag = track.settings.get("lag_seconds")
-    half = truth.half(float(lag) if isinstance(lag, (int, float)) else None)
-    return Trial(float(np.mean(error**2)), float(error.mean()), covered, half)
+    lag, degree = track.settings.get("lag_seconds"), track.settings.get("phase_degree")
+    return Trial(
+        float(np.mean(error**2)),
+        float(error.mean()),
+        covered,
+        truth.half(float(lag) if isinstance(lag, (int, float)) else None),
+        degree if isinstance(degree, int) else PHASE_DEGREE,
+        own_bound(track, keep, expected),
+    )
+
+
+def own_bound(track: Track, keep: Mask, expected: Array) -> float | None:
+    """Relative bound for unit noise of a model of the whole record, from the deviations of its fit; None elsewhere."""
+    noise = track.settings.get("noise")
+    whole = track.method == MODEL_FIT or track.settings.get("scope") == "global"
+    if not whole or track.standard_deviation is None or not isinstance(noise, float) or not noise > 0.0:
+        return None
+    return float(np.sqrt(np.mean((track.standard_deviation[keep] / expected) ** 2))) / noise
 
 
 def _gather(
@@ -232,17 +279,17 @@ def _cells(
     ratios: Sequence[float],
     done: dict[tuple[str, float], dict[int, Trial]],
 ) -> Iterator[NoiseCell]:
-    halves = {trial.half for cell in done.values() for trial in cell.values() if not trial.reason}
-    unit = {half: _bound(truth, half) for half in halves}
+    given = [trial for cell in done.values() for trial in cell.values() if not trial.reason and trial.own is None]
+    unit = {window: _bound(truth, window) for window in {(trial.half, trial.degree) for trial in given}}
     for method in methods:
         for snr in ratios:
             trials = [trial for _, trial in sorted(done[method, snr].items())]
-            yield cell_of(method, snr, trials, {half: truth.noise(snr) * value for half, value in unit.items()})
+            yield cell_of(method, snr, trials, unit, truth.noise(snr))
 
 
-def _bound(truth: Truth, half: int) -> float:
+def _bound(truth: Truth, window: Window) -> float:
     """Relative bound for unit noise; NaN where the window does not determine the model."""
     try:
-        return truth.relative_bound(half, noise=1.0)
+        return truth.relative_bound(*window, noise=1.0)
     except InputError:
         return math.nan

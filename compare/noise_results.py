@@ -112,7 +112,10 @@ class Trial:
     mean: float = math.nan
     covered: float | None = None
     half: int = 0
-    """Half the estimator's window, in samples: its bound is that of this window."""
+    """Half the estimator's window, in samples, and its phase's degree: its bound is that of this window."""
+    degree: int = 3
+    own: float | None = None
+    """Relative bound for unit noise of a model of the whole record, from the Fisher matrix of the fit itself."""
     reason: str = ""
     """Why the method refused; empty when it did not."""
 
@@ -129,11 +132,17 @@ def mean_and_deviation(values: Sequence[float]) -> tuple[float, float]:
     return mean, math.sqrt(spread / (n * (n - 1))) if n > 1 else math.inf
 
 
-def cell_of(method: str, snr_db: float, trials: Sequence[Trial], bounds: Mapping[int, float]) -> NoiseCell:
-    """Make a cell from its trials; ``bounds`` gives the relative bound of each window that occurs.
+Window = tuple[int, int]
+"""Half a window, in samples, and the degree of the phase in it."""
+
+
+def cell_of(
+    method: str, snr_db: float, trials: Sequence[Trial], bounds: Mapping[Window, float], noise: float = 1.0
+) -> NoiseCell:
+    """Make a cell from its trials; ``bounds`` gives the relative bound for unit noise of each window that occurs.
 
     >>> done = [Trial(1e-6, 1e-4, 1.0, 48), Trial(3e-6, -1e-4, 0.9, 48), Trial(reason="too short")]
-    >>> cell = cell_of("wigner", 20.0, done, {48: 1e-3})
+    >>> cell = cell_of("wigner", 20.0, done, {(48, 3): 1e-2}, noise=0.1)
     >>> round(cell.ratio, 6), cell.coverage, cell.failures, cell.bias
     (1.414214, 0.95, 1, 0.0)
     """
@@ -146,7 +155,8 @@ def cell_of(method: str, snr_db: float, trials: Sequence[Trial], bounds: Mapping
     rms = math.sqrt(square)
     rms_sd = 0.5 * square_sd / rms if rms > 0.0 else 0.0
     bias, bias_sd = mean_and_deviation([trial.mean for trial in given])
-    bound = math.sqrt(math.fsum(bounds[trial.half] ** 2 for trial in given) / len(given))
+    units = [bounds[trial.half, trial.degree] if trial.own is None else trial.own for trial in given]
+    bound = noise * math.sqrt(math.fsum(unit**2 for unit in units) / len(units))
     coverage, coverage_sd = coverage_of([trial.covered for trial in given if trial.covered is not None])
     roots = sorted(math.sqrt(trial.mean_square) for trial in given)
     return NoiseCell(

@@ -7,7 +7,7 @@ recording, which is then the truth by definition: its noise is replaced by noise
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -16,7 +16,7 @@ from scipy.interpolate import make_interp_spline, make_lsq_spline
 from compare.bind import bind
 from compare.errors import Zones, zones
 from compare.results import Array
-from numeric.cramer_rao import Order, local_bound
+from numeric.cramer_rao import PHASE_DEGREE, Order, local_bound
 from numeric.cycles import cycle_frequency
 from numeric.dynamics import Dynamics
 from numeric.errors import InputError
@@ -49,7 +49,10 @@ class Truth:
     omega: Array
     signal: HarmonicSignal
     lag_seconds: float
-    """The estimators' default window on the noise-free record; the bound is taken in it where a method has none."""
+    """A window of four cycles; the bound is taken in it where a method has none of its own."""
+    oscillator: Oscillator | None = None
+    """What the method model-fit fits, its parameters ``free`` to be found."""
+    free: tuple[str, ...] = ()
 
     @property
     def rate(self) -> float:
@@ -78,10 +81,10 @@ class Truth:
         """Half a window in samples."""
         return half_width(lag_seconds or self.lag_seconds, self.rate, longest=self.x.size)
 
-    def relative_bound(self, half: int, *, noise: float) -> float:
+    def relative_bound(self, half: int, degree: int = PHASE_DEGREE, *, noise: float) -> float:
         """Bound on the relative rms error over the interior, local harmonic model in windows of 2 half + 1 samples."""
         inside = np.flatnonzero(self.zone.interior(self.signal.time))[::EVERY]
-        order = Order(self.signal.multiples[1:])
+        order = Order(self.signal.multiples[1:], phase_degree=degree)
         bound = local_bound(self.signal, noise, half=half, order=order, centres=inside)
         return float(np.sqrt(np.mean((bound / self.omega[inside]) ** 2)))
 
@@ -91,9 +94,10 @@ class Truth:
         order = Order(self.signal.multiples[1:])
         others = ", ".join(map(str, order.multiples)) or "none"
         return (
-            f"local harmonic model: phase of degree {order.phase_degree}, amplitudes of degree "
+            f"local harmonic model: phase of degree {order.phase_degree} or the method's own, amplitudes of degree "
             f"{order.amplitude_degree}, harmonics beside the fundamental: {others}, in the window of the method "
-            f"({self.lag_seconds:.4g} time units where it has none)"
+            f"({self.lag_seconds:.4g} time units where it has none); a model of the whole record has its own: the "
+            "Fisher matrix of the fit"
         )
 
 
@@ -113,7 +117,8 @@ def oscillator_truth(
     oscillator: Oscillator, initial: tuple[float, float], *, duration: float, rate: float, title: str = ""
 ) -> Truth:
     """An oscillator integrated; its true frequency is the cycle frequency of the solution."""
-    return dynamics_truth(bind(oscillator), initial, duration=duration, rate=rate, title=title or oscillator.title)
+    truth = dynamics_truth(bind(oscillator), initial, duration=duration, rate=rate, title=title or oscillator.title)
+    return replace(truth, oscillator=oscillator, free=tuple(oscillator.parameters))
 
 
 def dynamics_truth(

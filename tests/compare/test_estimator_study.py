@@ -68,7 +68,7 @@ def test_an_interrupted_study_goes_on_from_its_checkpoint(tmp_path: Path) -> Non
 
 
 def cell(method: str, *errors: float) -> object:
-    return cell_of(method, 30.0, [Trial(e * e, e, None, 5) for e in errors], {5: 0.01})
+    return cell_of(method, 30.0, [Trial(e * e, e, None, 5) for e in errors], {(5, 3): 0.01})
 
 
 def test_a_tie_is_a_matter_of_the_uncertainty() -> None:
