@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields
-from types import MappingProxyType
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from numeric.arrays import frozen
+from numeric.backbone_curve import Backbone, Crowding, Points, assemble
 from numeric.errors import InputError
 from numeric.harmonic_fit import Shape, choose_multiples, harmonic_fit
 from numeric.harmonics import carrier
@@ -17,59 +13,12 @@ from numeric.samples import TWO_PI, Array, Mask, checked_rate, checked_real_samp
 from numeric.track import Track
 from numeric.windows import half_width
 
+__all__ = ["Backbone", "backbone"]
+
 WINDOW_CYCLES = 4.0
 POINTS_PER_CYCLE = 4.0
-MOST_BINS = 24
 CLEAR = 5.0
 """A point is used where the amplitude exceeds its own standard deviation this many times."""
-
-
-@dataclass(frozen=True)
-class Backbone:
-    """omega0 and a'/a against the amplitude a; ``definition`` says which amplitude, "fundamental" or "peak".
-
-    Along time: ``time, amplitude, omega, damping`` (a'/a per time unit, negative in a decay) with one-sigma ``_sd``,
-    that of omega with the track's bias in it.
-    The curve: ``curve_amplitude`` rising, ``curve_omega``, ``curve_damping`` with ``_sd``: means over bins of
-    amplitude, all weighted by the precision of omega; their deviation joins the estimates' own with the scatter in
-    the bin, counting one independent value per window length.  ``offset`` is the mean that was removed; amplitudes
-    are in the signal's unit.
-    """
-
-    time: Array
-    amplitude: Array
-    amplitude_sd: Array
-    omega: Array
-    omega_sd: Array
-    damping: Array
-    damping_sd: Array
-    curve_amplitude: Array
-    curve_omega: Array
-    curve_omega_sd: Array
-    curve_damping: Array
-    curve_damping_sd: Array
-    offset: float
-    definition: str = "fundamental"
-    settings: Mapping[str, object] = field(default_factory=dict)
-    notes: tuple[str, ...] = ()
-
-    def __post_init__(self) -> None:
-        for item in fields(self):
-            if isinstance(getattr(self, item.name), np.ndarray):
-                object.__setattr__(self, item.name, frozen(getattr(self, item.name)))
-        object.__setattr__(self, "settings", MappingProxyType(dict(self.settings)))
-
-    def rows(self) -> list[dict[str, float]]:
-        """One row per point of the curve: amplitude, omega, frequency and damping with their standard deviations."""
-        columns = {
-            "amplitude": self.curve_amplitude,
-            "omega_rad_s": self.curve_omega,
-            "frequency_hz": self.curve_omega / TWO_PI,
-            "omega_standard_deviation_rad_s": self.curve_omega_sd,
-            "damping_per_s": self.curve_damping,
-            "damping_standard_deviation_per_s": self.curve_damping_sd,
-        }
-        return [{name: float(column[i]) for name, column in columns.items()} for i in range(self.curve_omega.size)]
 
 
 def backbone(
@@ -118,10 +67,19 @@ def backbone(
     total = total_deviation(track)
     omega_sd = fit.standard_deviation if total is None else np.interp(fit.time, track.time, total)
     points = Points(fit.time, fit.amplitude, fit.amplitude_sd, omega, omega_sd, fit.growth, fit.growth_sd).at(usable)
-    crowding = max(1.0, fit.window_seconds / float(np.median(np.diff(fit.time))))
+    spacing = float(np.median(np.diff(fit.time)))
+    window = max(1.0, fit.window_seconds / spacing)
+    crowding = Crowding(amplitude=window, omega=max(window, resolution(track, cycle) / spacing))
     settings = {"track": track.method, "window_seconds": fit.window_seconds, "harmonics": (1, *shape.multiples)}
     notes = [f"The mean of the samples, {offset:.4g}, was removed.", *left_out_notes(usable, clean)]
     return assemble(points, crowding=crowding, offset=offset, settings=settings, notes=notes)
+
+
+def resolution(track: Track, cycle: float) -> float:
+    """The time over which the values of a track share their error: its window, or a knot's reach of a global model."""
+    known = track.settings.get("lag_seconds"), track.settings.get("cycles_per_knot")
+    window, knots = (float(value) if isinstance(value, (int, float)) else 0.0 for value in known)
+    return max(window, knots * cycle)
 
 
 def total_deviation(track: Track) -> Array | None:
@@ -167,86 +125,3 @@ def left_out_notes(usable: Mask, clean: Mask) -> list[str]:
             f"{np.count_nonzero(~clean)} of {usable.size} points have clipped samples in their window; left out."
         )
     return notes
-
-
-@dataclass(frozen=True)
-class Points:
-    """Amplitude, frequency and damping along time with their standard deviations, before they are binned."""
-
-    time: Array
-    amplitude: Array
-    amplitude_sd: Array
-    omega: Array
-    omega_sd: Array
-    damping: Array
-    damping_sd: Array
-
-    def at(self, keep: Mask) -> Points:
-        """Some of the points."""
-        return Points(**{item.name: getattr(self, item.name)[keep] for item in fields(self)})
-
-
-def assemble(
-    points: Points,
-    *,
-    crowding: float,
-    offset: float,
-    settings: Mapping[str, object],
-    notes: Sequence[str],
-    definition: str = "fundamental",
-    fewest: int = 1,
-) -> Backbone:
-    """Put points into a Backbone and bin them over amplitude, at least ``fewest`` in a bin.
-
-    ``crowding`` neighbours count as one independent value.
-    """
-    a, w, s = points.amplitude, points.omega, points.omega_sd
-    edges = np.linspace(a.min(), a.max(), min(MOST_BINS, max(2, a.size // 4)) + 1)
-    bin_of = np.clip(np.digitize(a, edges) - 1, 0, edges.size - 2)
-    of = merged([np.flatnonzero(bin_of == b) for b in np.unique(bin_of)], fewest)
-    weights = 1.0 / np.maximum(s, 1e-9 * w.max()) ** 2
-    curve_omega = np.array([pooled(w[i], s[i], weights[i], crowding) for i in of])
-    curve_damping = np.array([pooled(points.damping[i], points.damping_sd[i], weights[i], crowding) for i in of])
-    return Backbone(
-        **{item.name: getattr(points, item.name) for item in fields(points)},
-        curve_amplitude=np.array([np.average(a[i], weights=weights[i]) for i in of]),
-        curve_omega=curve_omega[:, 0],
-        curve_omega_sd=curve_omega[:, 1],
-        curve_damping=curve_damping[:, 0],
-        curve_damping_sd=curve_damping[:, 1],
-        offset=offset,
-        definition=definition,
-        settings=settings,
-        notes=tuple(notes),
-    )
-
-
-def merged(bins: list[NDArray[np.intp]], fewest: int) -> list[NDArray[np.intp]]:
-    """Join each bin with too few points to the next, the last to the one before.
-
-    >>> [part.tolist() for part in merged([np.array([0, 1]), np.array([2]), np.array([3, 4]), np.array([5])], 2)]
-    [[0, 1], [2, 3, 4, 5]]
-    """
-    found: list[NDArray[np.intp]] = []
-    open_bin = np.zeros(0, dtype=np.intp)
-    for part in bins:
-        open_bin = np.concatenate([open_bin, part])
-        if open_bin.size >= fewest:
-            found.append(open_bin)
-            open_bin = open_bin[:0]
-    if open_bin.size and found:
-        return [*found[:-1], np.concatenate([found[-1], open_bin])]
-    return found or [open_bin]
-
-
-def pooled(values: Array, deviations: Array, weights: Array, crowding: float) -> tuple[float, float]:
-    """Weighted mean and its standard deviation, when ``crowding`` neighbouring values share one window.
-
-    >>> pooled(np.ones(2), np.array([0.1, 0.1]), np.ones(2), 2.0)
-    (1.0, 0.1)
-    """
-    share = weights / weights.sum()
-    mean = float((share * values).sum())
-    independent = max(1.0, values.size / crowding)
-    variance = float((share * (deviations**2 + (values - mean) ** 2)).sum())
-    return mean, float(np.sqrt(variance / independent))

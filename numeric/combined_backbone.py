@@ -17,7 +17,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from numeric.arrays import frozen
-from numeric.backbone import MOST_BINS, Backbone
+from numeric.backbone_curve import MOST_BINS, Backbone
 from numeric.errors import InputError
 from numeric.samples import TWO_PI, Array
 

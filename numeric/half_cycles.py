@@ -23,7 +23,8 @@ from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
 from numeric.arrays import frozen
-from numeric.backbone import CLEAR, Backbone, Points, assemble
+from numeric.backbone import CLEAR
+from numeric.backbone_curve import Backbone, Crowding, Points, assemble
 from numeric.errors import InputError
 from numeric.harmonic_fit import Shape, choose_multiples, harmonic_fit
 from numeric.request import Request, prepared
@@ -106,7 +107,8 @@ class HalfCycles:
         settings = {"track": "half-cycles", **self.settings}
         return assemble(
             points,
-            crowding=1.0,
+            # Neighbours share a crossing, whose error cancels in their mean; so do turning points, two at either end.
+            crowding=Crowding(amplitude=1.0, omega=1.0, omega_ends=1.0, damping_ends=2.0),
             offset=self.offset,
             settings=settings,
             notes=notes,

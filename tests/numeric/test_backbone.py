@@ -3,7 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from numeric.backbone import backbone, pooled
+from numeric.backbone import backbone
+from numeric.backbone_curve import pooled
 from numeric.errors import InputError
 from numeric.estimate import METHODS, estimate
 
@@ -68,12 +69,27 @@ def test_rows_carry_the_names_of_their_columns() -> None:
     assert row["frequency_hz"] == pytest.approx(row["omega_rad_s"] / (2 * np.pi))
 
 
+def test_the_bands_are_not_much_wider_than_the_errors_either() -> None:
+    off_omega, off_damping = [], []
+    for seed in range(4):
+        x = CLEAN + 0.05 * np.random.default_rng(seed).normal(size=T.size)
+        found = backbone(estimate(x, RATE, method="pseudo-wigner", bias=False), x, RATE)
+        off_omega.append((found.curve_omega - (8.0 - 0.3 * found.curve_amplitude**2)) / found.curve_omega_sd)
+        off_damping.append((found.curve_damping + 0.04) / found.curve_damping_sd)
+    for off in (np.concatenate(off_omega), np.concatenate(off_damping)):
+        assert 0.4 < np.sqrt(np.mean(off**2)) < 1.4
+
+
 def test_pooling_counts_independent_values_only() -> None:
     rng = np.random.default_rng(0)
-    values, deviations = 3.0 + 0.2 * rng.normal(size=100), np.full(100, 0.2)
-    mean, deviation = pooled(values, deviations, np.ones(100), 4.0)
+    a, values, deviations = np.linspace(1.0, 2.0, 400), 3.0 + 0.2 * rng.normal(size=400), np.full(400, 0.1)
+    mean, deviation = pooled(a, values, deviations, np.ones(400), 4.0)
     assert mean == pytest.approx(values.mean())
-    assert deviation == pytest.approx(np.sqrt((0.04 + values.var()) / 25.0))
+    assert deviation == pytest.approx(0.2 / np.sqrt(100.0), rel=0.1)  # the scatter, twice what is stated
+    assert pooled(a, values, 3 * deviations, np.ones(400), 4.0)[1] == pytest.approx(0.03)  # what is stated
+    sloping = values + 5.0 * a
+    assert pooled(a, sloping, deviations, np.ones(400), 4.0)[1] == pytest.approx(deviation)  # a slope is no scatter
+    assert pooled(a[:2], values[:2], deviations[:2], np.ones(2), 4.0)[1] >= 0.1  # both share one window
 
 
 def test_a_record_without_clear_points_is_refused() -> None:

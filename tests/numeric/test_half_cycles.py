@@ -55,6 +55,18 @@ def test_standard_deviations_are_those_of_repeated_noise() -> None:
         assert np.median(seen / said) == pytest.approx(1.0, abs=0.12), value
 
 
+def test_the_bands_of_its_backbone_are_as_wide_as_the_errors() -> None:
+    frequency, damping = [], []
+    for seed in range(12):
+        x = decay() + 0.02 * np.random.default_rng(seed).standard_normal(T.size)
+        curve = half_cycles(x, RATE).backbone()
+        frequency.append((curve.curve_omega - OMEGA) / curve.curve_omega_sd)
+        damping.append((curve.curve_damping + MU) / curve.curve_damping_sd)
+    for off in (np.concatenate(frequency), np.concatenate(damping)):
+        assert 0.6 < np.sqrt(np.mean(off**2)) < 1.25
+        assert 0.9 < np.mean(np.abs(off) < 1.96) <= 1.0
+
+
 def test_an_asymmetric_signal_alternates_in_frequency_and_not_in_damping() -> None:
     a = np.exp(-MU * T)
     x = a * np.cos(OMEGA * T) + 0.1 * a**2 * np.cos(2 * OMEGA * T)
