@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from ridgeback.arguments import BAND, POSITIVE
+from ridgeback.model_options import Model
 
 Command = Callable[..., None]
 WINDOWS = ("blackman", "gaussian", "hamming", "hann", "rectangular")
@@ -29,6 +30,7 @@ class Estimator:
     order: int | None = None
     band_limited: bool = False
     single: bool = False
+    model: Model | None = None
 
     def given(self) -> dict[str, Any]:
         """Keyword arguments of ``numeric.estimate.estimate``; what was not said keeps its default there."""
@@ -43,6 +45,7 @@ class Estimator:
             "band_limited": self.band_limited or None,
             "single": self.single or None,
             "remove_bias": self.remove_bias,
+            "family": None if self.model is None else self.model.family(self.method),
         }
         return {name: value for name, value in said.items() if value is not None}
 

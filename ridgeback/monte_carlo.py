@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from compare.noise_results import NoiseCell, NoiseStudy
     from compare.noise_truth import Truth
     from numeric.recording import Recording
+    from ridgeback.model_options import Model
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
@@ -93,6 +94,7 @@ def monte_carlo_verb(
     seed: int,
     band: tuple[float, float] | None,
     lag: float | None,
+    model: Model,
     remove_bias: bool,
     style: str,
     output: str,
@@ -100,6 +102,7 @@ def monte_carlo_verb(
     """Run the study and write its table; ``method`` is ``auto`` for all, or names with commas between."""
     from compare.noise import METHODS, TRIALS, monte_carlo
 
+    oscillator = model.oscillator()
     with Progress() as progress:
         study = monte_carlo(
             source,
@@ -110,6 +113,8 @@ def monte_carlo_verb(
             band=band,
             lag_seconds=lag,
             remove_bias=remove_bias,
+            oscillator=oscillator,
+            free=() if oscillator is None else model.to_find(oscillator),
             progress=progress,
         )
     write_text(output, study_text(study, style))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import click
@@ -9,6 +10,7 @@ import click
 from ridgeback.estimation import survey_text
 from ridgeback.estimator_options import Estimator, estimator_options
 from ridgeback.failure import PartialError, say
+from ridgeback.model_options import MODEL_FIT, Model, model_options
 from ridgeback.monte_carlo import monte_carlo_options, monte_carlo_verb, trials_and_file
 from ridgeback.options import format_option, output_option
 from ridgeback.output import write_bytes, write_text
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
 @click.argument("files", nargs=-1, metavar="FILE...")
 @reading_options
 @estimator_options
+@model_options
 @click.option(
     "--harmonic", type=click.IntRange(1, 99), default=1, show_default=True, metavar="N", help="Harmonic to track."
 )
@@ -44,6 +47,7 @@ def command(
     files: tuple[str, ...],
     reading: Reading,
     estimator: Estimator,
+    model: Model,
     harmonic: int,
     half_cycles: bool,
     backbone_wanted: bool,
@@ -76,9 +80,11 @@ def command(
     ridgeback estimate run1.csv run2.csv run3.csv --column u --backbone --plot runs.pdf
     ridgeback estimate rig.h5 --column all --fill 0.1 --format json
     ridgeback estimate take.wav --half-cycles
+    ridgeback estimate run.csv --column u --method model-fit --system pendulum --free k,mu
     ridgeback estimate --monte-carlo 100 --snr 0,10,20,30
     """
     check_fit(harmonic, estimator, half_cycles=half_cycles, backbone=backbone_wanted)
+    model.check(estimator.method)
     if monte_carlo is not None:
         if backbone_wanted or half_cycles or harmonic != 1 or plot is not None or len(files) > 1:
             raise click.UsageError("--monte-carlo is about the track of the fundamental; leave out what else is asked")
@@ -92,6 +98,7 @@ def command(
             seed=seed,
             band=estimator.band,
             lag=estimator.lag,
+            model=model,
             remove_bias=estimator.remove_bias,
             style=style,
             output=output,
@@ -99,6 +106,9 @@ def command(
         return
     if not files:
         raise click.UsageError("name the FILE of a recording; only --monte-carlo goes without one")
+    estimator = replace(estimator, model=model)
+    if estimator.method == MODEL_FIT:
+        refuse_beside(estimator, "--method model-fit", "method", "band", "family")
     found = surveyed(files, reading, estimator, combine=combine, harmonic=harmonic, halves=half_cycles)
     if backbone_wanted:
         check_backbones(found)
