@@ -21,7 +21,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import make_interp_spline
-from scipy.ndimage import uniform_filter1d
+from scipy.ndimage import median_filter, uniform_filter1d
 from scipy.special import stdtrit
 
 from numeric.harmonic_spline import SplineModel
@@ -36,6 +36,8 @@ ENOUGH = 64
 MOST_REPLICATES, FEWEST_REPLICATES = 24, 4
 POOLED_SHARE = 0.25
 """Share of the record over which replicates are pooled."""
+FAR, MEDIAN_OF_SQUARE = 3.0, 0.4549
+"""Sigmas beyond which an error is an outlier, and the median of the square of a standard normal variable."""
 AMBIGUOUS = 0.1
 """Relative change of omega per cycle above which omega(t) is flagged as ambiguous."""
 ROOM = 0.2
@@ -100,13 +102,17 @@ def replicated(trial: Trial, models: SignalModels, clean: Array, count: int) -> 
     return Replicates(plain, corrected, between)
 
 
+# A peak that jumps to a cross term now and then is far off for a few samples; such errors, beyond three sigma as the
+# median of the replicates has it, count as three, or the interval would be wide everywhere for what is rare.
 def pooled(errors: Array, shape: Array, width: int) -> Array:
     """Root mean square over replicates and over ``width`` neighbours, of errors relative to ``shape``, times it.
 
     >>> pooled(np.full((2, 4), 3.0), np.array([1.0, 1.0, 2.0, 2.0]), 1).tolist()
     [3.0, 3.0, 3.0, 3.0]
     """
-    return shape * np.sqrt(moving_mean(np.mean(np.square(errors / shape), axis=0), width))
+    share = np.square(errors / shape)
+    typical = moving_mean(np.median(share, axis=0), width) / MEDIAN_OF_SQUARE
+    return shape * np.sqrt(moving_mean(np.minimum(share, FAR**2 * typical).mean(axis=0), width))
 
 
 def moving_mean(values: Array, width: int) -> Array:
@@ -133,7 +139,7 @@ def with_interval(track: Track, request: Request, trial: Trial, models: SignalMo
     noise, total = deviations(track, trial, copies, models.fine, windows)
     apart = (trial.bias(models.coarse) - bias) ** 2 - copies.between.var(axis=0)
     near = max(1, round(request.lag_seconds / float(np.median(np.diff(track.time)))))
-    unknown = np.maximum(total**2 - noise**2, 0.0) + models.remainder**2 * moving_mean(apart, near)
+    left = models.remainder**2 * np.maximum(median_filter(apart, near, mode="nearest"), 0.0)
     ambiguous, room = definition(trial.truth(models.fine), trial.time, models.best)
     how = {
         "noise": models.fine.noise,
@@ -147,7 +153,7 @@ def with_interval(track: Track, request: Request, trial: Trial, models: SignalMo
         track,
         standard_deviation=noise,
         bias=bias,
-        bias_deviation=np.sqrt(unknown + room**2),
+        bias_deviation=np.sqrt(np.maximum(total**2 - noise**2, 0.0) + left + room**2),
         ambiguous=ambiguous,
         settings={**track.settings, **how},
     )
