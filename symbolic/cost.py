@@ -26,6 +26,9 @@ _LAWS = {
     "primes of a limit-cycle": (2e-9, 5.0, 1.0),
 }
 
+PROCESS = 0.15
+"""Gigabytes that each further process takes before it does anything."""
+
 
 @dataclass(frozen=True)
 class Budget:
@@ -55,7 +58,8 @@ def predict(method: str, order: int, *, parameters: int = 0, weights: tuple[int,
     """
     seconds, power, size = _LAWS[method]
     monomials = math.comb(order // 2 + parameters, parameters) * weighted_monomials(order / 2, weights)
-    return Cost(seconds * order**power * monomials / workers, size * order**3 * monomials * workers / 1e9)
+    memory = size * order**3 * monomials * workers / 1e9 + PROCESS * (workers - 1)
+    return Cost(seconds * order**power * monomials / workers, memory)
 
 
 def weighted_monomials(degree: float, weights: tuple[int, ...]) -> float:

@@ -10,7 +10,7 @@ part: a wrong coefficient survives each of these with a probability below 2^-50.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
@@ -148,11 +148,11 @@ def _collect(
 ) -> tuple[tuple[fmpq, ...], tuple[fmpq, ...]]:
     """Gather primes until the rationals predict the residues kept back."""
     source = primes()
-    run = map if executor is None else executor.map
-    kept = list(run(work, islice(source, CHECKS)))
+    run = partial(_run, executor, work)
+    kept = run(islice(source, CHECKS))
     modulus, values = 1, [0] * len(_all(kept[0]))
     while True:
-        for found in run(work, list(islice(source, max(2, 2 * workers)))):
+        for found in run(islice(source, max(2, 2 * workers))):
             modulus, values = _combine(modulus, values, found)
         rationals = _reconstructed(values, modulus, kept)
         if progress is not None:
@@ -160,6 +160,13 @@ def _collect(
         if rationals is not None:
             split = len(kept[0].frequency)
             return tuple(rationals[:split]), tuple(rationals[split:])
+
+
+def _run(executor: Executor | None, work: Callable[[int], Residues], batch: Iterable[int]) -> list[Residues]:
+    """The work on a few primes.  Not by ``Executor.map``, whose cancelling upsets a pool that is being ended."""
+    if executor is None:
+        return [work(prime) for prime in batch]
+    return [future.result() for future in [executor.submit(work, prime) for prime in batch]]
 
 
 def _all(found: Residues) -> tuple[int, ...]:
