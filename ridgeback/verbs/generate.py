@@ -9,7 +9,8 @@ import click
 
 from ridgeback.arguments import rational, written
 from ridgeback.choice import Choice, choosing
-from ridgeback.demand import Demand, degrees
+from ridgeback.demand import Demand
+from ridgeback.demand_options import degrees
 from ridgeback.derivation import Request, derived, requesting
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
