@@ -85,17 +85,18 @@ def heading(study: EstimatorStudy) -> str:
 
 
 def row_of(result: CaseResult) -> dict[str, str]:
-    """One case: the best methods, their error, and the flagship's beside it."""
+    """One case: the best method and those as good, the flagship with its bound, and the best method of another kind."""
     best, flagship = result.best, result.of(FLAGSHIP)
-    equal = [cell.method for cell in result.tied()]
+    equal = [cell.method for cell in result.tied() if cell is not best]
     bound = None if flagship is None else flagship.bound
+    other = next((cell for cell in result.cells if not cell.method.startswith(FLAGSHIP)), None)
     return {
         "case": result.case.label,
         "best": best.method if best.rms is not None else "none",
-        "error": shown(best),
-        "as good": ", ".join(name for name in equal if name != best.method) or "-",
+        "as good": ", ".join(equal) or "-",
         FLAGSHIP: "-" if flagship is None else shown(flagship),
         "its bound": "-" if bound is None else f"{bound:.2g}",
+        "best of another kind": "-" if other is None or other.rms is None else f"{other.method}: {shown(other)}",
     }
 
 
