@@ -16,7 +16,6 @@ Command = Callable[..., None]
 
 PLAIN = ("text", "json", "latex", "mathml", "python")
 TABLE = ("text", "json", "csv")
-ALL = (*PLAIN, "csv")
 
 # What can be made of an expansion, one at a time, and the forms that each has; --at goes with the first three.
 USES = {"digits": ("text", "json"), "workers": PLAIN, "resummed": PLAIN, "transient": TABLE, "harmonics": PLAIN}

@@ -44,6 +44,8 @@ def resummed(
         raise InputError(f"growth {growth} can be taken out of a map only, not of {kind}; leave it out")
     if kind == "nome":
         return _nome(oscillator, series, degrees)
+    if not series.names and all(c == 0 for c in series.coefficients[1:]):
+        raise InputError(f"{series.system}: omega0 is constant through order {series.order}; nothing is to be resummed")
     limits = settled_limits(oscillator, series)
     reach = max(Fraction(limits.radius or 0), up_to or Fraction(0))
     m, n = degrees or (None, None)

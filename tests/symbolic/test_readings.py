@@ -102,6 +102,12 @@ def test_bad_requests(kind: str, options: dict[str, object], said: str) -> None:
         resummed(PENDULUM, lindstedt(PENDULUM, 8), kind, **options)  # type: ignore[arg-type]
 
 
+def test_a_constant_frequency_has_nothing_to_resum() -> None:
+    linear = find("linear")
+    with pytest.raises(InputError, match="constant through order 8"):
+        resummed(linear, lindstedt(linear, 8), "pade")
+
+
 def test_the_nome_is_of_the_peak_amplitude() -> None:
     with pytest.raises(InputError, match="peak"):
         resummed(PENDULUM, lindstedt(PENDULUM, 8, amplitude="fundamental"), "nome")
