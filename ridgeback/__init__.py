@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from compare.bind import bind as bind
+    from compare.identification.identify import identify as identify
+    from compare.identification.prediction import predict as predict
     from compare.measurement import survey as survey
     from compare.recording_report import assemble_recording as assemble_recording
     from compare.report import assemble_system as assemble_system
@@ -28,12 +30,17 @@ if TYPE_CHECKING:
     from numeric.trajectory import Trajectory as Trajectory
     from numeric.trajectory import integrate as integrate
     from reports.page import render as render
+    from symbolic.ball_march import lindstedt_in_balls as lindstedt_in_balls
     from symbolic.codegen import generate as generate
+    from symbolic.enclosure import enclose as enclose
     from symbolic.energy_integral import energy_integral as energy_integral
     from symbolic.expansion import Expansion as Expansion
     from symbolic.lindstedt import lindstedt as lindstedt
+    from symbolic.modular import lindstedt_by_primes as lindstedt_by_primes
     from symbolic.multiple_scales import multiple_scales as multiple_scales
     from symbolic.oscillator import Oscillator as Oscillator
+    from symbolic.readings import readings as readings
+    from symbolic.resummed import resummed as resummed
     from symbolic.slow_flow import SlowFlow as SlowFlow
     from symbolic.systems import catalogue as catalogue
     from symbolic.systems import find as find
@@ -52,18 +59,25 @@ HOMES = {
     "backbone": "numeric.backbone",
     "bind": "compare.bind",
     "catalogue": "symbolic.systems",
+    "enclose": "symbolic.enclosure",
     "energy_integral": "symbolic.energy_integral",
     "estimate": "numeric.estimate",
     "find": "symbolic.systems",
     "generate": "symbolic.codegen",
+    "identify": "compare.identification.identify",
     "integrate": "numeric.trajectory",
     "lindstedt": "symbolic.lindstedt",
+    "lindstedt_by_primes": "symbolic.modular",
+    "lindstedt_in_balls": "symbolic.ball_march",
     "multiple_scales": "symbolic.multiple_scales",
     "half_cycles": "numeric.half_cycles",
+    "predict": "compare.identification.prediction",
     "read_recording": "numeric.recording",
     "read_recordings": "numeric.recording",
     "survey": "compare.measurement",
+    "readings": "symbolic.readings",
     "render": "reports.page",
+    "resummed": "symbolic.resummed",
     "study": "compare.study",
 }
 

@@ -257,6 +257,8 @@ def verdict(candidates: tuple[Candidate, ...], near: tuple[str, ...], kind: str,
     """Which class, how sure, and which others cannot be told apart from it."""
     best, name = candidates[0], kind.upper() if kind == "bic" else "AICc"
     text = f"{best.title}, damping {best.damping_law}"
+    if best.name == BACKBONE and len(near) == 1:
+        text += ": no equation among the candidates does as well"
     others = [c for c in candidates[1:] if c.name in near]
     if others:
         listed = ", ".join(f"{c.title} ({name} {c.delta:.1f} higher)" for c in others)
