@@ -69,8 +69,9 @@ class Recording:
     @property
     def label(self) -> str:
         """Source, run, channel and stretch, as far as they tell signals apart."""
-        parts = [self.source, *([self.run] if self.run not in ("", self.source) else []), self.name]
-        return ", ".join([*parts, *([f"stretch {self.stretch}"] if self.stretch else [])])
+        where = [self.run] if self.source in self.run else [self.source, self.run]
+        stretch = f"stretch {self.stretch}" if self.stretch else ""
+        return ", ".join(part for part in (*where, self.name, stretch) if part)
 
 
 @dataclass(frozen=True)
@@ -155,10 +156,11 @@ def read_recordings(
     [('u', 0, 50), ('w', 1, 20), ('w', 2, 29)]
     """
     treatment = Treatment(resample, fill, detrend)
-    several = len(paths) > 1
+    names = [Path(path).name for path in paths]
     found: list[Recording] = []
-    for path in paths:
-        for signal in signals(Path(path), columns, time_column, rate, run_column, several=several):
+    for path, name in zip(paths, names, strict=True):
+        run = "" if len(paths) == 1 else name if names.count(name) == 1 else str(path)
+        for signal in signals(Path(path), columns, time_column, rate, run_column, run):
             found.extend(recordings_of(signal, rate, treatment))
     if not found:
         raise InputError("no file is given; name at least one")
@@ -166,9 +168,9 @@ def read_recordings(
 
 
 def signals(
-    file: Path, wanted: Wanted, time_column: str | int | None, rate: float | None, run: str | int | None, several: bool
+    file: Path, wanted: Wanted, time_column: str | int | None, rate: float | None, run: str | int | None, file_run: str
 ) -> Iterator[Signal]:
-    """The channels and runs of one file."""
+    """The channels and runs of one file, which is itself the run ``file_run`` when no column tells runs."""
     reader = READERS.get(file.suffix.lower())
     if reader is None:
         raise InputError(f"{file.name}: the suffix {file.suffix!r} is unknown; use one of {', '.join(READERS)}")
@@ -185,7 +187,7 @@ def signals(
                 "cut the recording into parts"
             )
         for name, rows in runs_of(columns, by, columns.sizes[index]):
-            yield Signal(columns, index, clock, rows, name or (file.name if several else ""), digest)
+            yield Signal(columns, index, clock, rows, ", ".join(text for text in (file_run, name) if text), digest)
 
 
 def runs_of(columns: Columns, by: int | None, size: int) -> list[tuple[str, Rows]]:

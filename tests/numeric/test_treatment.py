@@ -217,6 +217,14 @@ def test_runs_by_a_column_and_by_files(tmp_path: Path) -> None:
     both = read_recordings([other, written(tmp_path / "c.csv", T, 2 * X)])
     assert [r.run for r in both] == ["b.csv", "c.csv"]
     assert both[0].label == "b.csv, u"
+    (tmp_path / "again").mkdir()
+    same = read_recordings([other, written(tmp_path / "again" / "b.csv", T, X)])
+    assert [r.run for r in same] == [str(other), str(tmp_path / "again" / "b.csv")]
+    second = written(tmp_path / "d.csv", t, run, X, header="t,shot,u")
+    shots = read_recordings([path, second], columns="u", run_column="shot")
+    assert [r.run for r in shots] == ["a.csv, shot 7", "a.csv, shot 3", "d.csv, shot 7", "d.csv, shot 3"]
+    assert shots[0].label == "a.csv, shot 7, u"
+    assert found[0].label == "a.csv, shot 7, u"
     with pytest.raises(InputError, match=r"column shot is the run|has no column"):
         read_recordings([path], columns="shot", run_column="shot")
 
