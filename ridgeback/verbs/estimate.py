@@ -65,10 +65,14 @@ def command(
     (damping_per_s), each with the standard deviation that noise causes; the bias, where the estimator knows it;
     "valid" is false near the borders, where it does not see a whole window.
 
-    --backbone gives rows of amplitude (of the first harmonic, in the unit of the samples), omega_rad_s,
-    frequency_hz, damping_per_s and standard deviations instead.  CSV has these columns; JSON has them under
-    "backbone", with "method", "settings", "notes", "offset" and "amplitude_definition", and without --backbone
-    both "track" and "backbone".  Several signals are "signals", and one or several "combined" backbones follow.
+    --backbone gives rows of amplitude (of the first harmonic, in the unit of the samples; the turning point with
+    --half-cycles), omega_rad_s, frequency_hz, omega_standard_deviation_rad_s, damping_per_s (a'/a, negative in a
+    decay) and damping_standard_deviation_per_s instead: means over bins of amplitude, with everything that is known
+    of their error.  These are the columns in CSV too; with several signals run, channel and stretch come first, and
+    combined backbones follow as the run "combined", with runs (how many reach there) and the scatter between them,
+    omega_between_runs_rad_s and damping_between_runs_per_s.  JSON has the rows under "backbone", beside "method",
+    "settings", "recording" (gaps, clipping, interpolation, drift), "notes", "offset" and "amplitude_definition", and
+    without --backbone also "track"; several signals are "signals", and "combined" follows.
 
     Several FILEs, or the values of --run-column, are runs.  A signal is cut where values or times are missing, and
     each stretch taken by itself; uneven times, clipped samples and drift are named, and treated as the options say.
