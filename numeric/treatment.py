@@ -30,6 +30,8 @@ FEWEST_SAMPLES = 16
 RESAMPLED_STEPS = 4.0
 SCATTERED = 0.02
 """Share of steps over GAP_STEPS usual ones from which on times are uneven altogether, not even with gaps."""
+GUESS = 0.3
+"""Interpolation error, relative to the rms of the signal, from which on it is refused."""
 PLACES = 4
 """Places that a note lists."""
 
@@ -110,11 +112,11 @@ def uniform(part: Stamped, mark: Mask, whole: Grid, columns: Columns, treatment:
     if own.off <= JITTER:
         if whole.off <= JITTER:
             own = Grid(own.k, whole.step, own.off)
-        even = on_grid(part, mark, own)
+        even = sound(on_grid(part, mark, own), columns)
         return even if rate is None else resampled(even, rate)
     if rate is not None:
         check_not_slower(rate, part, columns)
-        return off_grid(part, mark, rate, GAP_STEPS * part.usual)
+        return sound(off_grid(part, mark, rate, GAP_STEPS * part.usual), columns)
     steps = np.diff(part.time)
     if float(np.abs(steps / part.usual - 1.0).max()) > EASY:
         refuse_uneven(part, columns)
@@ -134,6 +136,16 @@ def check_not_scattered(samples: Stamped, columns: Columns) -> None:
             f"{samples.usual:.6g}, by more than {EASY:.0%}; resample the recording, for instance to "
             f"{1.0 / samples.mean:.4g} per time unit"
         )
+
+
+def sound(samples: Uniform, columns: Columns) -> Uniform:
+    """The samples, or InputError where their interpolation would be a guess."""
+    if samples.error > GUESS:
+        raise InputError(
+            f"{columns.source}: interpolation would err by about {samples.error:.0%} of the rms; fill shorter gaps "
+            "only, or leave them as cuts"
+        )
+    return samples
 
 
 def check_not_slower(rate: float, part: Stamped, columns: Columns) -> None:

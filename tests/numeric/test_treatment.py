@@ -14,7 +14,7 @@ from numeric.drift import detrended, slow_part, wandering
 from numeric.errors import InputError
 from numeric.recording import read_recording, read_recordings
 from numeric.search_band import find_corridor
-from numeric.uniform import Uniform, grid_of, resampled, spline_values
+from numeric.uniform import Uniform, grid_of, resampled, rms, spline_values
 
 RATE = 20.0
 T = np.arange(600) / RATE
@@ -93,6 +93,11 @@ def test_filling_is_done_when_asked_and_only_as_far_as_asked(tmp_path: Path) -> 
     assert any("1 missing samples were interpolated" in note and "errs by about" in note for note in first.notes)
     (whole,) = read_recordings([path], fill=1.0)
     assert np.count_nonzero(whole.filled) == 11
+    off = np.abs(whole.values - X)[whole.filled]
+    assert np.sqrt(np.mean(off**2)) < 2 * whole.facts["interpolation_error"] * np.std(X)
+    x[100:130] = np.nan  # more than a whole cycle
+    with pytest.raises(InputError, match=r"interpolation would err by about \d+% of the rms; fill shorter gaps"):
+        read_recordings([written(tmp_path / "b.csv", T, x)], fill=5.0)
 
 
 def test_nearly_even_times_are_interpolated_and_say_so(tmp_path: Path) -> None:
@@ -249,7 +254,7 @@ def test_a_grid_with_rows_missing_is_counted(count: int, step: float, start: flo
 def test_the_spline_error_falls_as_the_step() -> None:
     """The stated error is the cubic spline's, of order four in the step."""
     at = np.linspace(2.0, 8.0, 501)
-    errors = [spline_values(t := np.linspace(0.0, 10.0, n), np.sin(t), at)[1] for n in (51, 101, 201)]
+    errors = [rms(spline_values(t := np.linspace(0.0, 10.0, n), np.sin(t), at)[1]) for n in (51, 101, 201)]
     assert np.log2(np.array(errors[:-1]) / errors[1:]) == pytest.approx([4.0, 4.0], abs=0.3)
 
 
