@@ -14,9 +14,10 @@ from flint import arb, ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy import Expr, Rational, Symbol
+from sympy.codegen.ast import Assignment
 
 from symbolic.codegen import c99, form_of, generate, python
-from symbolic.codegen.form import Argument, Form, Function, Powers, function
+from symbolic.codegen.form import Argument, Form, Function, Powers, function, product
 from symbolic.codegen.rounding import UNIT, depths, gamma, roundings
 from symbolic.errors import InputError
 from symbolic.lindstedt import lindstedt
@@ -148,6 +149,8 @@ def test_roundings_are_counted_along_the_deepest_path() -> None:
     x, y = Symbol("x"), Symbol("y")
     count = depths((), ())
     assert [count(e) for e in (x, x + y, sympy.Mul(x, y, evaluate=False), x / y, 1 / y)] == [0, 1, 1, 1, 1]
+    squared = depths((), [Assignment(Symbol("k_2"), product(x, x))])
+    assert squared(y / Symbol("k_2")) == 3  # 1/(1 + d) needs two factors 1 + theta (Higham, Lemma 3.3)
     third = function("value", "", "C", (Argument("A", ""),), {(0,): Rational(1, 3), (1,): Rational(1)})
     half = function("value", "", "C", (Argument("A", ""),), {(0,): Rational(1, 2), (1,): Rational(1)})
     assert (roundings_of(third), roundings_of(half)) == (2, 2)  # a product by 1, a sum; 1/3 meets the sum only
