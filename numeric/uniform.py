@@ -34,8 +34,8 @@ class Uniform:
     """Uniform samples, and how they came about.
 
     ``error`` is the interpolation's, rms relative to that of the signal, 0 where there was none (across missing samples
-    by themselves, where that is more).  ``filled`` says which samples were interpolated across missing ones, ``clipped`` which lie at or beside a clipped
-    one.
+    by themselves, where that is more).  ``filled`` says which samples were interpolated across missing ones,
+    ``clipped`` which lie at or beside a clipped one.
     """
 
     start: float
