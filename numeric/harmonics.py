@@ -72,6 +72,16 @@ def without_others(x: Array, phase: Array, w: Array, rate: float, *, multiple: i
     return np.asarray(x - parts.sum(axis=0), dtype=np.float64)
 
 
+def locked(real: Array, rate: float, base: Carrier, w: Array, multiple: int) -> tuple[Array, Array]:
+    """Frequency and amplitude of a harmonic of a signal without mean, phase-locked, under the low-pass ``w``."""
+    top = min(MOST_OTHERS, max(multiple, int(0.9 * math.pi * rate / base.omega.max())))
+    alone = without_others(real, base.phase, w, rate, multiple=multiple, top=top)
+    value, slope = local_line(2.0 * alone * np.exp(-1j * multiple * base.phase), w, rate)
+    amplitude = np.abs(value)
+    drift = (slope * value.conj()).imag / np.maximum(amplitude, np.finfo(float).tiny) ** 2
+    return multiple * base.omega + drift, amplitude
+
+
 def checked_multiple(multiple: int, omega: Array, rate: float) -> None:
     """Refuse a harmonic below the first or beyond the Nyquist frequency."""
     if multiple < 1:
@@ -115,11 +125,7 @@ def harmonic_track(
     half = half_width(seconds, rate, name="filter_seconds", longest=samples.size)
     w = window("blackman", half)
     real = samples - samples.mean()
-    top = min(MOST_OTHERS, max(multiple, int(0.9 * math.pi * rate / base.omega.max())))
-    alone = without_others(real, base.phase, w, rate, multiple=multiple, top=top)
-    value, slope = local_line(2.0 * alone * np.exp(-1j * multiple * base.phase), w, rate)
-    amplitude = np.abs(value)
-    drift = (slope * value.conj()).imag / np.maximum(amplitude, np.finfo(float).tiny) ** 2
+    omega, amplitude = locked(real, rate, base, w, multiple)
     index = np.arange(samples.size)
     valid = base.valid & (index >= half) & (index < samples.size - half)
     noise = measure_level(real, rate, base.omega, half=half).noise
@@ -133,7 +139,7 @@ def harmonic_track(
         "amplitude_median": float(np.median(amplitude[valid])) if valid.any() else float(np.median(amplitude)),
     }
     time = first + index / rate
-    return Track(time, multiple * base.omega + drift, valid, "phase-locked", deviation, None, settings)
+    return Track(time, omega, valid, "phase-locked", deviation, None, settings)
 
 
 def vouched_harmonic(track: Track, request: Request, fundamental: Track) -> Track:
@@ -141,11 +147,12 @@ def vouched_harmonic(track: Track, request: Request, fundamental: Track) -> Trac
 
     The fundamental stays as it is in the trials: what is wrong with it the phase-locked filter finds again.
     """
-    multiple = int(str(track.settings["multiple"]))
-    seconds = float(str(track.settings["filter_seconds"]))
+    multiple, rate = int(str(track.settings["multiple"])), request.rate
+    base = carrier(fundamental, request.x.size, rate, request.start)
+    w = window("blackman", half_width(float(str(track.settings["filter_seconds"])), rate))
 
     def run(x: Array) -> Array:
-        return harmonic_track(x, request.rate, fundamental, multiple=multiple, filter_seconds=seconds).omega
+        return locked(x - x.mean(), rate, base, w, multiple)[0]
 
     try:
         models = request.models

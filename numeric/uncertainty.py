@@ -34,6 +34,8 @@ SEED = 20031
 ENOUGH = 64
 """Independent windows wanted among all replicates: their deviation is then known to 9 %."""
 MOST_REPLICATES, FEWEST_REPLICATES = 24, 4
+INDEPENDENT = 0.5
+"""Share of a tapered window after which its estimates are as good as independent."""
 POOLED_SHARE = 0.25
 """Share of the record over which replicates are pooled."""
 FAR, MEDIAN_OF_SQUARE = 3.0, 0.4549
@@ -168,7 +170,7 @@ def deviations(
     analytic = own if track.standard_deviation is None else track.standard_deviation
     floor = 1e-15 * np.abs(track.omega)
     noise = analytic if trial.efficient else pooled(copies.plain, analytic + floor, width)
-    freedom = copies.plain.shape[0] * max(1.0, windows * POOLED_SHARE)
+    freedom = copies.plain.shape[0] * max(1.0, windows * POOLED_SHARE / INDEPENDENT)
     return noise, few_sample_factor(freedom) * pooled(copies.corrected, np.hypot(analytic, own) + floor, width)
 
 
