@@ -58,11 +58,7 @@ def backbone(
     seen = fit.settled if track.settings.get("one_sided_borders") else fit.valid & base.valid[centres]
     clean = ~touched(samples.size, centres, half, exclude)
     usable = seen & clean & (fit.amplitude > CLEAR * fit.amplitude_sd)
-    if np.count_nonzero(usable) < 4:
-        raise InputError(
-            f"backbone: {np.count_nonzero(usable)} points are clear of the noise"
-            f"{'' if clean.all() else ' and of clipped samples'}; give a longer or less noisy record"
-        )
+    check_enough(usable, clean)
     omega = base.omega[centres]
     total = total_deviation(track)
     omega_sd = fit.standard_deviation if total is None else np.interp(fit.time, track.time, total)
@@ -73,6 +69,15 @@ def backbone(
     settings = {"track": track.method, "window_seconds": fit.window_seconds, "harmonics": (1, *shape.multiples)}
     notes = [f"The mean of the samples, {offset:.4g}, was removed.", *left_out_notes(usable, clean)]
     return assemble(points, crowding=crowding, offset=offset, settings=settings, notes=notes)
+
+
+def check_enough(usable: Mask, clean: Mask) -> None:
+    """Refuse a backbone of fewer than four points."""
+    if np.count_nonzero(usable) < 4:
+        raise InputError(
+            f"backbone: {np.count_nonzero(usable)} points are clear of the noise"
+            f"{'' if clean.all() else ' and of clipped samples'}; give a longer or less noisy record"
+        )
 
 
 def resolution(track: Track, cycle: float) -> float:
