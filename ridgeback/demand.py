@@ -20,12 +20,12 @@ TABLE = ("text", "json", "csv")
 # What can be made of an expansion, one at a time, and the forms that each has; --at goes with the first three.
 USES = {"digits": ("text", "json"), "workers": PLAIN, "resummed": PLAIN, "transient": TABLE, "harmonics": PLAIN}
 NEEDS = {
-    "checkpoint": "digits",
-    "degrees": "resummed",
-    "growth": "resummed",
-    "until": "transient",
-    "points": "transient",
-    "transient": "until",
+    "checkpoint": ("digits", "workers"),
+    "degrees": ("resummed",),
+    "growth": ("resummed",),
+    "until": ("transient",),
+    "points": ("transient",),
+    "transient": ("until",),
 }
 # Not of the expansion that is printed, so that a certificate would be of something else.
 UNVERIFIED = ("resummed", "transient", "harmonics")
@@ -62,9 +62,10 @@ class Demand:
             ...
         click.exceptions.UsageError: --format latex does not go with --digits; use text or json
         """
-        for name, other in NEEDS.items():
-            if self.asked(name) and not self.asked(other):
-                raise click.UsageError(f"--{name} needs --{other}; give that, or leave --{name} out")
+        for name, others in NEEDS.items():
+            if self.asked(name) and not any(map(self.asked, others)):
+                wanted = " or ".join(f"--{other}" for other in others)
+                raise click.UsageError(f"--{name} needs {wanted}; give that, or leave --{name} out")
         uses = [name for name in USES if self.asked(name)]
         if len(uses) > 1:
             raise click.UsageError(f"--{uses[0]} and --{uses[1]} exclude each other; keep one")

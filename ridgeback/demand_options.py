@@ -47,7 +47,7 @@ HIGH_ORDER: Final = (
         type=checkpoint_path,
         default=None,
         metavar="FILE",
-        help="With --digits: keep the state there, every few minutes and on Ctrl-C; the same command resumes it.",
+        help="Keep the state of --digits or --workers there, now and then and on Ctrl-C; the same command resumes.",
     ),
     click.option(
         "--workers",

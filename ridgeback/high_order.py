@@ -44,13 +44,13 @@ def in_balls(oscillator: Oscillator, request: Request, digits: int, checkpoint: 
                 budget=request.budget,
             )
         except KeyboardInterrupt:
-            raise KeyboardInterrupt(interrupted(watch.last, path)) from None
+            raise KeyboardInterrupt(interrupted(f"before {watch.last or 'the first order'}", path)) from None
 
 
-def by_primes(oscillator: Oscillator, request: Request, workers: int) -> Expansion:
-    """Derive exactly modulo many primes in a pool of processes, saying how far it is.
+def by_primes(oscillator: Oscillator, request: Request, workers: int, checkpoint: str | None) -> Expansion:
+    """Derive exactly modulo many primes in a pool of processes, saying how far it is; an interrupt says how to go on.
 
-    Raises click.UsageError for options that the primes do not have, InputError from the derivation.
+    Raises click.UsageError for options that the primes do not have, InputError from the derivation, OSError.
     """
     if request.method not in (None, "lindstedt"):
         raise click.UsageError(f"--workers belongs to lindstedt, not to {request.method}; leave one of the two out")
@@ -59,31 +59,35 @@ def by_primes(oscillator: Oscillator, request: Request, workers: int) -> Expansi
     from symbolic.modular import expected_bits, law, lindstedt_by_primes
     from symbolic.pool import processes
 
-    cost = predict(law(oscillator), request.order, workers=workers)
+    cost, path = (
+        predict(law(oscillator), request.order, workers=workers),
+        None if checkpoint is None else Path(checkpoint),
+    )
     allowed = cost.within(request.budget or Budget())
     last = expected_bits(oscillator, request.order)
-    with (
-        Watch(f"order {request.order} modulo many primes", cost if allowed else None) as watch,
-        processes(workers) as executor,
-    ):
-        return lindstedt_by_primes(
-            oscillator,
-            request.order,
-            amplitude=request.amplitude or "peak",
-            executor=executor,
-            workers=workers,
-            progress=lambda bits, done: watch(1.0 if done else min(bits / last, 0.99), f"{bits} bits of modulus"),
-            budget=request.budget,
-        )
+    with Watch(f"order {request.order} modulo many primes", cost if allowed else None) as watch:
+        try:
+            with processes(workers) as executor:
+                return lindstedt_by_primes(
+                    oscillator,
+                    request.order,
+                    amplitude=request.amplitude or "peak",
+                    executor=executor,
+                    workers=workers,
+                    progress=lambda n, done: watch(1.0 if done else min(n / last, 0.99), f"{n} bits of modulus"),
+                    checkpoint=path,
+                    budget=request.budget,
+                )
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(interrupted(f"after {watch.last or '0 bits of modulus'}", path)) from None
 
 
-def interrupted(step: str, path: Path | None) -> str:
+def interrupted(when: str, path: Path | None) -> str:
     """What to do after an interrupt.
 
-    >>> interrupted("order 7 of 20", None)
+    >>> interrupted("before order 7 of 20", None)
     'interrupted before order 7 of 20; nothing was kept: with --checkpoint FILE the next run could go on from here'
     """
-    where = f"interrupted before {step}" if step else "interrupted before the first order"
     if path is None or not path.exists():
-        return f"{where}; nothing was kept: with --checkpoint FILE the next run could go on from here"
-    return f"{where}; the state is in {path}: run the same command again to go on from there"
+        return f"interrupted {when}; nothing was kept: with --checkpoint FILE the next run could go on from here"
+    return f"interrupted {when}; the state is in {path}: run the same command again to go on from there"

@@ -73,11 +73,16 @@ def ball_from(text: str) -> arb:
 
 def write(path: Path, checkpoint: Checkpoint) -> None:
     """Write a checkpoint whole or not at all.  Raises OSError."""
+    write_lines(path, _lines(checkpoint))
+
+
+def write_lines(path: Path, lines: Iterable[str]) -> None:
+    """Write lines and their digest whole or not at all.  Raises OSError."""
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=path.name, suffix=".part")
     try:
         with os.fdopen(handle, "w", encoding="ascii") as file:
             digest = hashlib.sha256()
-            for line in _lines(checkpoint):
+            for line in lines:
                 digest.update(line.encode("ascii"))
                 file.write(line)
             file.write(json.dumps({"sha256": digest.hexdigest()}) + "\n")
@@ -105,16 +110,25 @@ def read(path: Path, identity: Mapping[str, str]) -> Checkpoint:
 
     Raises InputError when the file is damaged, of another version, or of another computation, and OSError.
     """
-    _check_digest(path)
     with path.open(encoding="ascii") as file:
-        head = json.loads(next(file))
-        if not isinstance(head, dict) or head.get("format") != FORMAT or head.get("version") != VERSION:
-            raise InputError(f"{path} is not a checkpoint of this version ({FORMAT}, version {VERSION}); begin anew")
-        for key, mine in identity.items():
-            if (found := head["identity"].get(key)) != mine:
-                raise InputError(f"{path} belongs to the {key} {found}, not {mine}; give another file")
+        head = checked_head(path, file, FORMAT, VERSION, identity)
         tapes = tuple(_tape(map(json.loads, file)) for _ in range(head["products"]))
     return Checkpoint(head["identity"], head["bits"], head["order"], tapes)
+
+
+def checked_head(path: Path, file: Iterator[str], form: str, version: int, identity: Mapping[str, str]) -> Any:
+    """The first line of a file that is whole, of this format and version, and of this computation.
+
+    Raises InputError for any other.
+    """
+    _check_digest(path)
+    head = json.loads(next(file))
+    if not isinstance(head, dict) or head.get("format") != form or head.get("version") != version:
+        raise InputError(f"{path} is not a checkpoint of this version ({form}, version {version}); begin anew")
+    for key, mine in identity.items():
+        if (found := head["identity"].get(key)) != mine:
+            raise InputError(f"{path} belongs to the {key} {found}, not {mine}; give another file")
+    return head
 
 
 def _check_digest(path: Path) -> None:

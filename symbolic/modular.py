@@ -10,11 +10,13 @@ part: a wrong coefficient survives each of these with a probability below 2^-50.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor
-from dataclasses import dataclass
-from functools import partial
+from dataclasses import dataclass, field
+from functools import partial, reduce
 from itertools import islice
+from pathlib import Path
 
 from flint import fmpq, fmpz, nmod
 
@@ -23,6 +25,7 @@ from symbolic.cost import Budget, check
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion, check_order, first_harmonic
 from symbolic.fourier import at_zero
+from symbolic.gathered import Gathered, Residues, read, write
 from symbolic.limit_cycle import march_cycle
 from symbolic.lindstedt import DIRECT, march_family
 from symbolic.oscillator import Oscillator
@@ -31,15 +34,8 @@ from symbolic.spaces import Modular, Scalar
 
 CHECKS = 2
 """Primes kept back to test the result."""
-
-
-@dataclass(frozen=True)
-class Residues:
-    """The coefficients of omega0, and of a limit cycle's amplitude, modulo one prime, in units with k = 1."""
-
-    prime: int
-    frequency: tuple[int, ...]
-    amplitude: tuple[int, ...]
+SAVE_EVERY = 300
+"""Seconds between checkpoints."""
 
 
 def primes() -> Iterator[int]:
@@ -87,13 +83,16 @@ def lindstedt_by_primes(
     executor: Executor | None = None,
     workers: int = 1,
     progress: Callable[[int, bool], None] | None = None,
+    checkpoint: Path | None = None,
     budget: Budget | None = None,
 ) -> Expansion:
     """Expand omega0 like ``lindstedt``, for orders whose coefficients have thousands of digits; no waveform is kept.
 
     ``executor`` (such as ``symbolic.pool.processes``) runs the primes, ``workers`` of them at a time; ``progress`` is
-    told the bits of the modulus so far and whether they sufficed.  Raises InputError as ``lindstedt`` does, and for
-    symbolic parameters.
+    told the bits of the modulus so far and whether they sufficed.  With ``checkpoint`` the residues are saved there
+    every few minutes and on KeyboardInterrupt, the work goes on from there if the file exists, and the file is removed
+    when it is done.  Raises InputError as ``lindstedt`` does, for symbolic parameters, and for a checkpoint that is
+    damaged or belongs to another computation; OSError for the file.
 
     >>> from symbolic.systems import find
     >>> lindstedt_by_primes(find("van-der-pol"), 4).frequency
@@ -106,7 +105,11 @@ def lindstedt_by_primes(
     if set(free_names(natural.force if cycle else natural.bound)) - {oscillator.small}:
         raise InputError(f"{oscillator.name} has symbolic parameters; the primes need a number for each of them")
     check(law(oscillator), order, budget or Budget(), workers=workers)
-    frequency, size = _collect(partial(residues, oscillator, order, amplitude), executor, workers, progress)
+    identity, work = _identity(oscillator, order, amplitude), partial(residues, oscillator, order, amplitude)
+    saved = read(checkpoint, identity) if checkpoint is not None and checkpoint.exists() else Gathered(())
+    found = _Collection(work, executor, identity, checkpoint, saved).rationals(max(2, 2 * workers), progress)
+    if checkpoint is not None:
+        checkpoint.unlink(missing_ok=True)
     return Expansion(
         system=oscillator.name,
         method="lindstedt",
@@ -115,9 +118,9 @@ def lindstedt_by_primes(
         order=order,
         scale=natural.scale,
         scaled_variable=cycle,
-        coefficients=frequency,
+        coefficients=tuple(found[: order + 1]),
         waveform=None,
-        amplitude_coefficients=size if cycle else None,
+        amplitude_coefficients=tuple(found[order + 1 :]) if cycle else None,
         residual_of=None,
     )
 
@@ -140,52 +143,70 @@ def law(oscillator: Oscillator) -> str:
     return "primes of a limit-cycle" if oscillator.kind == "limit-cycle" else "primes"
 
 
-def _collect(
-    work: Callable[[int], Residues],
-    executor: Executor | None,
-    workers: int,
-    progress: Callable[[int, bool], None] | None,
-) -> tuple[tuple[fmpq, ...], tuple[fmpq, ...]]:
-    """Gather primes until the rationals predict the residues kept back."""
-    source = primes()
-    run = partial(_run, executor, work)
-    kept = run(islice(source, CHECKS))
-    modulus, values = 1, [0] * len(_all(kept[0]))
-    while True:
-        for found in run(islice(source, max(2, 2 * workers))):
-            modulus, values = _combine(modulus, values, found)
-        rationals = _reconstructed(values, modulus, kept)
+@dataclass
+class _Collection:
+    """Residues being gathered: the only thing here that changes."""
+
+    work: Callable[[int], Residues]
+    executor: Executor | None
+    identity: dict[str, str]
+    path: Path | None
+    state: Gathered
+    last_save: float = field(default_factory=time.monotonic)
+
+    def rationals(self, batch: int, progress: Callable[[int, bool], None] | None) -> list[fmpq]:
+        """Gather primes until the rationals predict the residues kept back; save what there is on an interrupt."""
+        source = primes()
+        first = list(islice(source, CHECKS))
+        try:
+            if not self.state.kept:
+                self.state = Gathered(tuple(self._run(first)))
+            unused = islice(source, self.state.used, None)
+            while (found := self._enough(progress)) is None:
+                self.state = reduce(Gathered.with_residues, self._run(islice(unused, batch)), self.state)
+                self._save(every=SAVE_EVERY)
+        except KeyboardInterrupt:
+            self._save(every=0)
+            raise
+        return found
+
+    def _enough(self, progress: Callable[[int, bool], None] | None) -> list[fmpq] | None:
+        if not self.state.used:
+            return None
+        found = _reconstructed(self.state)
         if progress is not None:
-            progress(modulus.bit_length(), rationals is not None)
-        if rationals is not None:
-            split = len(kept[0].frequency)
-            return tuple(rationals[:split]), tuple(rationals[split:])
+            progress(self.state.modulus.bit_length(), found is not None)
+        return found
+
+    def _run(self, batch: Iterable[int]) -> list[Residues]:
+        """The work on a few primes.  Not by ``Executor.map``, whose cancelling upsets a pool that is being ended."""
+        if self.executor is None:
+            return [self.work(prime) for prime in batch]
+        return [future.result() for future in [self.executor.submit(self.work, prime) for prime in batch]]
+
+    def _save(self, *, every: int) -> None:
+        if self.path is not None and self.state.used and time.monotonic() - self.last_save >= every:
+            write(self.path, self.identity, self.state)
+            self.last_save = time.monotonic()
 
 
-def _run(executor: Executor | None, work: Callable[[int], Residues], batch: Iterable[int]) -> list[Residues]:
-    """The work on a few primes.  Not by ``Executor.map``, whose cancelling upsets a pool that is being ended."""
-    if executor is None:
-        return [work(prime) for prime in batch]
-    return [future.result() for future in [executor.submit(work, prime) for prime in batch]]
+def _identity(oscillator: Oscillator, order: int, amplitude: str) -> dict[str, str]:
+    """What a checkpoint must agree on."""
+    natural, cycle = oscillator.normalised(), oscillator.kind == "limit-cycle"
+    return {
+        "oscillator": oscillator.name,
+        "equation": f"u'' + {natural.force if cycle else natural.bound} = 0 in units where k = 1",
+        "order": str(order),
+        "amplitude": amplitude,
+    }
 
 
-def _all(found: Residues) -> tuple[int, ...]:
-    return found.frequency + found.amplitude
-
-
-def _combine(modulus: int, values: list[int], found: Residues) -> tuple[int, list[int]]:
-    """One step of the Chinese remainder theorem for all coefficients."""
-    inverse = pow(modulus, -1, found.prime)
-    new = [v + modulus * ((r - v) * inverse % found.prime) for v, r in zip(values, _all(found), strict=True)]
-    return modulus * found.prime, new
-
-
-def _reconstructed(values: list[int], modulus: int, kept: list[Residues]) -> list[fmpq] | None:
+def _reconstructed(state: Gathered) -> list[fmpq] | None:
     """Return the rationals behind the residues, or None while the modulus is too small; the largest is tried first."""
     result: list[fmpq] = []
-    for index in range(len(values) - 1, -1, -1):
-        candidate = rational(values[index], modulus)
-        if candidate is None or any(int(nmod(candidate, k.prime)) != _all(k)[index] for k in kept):
+    for index in range(len(state.values) - 1, -1, -1):
+        candidate = rational(state.values[index], state.modulus)
+        if candidate is None or any(int(nmod(candidate, k.prime)) != k.all[index] for k in state.kept):
             return None
         result.append(candidate)
     return result[::-1]

@@ -95,7 +95,7 @@ def derived_as(oscillator: Oscillator, request: Request, demand: Demand) -> Resu
     if demand.digits is not None:
         return in_balls(oscillator, request, demand.digits, demand.checkpoint)
     if demand.workers is not None:
-        return by_primes(oscillator, request, demand.workers)
+        return by_primes(oscillator, request, demand.workers, demand.checkpoint)
     if demand.transient is not None and request.method is None:
         request = replace(request, method="multiple-scales")
     return derived(oscillator, request)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -180,6 +182,44 @@ def test_many_primes_print_what_exact_arithmetic_prints(ridgeback: Ridgeback, wo
     assert by_primes.out == exact_series.out
 
 
+def test_primes_go_on_from_a_checkpoint(ridgeback: Ridgeback, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    from symbolic import modular
+
+    state, words = tmp_path / "state", ["derive", "van-der-pol", "--order", "24", "--workers", "1"]
+    exact_series = ridgeback(*words)
+    told: list[str] = []
+
+    class Interrupted(Watch):
+        def __call__(self, fraction: float, step: str) -> None:
+            super().__call__(fraction, step)
+            told.append(step)
+            if len(told) == 4:
+                signal.raise_signal(signal.SIGINT)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(high_order, "Watch", Interrupted)
+        stopped = ridgeback(*words, "--checkpoint", str(state))
+    assert (stopped.code, stopped.out) == (130, "")
+    assert f"interrupted after {told[-1]}; the state is in {state}" in stopped.err
+    before = state.read_bytes()
+    for other in (["--order", "25"], ["--amplitude", "fundamental"], ["--digits", "5"]):
+        assert ridgeback(*words, "--checkpoint", str(state), *other).code == 2
+    assert ridgeback("derive", "van-der-pol", "--order", "24", "--digits", "5", "--checkpoint", str(state)).code == 2
+    assert state.read_bytes() == before
+    used: list[int] = []
+    real = modular.residues
+
+    def counted(*given: Any) -> Any:
+        used.append(given[-1])
+        return real(*given)
+
+    monkeypatch.setattr(modular, "residues", counted)
+    resumed = ridgeback(*words, "--checkpoint", str(state))
+    assert resumed.out == exact_series.out
+    assert used[0] == list(itertools.islice(modular.primes(), 11))[-1]  # two kept back, four batches of two are in
+    assert not state.exists()
+
+
 def test_an_interrupt_ends_the_pool_without_a_traceback(tmp_path: Path) -> None:
     """Ctrl-C goes to the whole group of processes; only one line may come of it, and no process may stay."""
     script = (
@@ -188,7 +228,18 @@ def test_an_interrupt_ends_the_pool_without_a_traceback(tmp_path: Path) -> None:
         "if __name__ == '__main__': sys.exit(cli.main(sys.argv[1:]))\n"
     )
     (tmp_path / "run.py").write_text(script)
-    command = [sys.executable, "run.py", "derive", "van-der-pol", "--order", "100", "--workers", "2"]
+    command = [
+        sys.executable,
+        "run.py",
+        "derive",
+        "van-der-pol",
+        "--order",
+        "100",
+        "--workers",
+        "2",
+        "--checkpoint",
+        "state",
+    ]
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
     with subprocess.Popen(
         command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
@@ -200,7 +251,9 @@ def test_an_interrupt_ends_the_pool_without_a_traceback(tmp_path: Path) -> None:
         said = process.stderr.read()
         assert process.wait(60) == 130
     last = said.splitlines()[-1]
-    assert last == "ridgeback: interrupted; nothing was written"
+    assert re.fullmatch(r"ridgeback: interrupted after \d+ bits of modulus; the state is in state: run .*", last)
+    head = json.loads((tmp_path / "state").read_text().splitlines()[0])
+    assert head["used"] >= 4
     assert all(line.startswith("ridgeback: ") for line in said.splitlines()), said
     assert gone(process.pid)
 
