@@ -48,9 +48,9 @@ class Flow:
         return np.array([1 / self.rate, self.omega / self.rate])
 
     @cached_property
-    def elapsed(self) -> Array:
-        """Time and phase from the first node, ``[2, node]``."""
-        return _accumulated(self.slopes, self.level)
+    def increments(self) -> Array:
+        """Time and phase from each node to the next, ``[2, node - 1]``."""
+        return _increments(self.slopes, self.level)
 
     @cached_property
     def chirp(self) -> Array:
@@ -166,14 +166,16 @@ def motion(flow: Flow, start: float, phase: float, time: Array, *, waveform: boo
     >>> np.allclose(at.u, np.exp([0.0, -0.2]) * np.cos([0.5, 6.5])), np.allclose(at.phase, [0.5, 6.5])
     (True, True)
     """
-    clock, turned = flow.elapsed
     begin = np.array([np.clip(start, flow.level[0], flow.level[-1])])
     at = _places(flow.level, begin)
-    began, done = (float(_hermite(at, v, s)[0]) for v, s in zip(flow.elapsed, flow.slopes, strict=True))
+    # counted from the node before the start: where damping is almost none, nodes are ages apart
+    first = int(at.index[0])
+    clock, turned = (np.concatenate((np.zeros(first + 1), np.cumsum(row[first:]))) for row in flow.increments)
+    began, done = (float(_hermite(at, v, s)[0]) for v, s in zip((clock, turned), flow.slopes, strict=True))
     want = began + time
     inside = np.minimum(want, clock[-1])
     late = want - inside
-    place = _places(clock, inside)
+    place = _places(clock, inside, first)
     omega = _hermite(place, flow.omega, flow.chirp)
     angle = phase - done + _hermite(place, turned, flow.omega) + late * omega
     logarithm = _hermite(place, flow.log_amplitude, flow.growth) + late * flow.growth[-1]
@@ -183,12 +185,11 @@ def motion(flow: Flow, start: float, phase: float, time: Array, *, waveform: boo
 
 
 # h/2 (f0 + f1) - h^2/12 (f1' - f0'): the integral of the cubic that has these values and slopes
-def _accumulated(values: Array, x: Array) -> Array:
-    """Integral of each row from the first node to each node."""
+def _increments(values: Array, x: Array) -> Array:
+    """Integral of each row from each node to the next."""
     h = np.diff(x)
     slope = np.gradient(values, x, axis=1)
-    steps = h / 2 * (values[:, 1:] + values[:, :-1]) - h**2 / 12 * np.diff(slope, axis=1)
-    return np.hstack((np.zeros((values.shape[0], 1)), np.cumsum(steps, axis=1)))
+    return np.asarray(h / 2 * (values[:, 1:] + values[:, :-1]) - h**2 / 12 * np.diff(slope, axis=1))
 
 
 @dataclass(frozen=True)
@@ -200,8 +201,9 @@ class _Places:
     share: Array
 
 
-def _places(nodes: Array, points: Array) -> _Places:
-    index = np.clip(np.searchsorted(nodes, points) - 1, 0, nodes.size - 2)
+def _places(nodes: Array, points: Array, first: int = 0) -> _Places:
+    """Places of points among the nodes from ``first`` on."""
+    index = np.clip(np.searchsorted(nodes[first:], points) - 1, 0, nodes.size - first - 2) + first
     step = nodes[index + 1] - nodes[index]
     return _Places(index, step, (points - nodes[index]) / step)
 

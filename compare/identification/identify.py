@@ -36,6 +36,8 @@ PER_CYCLE = 24
 ENOUGH = 6000
 MOST_SAMPLES = 60_000
 FEWEST_CYCLES = 6
+POOR = 0.6
+"""Share of the signal's rms that the best candidate may leave before the verdict says that none describes it."""
 WINDOW_CYCLES = 4.0
 """Window of the local harmonic least squares that start the fits; their border values are one-sided fits."""
 
@@ -256,7 +258,10 @@ def assembled(
 def verdict(candidates: tuple[Candidate, ...], near: tuple[str, ...], kind: str, data: Data) -> str:
     """Which class, how sure, and which others cannot be told apart from it."""
     best, name = candidates[0], kind.upper() if kind == "bic" else "AICc"
+    share = best.residual / (data.length * float(np.std(data.x)))
     text = f"{best.title}, damping {best.damping_law}"
+    if share > POOR:
+        text = "No candidate describes this recording; the nearest is " + text
     if best.name == BACKBONE and len(near) == 1:
         text += ": no equation among the candidates does as well"
     others = [c for c in candidates[1:] if c.name in near]
@@ -266,6 +271,5 @@ def verdict(candidates: tuple[Candidate, ...], near: tuple[str, ...], kind: str,
     elif len(candidates) > 1:
         second = candidates[1]
         text += f"; next comes {second.title}, {name} {second.delta:.4g} higher"
-    share = best.residual / (data.length * float(np.std(data.x)))
     text += f". What it leaves unexplained is {share:.2g} of the signal's rms"
     return text + "."

@@ -91,6 +91,11 @@ def rates_of(law: str, values: Array) -> tuple[float, float, float]:
     return (first, second, 0.0) if law == LAWS[1] else (first, 0.0, second)
 
 
+def least_rates(rates: int) -> tuple[float, ...]:
+    """Lower bounds of rates relative to k: linear damping alone is not negative, of two terms one may be."""
+    return (0.0,) if rates == 1 else (-1.0, -1.0)
+
+
 def damping_parameters(law: str, rates: Array, speed: float) -> tuple[Described, ...]:
     """mu, and beta or gamma, from the rates at the ``speed`` L k."""
     mu: Described = ("mu", 0.5 * float(rates[0]), "1/T", "linear damping")
@@ -132,7 +137,7 @@ def potential_model(potential: Potential, law: str) -> Model:
         size=shapes + rates,
         flow=flow,
         physical=physical,
-        lower=(*potential.lower, *(-1.0 for _ in range(rates))),
+        lower=(*potential.lower, *least_rates(rates)),
         upper=(*potential.upper, *(1.0 for _ in range(rates))),
         groups=potential.groups,
         rates=rates,
@@ -181,7 +186,7 @@ def backbone_model(terms: int, law: str) -> Model:
         size=size,
         flow=flow,
         physical=physical,
-        lower=(*(-3.0 for _ in range(bends)), -1.0, -1.0, -1.0, *(-1.0 for _ in range(rates))),
+        lower=(*(-3.0 for _ in range(bends)), -1.0, -1.0, -1.0, *least_rates(rates)),
         upper=(*(3.0 for _ in range(bends)), 1.0, 1.0, 1.0, *(1.0 for _ in range(rates))),
         groups=(),
         rates=rates,
