@@ -68,6 +68,8 @@ ESTIMATORS: Mapping[str, Callable[[Request], Track]] = MappingProxyType(
 METHODS = ("auto", *ESTIMATORS)
 MODEL_FIT = "model-fit"
 """The method that needs an oscillator beside the signal."""
+HARDLY_KNOWN = 0.1
+"""Half width of a 95 % interval, relative to omega, beyond which a value is not counted as valid."""
 QUADRATIC = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner", "polynomial-wigner")
 """Methods whose distribution has cross terms on the harmonics."""
 OF_ONE_KERNEL = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner")
@@ -158,10 +160,25 @@ def estimate(
     name, request = for_auto(request) if method == "auto" else (method, request)
     if method == "harmonic-least-squares":
         request = for_least_squares(request, scope)
-    track = finish(vouched(ESTIMATORS[name](request), ESTIMATORS[name], request), remove_bias)
+    track = trusted(finish(vouched(ESTIMATORS[name](request), ESTIMATORS[name], request), remove_bias))
     if few.factor > 1:
         track = replace(track, settings={**track.settings, "decimated_by": few.factor, "rate_given": rate})
     return track if harmonic == 1 else of_harmonic(harmonic, request, track, remove_bias)
+
+
+def trusted(track: Track) -> Track:
+    """Take out of the valid part what its own interval hardly knows, as at the end of a decay that sinks into noise.
+
+    >>> import numpy as np
+    >>> sigma, none = np.array([0.01, 0.5]), np.zeros(2)
+    >>> track = Track(np.arange(2.0), np.ones(2), np.ones(2, bool), "example", sigma, none, bias_deviation=none)
+    >>> trusted(track).valid.tolist()
+    [True, False]
+    """
+    interval = track.interval
+    if interval is None:
+        return track
+    return replace(track, valid=track.valid & (0.5 * (interval.high - interval.low) <= HARDLY_KNOWN * track.omega))
 
 
 def of_model(
