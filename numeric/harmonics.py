@@ -30,6 +30,8 @@ from numeric.windows import half_width, window
 
 CLEANING_ROUNDS = 2
 MOST_OTHERS = 7
+CLEAR = 4.0
+"""A harmonic's frequency counts as valid where its amplitude is this many times its own deviation in the noise."""
 FILTER_CYCLES = 4.0
 """Length of the low-pass in cycles of the slowest fundamental: a Blackman window's zeros then keep neighbours out."""
 
@@ -107,7 +109,8 @@ def harmonic_track(
 
     ``start`` is the time of the first sample (default: as the track noted it).  ``filter_seconds`` is the full width
     of the low-pass (default: four cycles of the slowest fundamental); it is the resolution, and half of it is the
-    border zone.  Raises InputError when the harmonic lies beyond the Nyquist frequency.
+    border zone.  Nor is a value valid where the harmonic is not clear of the noise.
+    Raises InputError when the harmonic lies beyond the Nyquist frequency.
 
     >>> from numeric.estimate import estimate
     >>> t = np.arange(640) / 64.0
@@ -129,6 +132,7 @@ def harmonic_track(
     index = np.arange(samples.size)
     valid = base.valid & (index >= half) & (index < samples.size - half)
     noise = measure_level(real, rate, base.omega, half=half).noise
+    valid &= amplitude > CLEAR * noise * math.sqrt(2.0 * float((w**2).sum())) / float(w.sum())
     deviation = peak_deviation(Level(amplitude, noise), rate, w[half:])
     settings = {
         "start": first,

@@ -79,6 +79,15 @@ def test_deviation_is_that_of_repeated_trials() -> None:
     assert error / claimed == pytest.approx(1.0, abs=0.35)
 
 
+def test_a_harmonic_below_the_noise_is_not_valid() -> None:
+    t = np.arange(641) / 32.0
+    third = np.where(t < 10.0, 0.3, 0.001) * np.cos(6 * np.pi * t)
+    x = np.cos(2 * np.pi * t) + third + 0.05 * np.random.default_rng(3).normal(size=t.size)
+    track = harmonic_track(x, 32.0, estimate(x, 32.0, bias=False), multiple=3)
+    assert track.valid[(t > 4.5) & (t < 7.0)].all()
+    assert not track.valid[(t > 12.5) & (t < 15.5)].any()
+
+
 def test_harmonics_that_do_not_exist_are_refused() -> None:
     t = np.arange(641) / 32.0
     x = np.cos(2 * np.pi * t)
