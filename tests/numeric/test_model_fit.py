@@ -109,6 +109,21 @@ def test_noise_free_samples_give_the_parameters_back() -> None:
     assert not fit.misfit
 
 
+def test_covariance_is_the_inverse_fisher_matrix() -> None:
+    """From finite differences of another integrator; the noise level has its own spread, 1 / sqrt(2 n)."""
+    fit = fitted(0.15, 0)
+
+    def samples(theta: np.ndarray) -> np.ndarray:
+        run = integrate(pendulum(k=theta[3], mu=theta[4]), (theta[0], theta[1]), duration=10.0, rate=RATE)
+        return run.u + theta[2]
+
+    steps = 1e-5 * np.eye(5)
+    jacobian = np.stack([(samples(fit.theta + s) - samples(fit.theta - s)) / 2e-5 for s in steps], axis=1)
+    expected = fit.noise**2 * np.linalg.inv(jacobian.T @ jacobian)
+    np.testing.assert_allclose(fit.covariance, expected, rtol=1e-4, atol=1e-6 * np.abs(expected).max())
+    assert abs(fit.noise / 0.15 - 1) < 4 / math.sqrt(2 * CLEAN.u.size)
+
+
 def test_parameters_and_frequency_lie_within_their_deviations() -> None:
     """Pooled over trials, z-scores have unit size; and omega's rms error is what the Fisher matrix says, its bound."""
     scores, errors, deviations, holds = [], [], [], []
