@@ -52,11 +52,11 @@ def share(x: np.ndarray, truth: Truth, method: str, decibel: float, seed: int) -
 
 @pytest.mark.parametrize("method", METHODS[1:])
 def test_coverage(method: str) -> None:
-    found = []
+    found, first = [], 100_000 * METHODS.index(method)
     for i, (name, make) in enumerate(SIGNALS.items()):
         x, truth = make()
         row = [
-            np.mean([share(x, truth, method, d, 10_000 * i + 1000 * j + k) for k in range(TRIALS)])
+            np.mean([share(x, truth, method, d, first + 10_000 * i + 1000 * j + k) for k in range(TRIALS)])
             for j, d in enumerate(DECIBELS)
         ]
         print(f"| {method} | {name} | " + " | ".join(f"{100 * value:.0f}" for value in row) + " |")
