@@ -23,6 +23,9 @@ from numeric.potential import peak_limit
 from numeric.recording import Recording
 from numeric.slow_decay import motion
 from numeric.trajectory import integrate
+from symbolic.multiple_scales import multiple_scales
+from symbolic.reconstruction import Reconstruction
+from symbolic.systems import find
 
 
 def decay(*, noise: float = 0.01, cycles: float = 40.0, **parameters: float) -> Recording:
@@ -171,8 +174,12 @@ def test_van_der_pol_flow_follows_the_equation(start: float) -> None:
     run = integrate(van_der_pol(eps), (start, 0.0), duration=120.0, rate=4.0)
     cycles = cycle_frequency(run, dynamics=van_der_pol(eps))
     time = np.linspace(8.0, 110.0, 12)
-    flow = van_der_pol_flow(1.0, eps, 1.0, start, 120.0)
-    at = motion(flow, level_at(flow, math.log(start)), 0.0, time)
+    wave = Reconstruction(multiple_scales(find("van-der-pol").with_parameters({"k": 1, "eps": None}), 9, weight=1))
+    a0, phase0 = wave.start(start, 0.0, eps)
+    flow = van_der_pol_flow(1.0, eps, 1.0, a0, 120.0)
+    samples = motion(flow, level_at(flow, math.log(a0)), phase0, run.time)
+    assert np.abs(samples.u - run.u).max() < 5e-3 * start
+    at = motion(flow, level_at(flow, math.log(a0)), phase0, time)
     assert np.abs(at.omega / cycles.at(time) - 1).max() < 2e-3
     assert float(at.amplitude[-1]) == pytest.approx(2.0, abs=0.02)
 
