@@ -31,7 +31,17 @@ def load(source: str, folder: Path, name: str = "generated") -> ModuleType:
 def compiled(source: str, folder: Path, name: str, arguments: int) -> Callable[..., float]:
     (folder / "generated.c").write_text(source, encoding="utf-8")
     library = folder / f"{name}.so"  # a loader keeps what it once read under a path
-    command = [COMPILER or "cc", *FLAGS, "-O2", "-shared", "-fPIC", "-o", str(library), str(folder / "generated.c"), "-lm"]
+    command = [
+        COMPILER or "cc",
+        *FLAGS,
+        "-O2",
+        "-shared",
+        "-fPIC",
+        "-o",
+        str(library),
+        str(folder / "generated.c"),
+        "-lm",
+    ]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     compiled_function = getattr(ctypes.CDLL(str(library)), name)
