@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from compare.noise_truth import Truth
     from numeric.recording import Recording
     from ridgeback.model_options import Model
+    from symbolic.oscillator import Oscillator
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
@@ -57,7 +58,7 @@ def monte_carlo_options(command: Decorated) -> Decorated:
             flag_value=DEFAULT,
             default=None,
             metavar="[TRIALS]",
-            help="Errors in noise instead: seeded trials on FILE's smooth model, or without FILE on the paper's case.",
+            help="Errors in noise instead: trials on FILE's smooth model, else on SYSTEM, else on the paper's case.",
         ),
     ):
         command = option(command)
@@ -103,6 +104,8 @@ def monte_carlo_verb(
     from compare.noise import METHODS, TRIALS, monte_carlo
 
     oscillator = model.oscillator()
+    if source is None and oscillator is not None:
+        source = simulated(oscillator)
     with Progress() as progress:
         study = monte_carlo(
             source,
@@ -121,6 +124,15 @@ def monte_carlo_verb(
     if not study.complete:
         fewest = min(cell.trials for cell in study.cells)
         raise PartialError(f"interrupted: {fewest} or more of {study.trials} trials were done in each cell")
+
+
+def simulated(oscillator: Oscillator) -> Truth:
+    """An oscillator from its own initial state, over as long and as finely as a report would show it."""
+    from compare.motion import setting
+    from compare.noise_truth import oscillator_truth
+
+    chosen = setting(oscillator)
+    return oscillator_truth(oscillator, chosen.initial, duration=chosen.duration, rate=chosen.rate)
 
 
 def study_text(study: NoiseStudy, style: str) -> str:

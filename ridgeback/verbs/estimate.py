@@ -88,7 +88,8 @@ def command(
     ridgeback estimate --monte-carlo 100 --snr 0,10,20,30
     """
     check_fit(harmonic, estimator, half_cycles=half_cycles, backbone=backbone_wanted)
-    model.check(estimator.method)
+    if files or monte_carlo is None:
+        model.check(estimator.method)
     if monte_carlo is not None:
         if backbone_wanted or half_cycles or harmonic != 1 or plot is not None or len(files) > 1:
             raise click.UsageError("--monte-carlo is about the track of the fundamental; leave out what else is asked")

@@ -51,6 +51,13 @@ def test_a_file_may_stand_before_or_after(capsys: pytest.CaptureFixture[str], re
     assert json.loads(after)["trials"] > 2
 
 
+def test_a_system_takes_the_place_of_a_file(capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--system", "duffing-hardening", "--method", "hilbert", "--snr", "20", "--format", "json"]
+    study = read_study(json.loads(printed(capsys, "--monte-carlo", "2", *words)))
+    assert "Duffing" in study.title
+    assert study.samples == 40 * 32 + 1
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
