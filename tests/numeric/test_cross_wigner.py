@@ -47,6 +47,15 @@ def test_symmetry_cross_term_and_integral(size: int) -> None:
     assert np.abs(plane.sum(axis=0) * rate / 2 / size - x * y.conj()).max() < 1e-12 * scale
 
 
+def test_single_precision_is_the_plane_to_seven_digits() -> None:
+    x, y = noise(90, 6), noise(90, 7)
+    double, single = cross_wigner(x, y, 8.0), cross_wigner(x, y, 8.0, single=True)
+    assert single.values.dtype == np.complex64
+    assert single.settings["precision"] == "float32"
+    error = np.abs(single.values - double.values).max() / np.abs(double.values).max()
+    assert 1e-10 < error < 1e-6
+
+
 def test_unusable_pairs_are_named() -> None:
     with pytest.raises(InputError, match="signals have 8 and 9 samples"):
         cross_wigner(noise(8, 0), noise(9, 0), 1.0)
