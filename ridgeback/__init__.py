@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from compare.bind import bind as bind
+    from compare.family import family as family
     from compare.identification.identify import identify as identify
     from compare.identification.prediction import predict as predict
     from compare.measurement import survey as survey
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from numeric.dynamics import Dynamics as Dynamics
     from numeric.estimate import estimate as estimate
     from numeric.half_cycles import half_cycles as half_cycles
+    from numeric.model_fit import model_fit as model_fit
     from numeric.recording import read_recording as read_recording
     from numeric.recording import read_recordings as read_recordings
     from numeric.track import Track as Track
@@ -62,6 +64,7 @@ HOMES = {
     "enclose": "symbolic.enclosure",
     "energy_integral": "symbolic.energy_integral",
     "estimate": "numeric.estimate",
+    "family": "compare.family",
     "find": "symbolic.systems",
     "generate": "symbolic.codegen",
     "identify": "compare.identification.identify",
@@ -69,6 +72,7 @@ HOMES = {
     "lindstedt": "symbolic.lindstedt",
     "lindstedt_by_primes": "symbolic.modular",
     "lindstedt_in_balls": "symbolic.ball_march",
+    "model_fit": "numeric.model_fit",
     "multiple_scales": "symbolic.multiple_scales",
     "half_cycles": "numeric.half_cycles",
     "predict": "compare.identification.prediction",
