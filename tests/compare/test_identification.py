@@ -12,12 +12,12 @@ from compare.identification.confusion import DRAWS, confusion, noisy
 from compare.identification.fitting import spread_of
 from compare.identification.identify import identify, usable
 from compare.identification.models import NAMES, level_at, models_of, van_der_pol_flow
-from compare.identification.potentials import POTENTIALS, helmholtz_limit
+from compare.identification.potentials import POTENTIALS, helmholtz_limit, pendulum_orbits
 from compare.identification.prediction import predict
 from compare.identification.ranking import effective_number
 from compare.identification.results import Identification
 from numeric.cycles import cycle_frequency
-from numeric.dynamics import duffing, helmholtz_duffing, van_der_pol
+from numeric.dynamics import duffing, helmholtz_duffing, pendulum, van_der_pol
 from numeric.errors import InputError
 from numeric.potential import peak_limit
 from numeric.recording import Recording
@@ -121,6 +121,29 @@ def test_prediction_from_the_first_cycles() -> None:
     half = 0.5 * (ahead.amplitude_high - ahead.amplitude_low)
     assert np.all(half > 0)
     assert ahead.phase_band[-1] > ahead.phase_band[0]
+
+
+def test_the_papers_pendulum_is_a_pendulum() -> None:
+    """From 0.95 pi, where the swing is nearly square and the frequency doubles within the record."""
+    k, mu = 4 * math.pi, 0.01
+    run = integrate(pendulum(k=k, mu=mu), (0.95 * math.pi, 0.0), duration=20.0, rate=32.0)
+    values = run.u + 0.02 * np.random.default_rng(0).normal(size=run.u.size)
+    recording = Recording(run.time, values, 32.0, "theta", "rad", "paper", "")
+    found = identify(recording, candidates=("pendulum", "duffing-softening"), laws=("linear",))
+    assert found.best.name == "pendulum"
+    assert found.best.residual < 0.03
+    for name, truth in {"k": k, "b": 1.0, "mu": mu}.items():
+        parameter = found.best.parameter(name)
+        assert abs(parameter.value - truth) < 3.5 * parameter.standard_deviation, name
+        assert parameter.standard_deviation < 0.01 * truth, name
+
+
+def test_tables_are_fine_up_to_their_end_next_to_the_separatrix() -> None:
+    """The pendulum's up to 0.992 pi against its closed form; the last nodes stand where it bends most."""
+    orbits = pendulum_orbits((math.pi,))
+    peak = orbits.peak * math.pi
+    assert peak[-1] == pytest.approx(0.992 * math.pi)
+    assert np.abs(orbits.omega / np.asarray(pendulum().closed_form(peak)) - 1).max() < 3e-5
 
 
 def test_effective_number_of_a_narrow_band() -> None:
