@@ -17,10 +17,9 @@ from numpy.typing import ArrayLike
 
 from compare.family import family
 from compare.noise_results import NoiseCell, NoiseStudy, Trial, Window, cell_of
-from compare.noise_truth import Truth, paper_truth, recording_truth
+from compare.noise_truth import STRAIGHT, Truth, paper_truth, recording_truth
 from compare.results import Array, Mask
 from numeric.choice import SCOPES
-from numeric.cramer_rao import PHASE_DEGREE
 from numeric.errors import InputError
 from numeric.estimate import METHODS as ESTIMATORS
 from numeric.estimate import MODEL_FIT, estimate
@@ -226,7 +225,7 @@ def judged(truth: Truth, track: Track | InputError) -> Trial:
         float(error.mean()),
         covered,
         truth.half(float(lag) if isinstance(lag, (int, float)) else None),
-        degree if isinstance(degree, int) else PHASE_DEGREE,
+        degree if isinstance(degree, int) else STRAIGHT,
         own_bound(track, keep, expected),
     )
 

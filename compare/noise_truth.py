@@ -16,7 +16,7 @@ from scipy.interpolate import make_interp_spline, make_lsq_spline
 from compare.bind import bind
 from compare.errors import Zones, zones
 from compare.results import Array
-from numeric.cramer_rao import PHASE_DEGREE, Order, local_bound
+from numeric.cramer_rao import Order, local_bound
 from numeric.cycles import cycle_frequency
 from numeric.dynamics import Dynamics
 from numeric.errors import InputError
@@ -35,6 +35,9 @@ PAPER_INITIAL = (0.95 * math.pi, 0.0)
 PAPER_DURATION, PAPER_RATE = 20.0, 32.0
 KNOT_WINDOWS = 1.0
 """Knots of a recording's smooth model, in windows of four cycles: what is rougher counts as its noise."""
+STRAIGHT = 2
+"""Degree of the phase whose bound a method without a phase polynomial is held against: the peak over a window is the
+estimate of a frequency that is straight in it."""
 EVERY = 4
 """The bound changes slowly from sample to sample: it is computed at every fourth."""
 
@@ -81,7 +84,7 @@ class Truth:
         """Half a window in samples."""
         return half_width(lag_seconds or self.lag_seconds, self.rate, longest=self.x.size)
 
-    def relative_bound(self, half: int, degree: int = PHASE_DEGREE, *, noise: float) -> float:
+    def relative_bound(self, half: int, degree: int = STRAIGHT, *, noise: float) -> float:
         """Bound on the relative rms error over the interior, local harmonic model in windows of 2 half + 1 samples."""
         inside = np.flatnonzero(self.zone.interior(self.signal.time))[::EVERY]
         order = Order(self.signal.multiples[1:], phase_degree=degree)
@@ -91,13 +94,13 @@ class Truth:
     @property
     def bound(self) -> str:
         """What the bound is of."""
-        order = Order(self.signal.multiples[1:])
+        order = Order(self.signal.multiples[1:], phase_degree=STRAIGHT)
         others = ", ".join(map(str, order.multiples)) or "none"
         return (
-            f"local harmonic model: phase of degree {order.phase_degree} or the method's own, amplitudes of degree "
-            f"{order.amplitude_degree}, harmonics beside the fundamental: {others}, in the window of the method "
-            f"({self.lag_seconds:.4g} time units where it has none); a model of the whole record has its own: the "
-            "Fisher matrix of the fit"
+            "local harmonic model: phase of the method's own degree, "
+            f"{order.phase_degree} where it has none, amplitudes of degree {order.amplitude_degree}, harmonics beside "
+            f"the fundamental: {others}, in the window of the method ({self.lag_seconds:.4g} time units where it has "
+            "none); a model of the whole record has its own: the Fisher matrix of the fit"
         )
 
 
