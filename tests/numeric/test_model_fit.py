@@ -10,6 +10,7 @@ import pytest
 
 from numeric.dynamics import duffing, pendulum, van_der_pol
 from numeric.errors import InputError
+from numeric.estimate import estimate
 from numeric.family import Family
 from numeric.model_fit import ModelFit, model_fit
 from numeric.model_track import model_track
@@ -184,6 +185,10 @@ def test_whiteness_has_the_level_that_it_says() -> None:
 def test_what_cannot_be_fitted_is_refused() -> None:
     with pytest.raises(InputError, match="constant"):
         model_fit(np.ones(100), RATE, pendulum_family())
+    with pytest.raises(InputError, match="do not go together"):
+        estimate(CLEAN.u, RATE, method="model-fit")
+    with pytest.raises(InputError, match="do not go together"):
+        estimate(CLEAN.u, RATE, method="wigner", family=pendulum_family())
     t = np.arange(80) / 8.0
     with pytest.raises(InputError, match="no fit of eps locks on to the signal"):
         model_fit(np.cos(4.0 * t), 8.0, van_der_pol_family())
