@@ -38,6 +38,8 @@ INDEPENDENT = 0.5
 """Share of a tapered window after which its estimates are as good as independent."""
 POOLED_SHARE = 0.25
 """Share of the record over which replicates are pooled."""
+MOST_JUMPS = 0.03
+"""Share of the noisy copies' valid values that may be outliers; with more of them a method claims no interval."""
 FAR, MEDIAN_OF_SQUARE = 3.0, 0.4549
 """Sigmas beyond which an error is an outlier, and the median of the square of a standard normal variable."""
 AMBIGUOUS = 0.1
@@ -104,8 +106,8 @@ def replicated(trial: Trial, models: SignalModels, clean: Array, count: int) -> 
     return Replicates(plain, corrected, between)
 
 
-# A peak that jumps to a cross term now and then is far off for a few samples; such errors, beyond three sigma as the
-# median of the replicates has it, count as three, or the interval would be wide everywhere for what is rare.
+# A peak that jumps to a cross term now and then is far off for a few samples, and its root mean square says little of
+# the rest: errors beyond three sigma, as the median of the replicates has it, count as three.
 def pooled(errors: Array, shape: Array, width: int) -> Array:
     """Root mean square over replicates and over ``width`` neighbours, of errors relative to ``shape``, times it.
 
@@ -115,6 +117,18 @@ def pooled(errors: Array, shape: Array, width: int) -> Array:
     share = np.square(errors / shape)
     typical = moving_mean(np.median(share, axis=0), width) / MEDIAN_OF_SQUARE
     return shape * np.sqrt(moving_mean(np.minimum(share, FAR**2 * typical).mean(axis=0), width))
+
+
+def calibrated(errors: Array, sigma: Array, valid: Mask) -> Array:
+    """``sigma`` scaled so that 95 % of the replicated errors at the valid times lie within 1.96 of it.
+
+    Where jumps are more than rare, it takes them in; where a few of them widened it, it becomes narrower again.
+
+    >>> calibrated(np.array([[0.0, 1.0, 2.0, 9.0]]), np.ones(4), np.array([True, True, True, False])).round(3).tolist()
+    [0.969, 0.969, 0.969, 0.969]
+    """
+    ratio = np.abs(errors / sigma)[:, valid if valid.any() else ~valid]
+    return np.asarray(sigma * (float(np.quantile(ratio, 0.95)) / NORMAL_95), dtype=np.float64)
 
 
 def moving_mean(values: Array, width: int) -> Array:
@@ -138,7 +152,7 @@ def with_interval(track: Track, request: Request, trial: Trial, models: SignalMo
     clean = trial.run(models.fine.samples())
     bias = clean - trial.truth(models.fine)
     copies = replicated(trial, models, clean, count)
-    noise, total = deviations(track, trial, copies, models.fine, windows)
+    noise, total, jumps = deviations(track, trial, copies, models.fine, windows)
     apart = (trial.bias(models.coarse) - bias) ** 2 - copies.between.var(axis=0)
     near = max(1, round(request.lag_seconds / float(np.median(np.diff(track.time)))))
     left = models.remainder**2 * np.maximum(median_filter(apart, near, mode="nearest"), 0.0)
@@ -151,11 +165,14 @@ def with_interval(track: Track, request: Request, trial: Trial, models: SignalMo
         "deviation_by": f"{count} noisy copies of the model",
         "seed": SEED,
     }
+    if jumps > MOST_JUMPS:
+        how["no_interval"] = f"{100 * jumps:.2g} % of the values in noisy copies of the signal are jumps to other peaks"
+    unknown = np.sqrt(np.maximum(total**2 - noise**2, 0.0) + left + room**2)
     return replace(
         track,
         standard_deviation=noise,
         bias=bias,
-        bias_deviation=np.sqrt(np.maximum(total**2 - noise**2, 0.0) + left + room**2),
+        bias_deviation=None if jumps > MOST_JUMPS else unknown,
         ambiguous=ambiguous,
         settings={**track.settings, **how},
     )
@@ -163,15 +180,17 @@ def with_interval(track: Track, request: Request, trial: Trial, models: SignalMo
 
 def deviations(
     track: Track, trial: Trial, copies: Replicates, model: SplineModel, windows: float
-) -> tuple[Array, Array]:
-    """Deviation of the values as given, and of the corrected ones, pooled along time."""
+) -> tuple[Array, Array, float]:
+    """Deviation of the values as given, and of the corrected ones, pooled along time; the share of outliers."""
     width = max(1, round(POOLED_SHARE * track.time.size))
     own = trial.multiple * np.interp(trial.time, model.time, model.omega_deviation)
     analytic = own if track.standard_deviation is None else track.standard_deviation
     floor = 1e-15 * np.abs(track.omega)
     noise = analytic if trial.efficient else pooled(copies.plain, analytic + floor, width)
     freedom = copies.plain.shape[0] * max(1.0, windows * POOLED_SHARE / INDEPENDENT)
-    return noise, few_sample_factor(freedom) * pooled(copies.corrected, np.hypot(analytic, own) + floor, width)
+    total = pooled(copies.corrected, np.hypot(analytic, own) + floor, width) + floor
+    jumps = float(np.mean(np.abs(copies.corrected / total)[:, track.valid] > FAR)) if track.valid.any() else 0.0
+    return noise, few_sample_factor(freedom) * calibrated(copies.corrected, total, track.valid), jumps
 
 
 # Student's t: a deviation that was itself estimated with few degrees of freedom holds 95 % only when it is enlarged.

@@ -79,6 +79,14 @@ def test_interval_is_the_same_before_and_after_the_bias_is_removed() -> None:
     assert np.array_equal(again.interval.high, plain.interval.high)
 
 
+def test_a_peak_that_jumps_claims_no_interval(pendulum_decay: Source) -> None:
+    x, _ = signal("chirp", pendulum_decay)
+    track = estimate(noisy(x, 10.0, 111_000), RATE, method="wigner")
+    assert track.bias is not None
+    assert track.interval is None
+    assert "are jumps to other peaks" in str(track.settings["no_interval"])
+
+
 def test_no_bias_no_interval() -> None:
     track = estimate(np.cos(7.0 * T), RATE, method="pseudo-wigner", bias=False)
     assert track.bias is None
