@@ -8,7 +8,8 @@ clean signal whose frequency is known, much like the one measured.
 - Deviation: the estimator run on the clean signal with white noise added, a few times over (a parametric bootstrap:
   Efron and Tibshirani, An Introduction to the Bootstrap, 1993, ch. 6), from a stated seed.
 - Deviation of the corrected values.  With P the projection of the model's fit, the corrected estimate is that of the
-  model plus the estimator's answer to the residual (I - P) noise; both parts are replicated from the same noise.
+  model plus the estimator's answer to the residual (I - P) noise; both parts are replicated from the same noise.  It is
+  scaled so that 95 % of the copies lie inside; where a peak jumps in too many of them, no interval is claimed.
 - Model: the same correction by a model on fewer knots.  Where the two differ by more than noise explains, the share of
   the difference that should be left in the finer one, by the order at which the models converge, counts as one sigma.
 """
