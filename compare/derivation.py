@@ -22,7 +22,6 @@ from symbolic.lindstedt import lindstedt
 from symbolic.multiple_scales import multiple_scales
 from symbolic.ordering import small_parameters
 from symbolic.oscillator import Oscillator
-from symbolic.rendering import as_sympy
 from symbolic.slow_flow import SlowFlow, Term
 
 MAX_HARMONICS = 3
@@ -116,7 +115,7 @@ def _powers(expansion: Expansion, coefficients: Iterable[object]) -> list[sympy.
     name = "a" if expansion.amplitude == "fundamental" and expansion.variable == "A" else expansion.variable
     x = sympy.Symbol(name, real=True)
     step = 1 / expansion.scale if expansion.scaled_variable else sympy.S.One
-    exact = (as_sympy(c, expansion.names) for c in coefficients)
+    exact = (expansion.exact(c) for c in coefficients)
     return [c * (step * x) ** n for n, c in enumerate(exact) if c != 0]
 
 

@@ -24,6 +24,7 @@ from symbolic.errors import InputError
 from symbolic.fourier import Trig, degree, harmonic
 from symbolic.rendering import as_sympy, mathml
 from symbolic.spaces import Scalar
+from symbolic.structure import SQUARED_INVERSE
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,20 @@ class Expansion:
 
     def _in_own_units(self, values: tuple[Scalar, ...], factor: sympy.Expr) -> tuple[sympy.Expr, ...]:
         step = 1 / self.scale if self.scaled_variable else sympy.S.One
-        return tuple(as_sympy(c, self.names) * factor * step**n for n, c in enumerate(values))
+        return tuple(self.exact(c) * factor * step**n for n, c in enumerate(values))
+
+    def exact(self, coefficient: Scalar) -> sympy.Expr:
+        """A coefficient in natural units as an expression in the parameters left symbolic, k among them."""
+        value = as_sympy(coefficient, self.names)
+        if SQUARED_INVERSE not in self.names:
+            return value
+        return sympy.expand(value.subs(sympy.Symbol(SQUARED_INVERSE, real=True), self.scale**-2))
+
+    @property
+    def held(self) -> tuple[str, ...]:
+        """Parameters left symbolic, by the names that the equation has for them."""
+        own = {name for name in self.names if name != SQUARED_INVERSE}
+        return tuple(sorted(own | {str(symbol) for symbol in self.scale.free_symbols}))
 
     @cached_property
     def harmonics(self) -> tuple[Harmonic, ...]:
@@ -123,7 +137,7 @@ class Expansion:
         It encloses the series, not the exact frequency.  Raises InputError when a parameter is still symbolic.
         """
         if not all(isinstance(c, fmpq) for c in self.coefficients):
-            raise InputError(f"the coefficients hold {', '.join(self.names)} as symbols; set them before evaluating")
+            raise InputError(f"the coefficients hold {', '.join(self.held)} as symbols; set them before evaluating")
         k, total = natural_frequency(self.scale), arb(0)
         x = value / k if self.scaled_variable else value
         for c in reversed(self.coefficients):

@@ -19,7 +19,14 @@ from symbolic.origin import brief, sign_at_origin, value_at_origin
 from symbolic.parameters import Parameters, Value, merged
 from symbolic.parse import U, V, W, names, parse_equation, parse_expression, to_sympy
 from symbolic.potential import checked_potential, potential_of
-from symbolic.structure import damping_name, divided, positive_root, small_name, solved_for_acceleration
+from symbolic.structure import (
+    damping_name,
+    divided,
+    in_natural_units,
+    positive_root,
+    small_name,
+    solved_for_acceleration,
+)
 from symbolic.typeset import equation_latex
 
 __all__ = ["Kind", "Normalised", "Oscillator", "U", "V", "Value", "W"]
@@ -42,7 +49,8 @@ class Normalised:
     ``force`` is f(u, k*u')/k**2 with every parameter inserted except two that engines expand in and that therefore
     stay as symbols: the linear damping ``mu`` (here standing for mu/k) and the limit cycle's ``eps`` (for eps/k).
     All coefficients are rational when the parameters are and odd powers of u' carry mu or eps.
-    ``bound`` is the same force with those two inserted as well.  ``scale`` is k.
+    ``bound`` is the same force with those two inserted as well, and SQUARED_INVERSE (see ``structure``) for 1/k**2
+    where a symbolic k does not scale out.  ``scale`` is k.
     """
 
     force: sympy.Expr
@@ -232,12 +240,11 @@ class Oscillator:
         k, kept = self.natural_frequency, [name for name in (self.damping, self.small) if name]
         symbols = {name: _symbol(name) for name in kept}
         force = self._inserted(self.force, keep=kept).subs({V: k * V, **{s: k * s for s in symbols.values()}})
-        force = divided(force, self.stiffness)
         values = {name: self._inserted(symbol) / k for name, symbol in symbols.items()}
         potential = self.substituted_potential
         return Normalised(
-            force=force,
-            bound=force.subs({symbols[name]: value for name, value in values.items()}),
+            force=divided(force, self.stiffness),
+            bound=in_natural_units(force.subs({symbols[name]: v for name, v in values.items()}), self.stiffness),
             scale=k,
             damping=values.get(self.damping or "", sympy.S.Zero),
             small=values.get(self.small or ""),

@@ -187,7 +187,7 @@ def stripped(expansion: Series) -> tuple[int, list[Any]]:
     """
     c = expansion.coefficients
     if not all(isinstance(value, fmpq | arb) for value in c):
-        raise InputError(f"the coefficients hold {', '.join(expansion.names)} as symbols; set them to numbers")
+        raise InputError(f"the coefficients hold {', '.join(expansion.held)} as symbols; set them to numbers")
     present = [n for n, value in enumerate(c) if n and not _is_zero(value)]
     if not present:
         raise InputError(CONSTANT)

@@ -14,6 +14,7 @@ from symbolic.errors import InputError
 from symbolic.ordering import UNITS
 from symbolic.rendering import as_sympy
 from symbolic.slow_flow import rows
+from symbolic.structure import SQUARED_INVERSE
 
 if TYPE_CHECKING:
     from symbolic.expansion import Expansion
@@ -34,6 +35,11 @@ def expansion_form(expansion: Expansion, *, equation: str = "", limit: float | N
     Parameters left symbolic become arguments; the natural frequency is then a number in the coefficients, since they
     hold for that one only.
     """
+    if SQUARED_INVERSE in expansion.names:
+        raise InputError(
+            f"{expansion.system}: the natural frequency {expansion.scale} does not scale out of every term, so no code "
+            "takes it as an argument; give it a number"
+        )
     variable = variable_name(expansion.variable)
     units = {variable: 1} if expansion.scaled_variable else {}
     scale = expansion.scale if expansion.names else Integer(1)
