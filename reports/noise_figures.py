@@ -162,7 +162,7 @@ def _row(cell: NoiseCell, *, covered: bool) -> Row:
     counts = (*((coverage,) if covered else ()), str(cell.outliers), str(cell.failures))
     named = (cell.method, f"{number(cell.snr_db)} dB")
     if cell.rms is None:
-        return Row((*named, *(NONE,) * (1 + len(counts)), str(cell.failures)), cell.reason, failed=True)
+        return Row((*named, *(NONE,) * (2 + len(counts)), str(cell.failures)), cell.reason, failed=True)
     rms = _with(number(100 * cell.rms, 3), None if cell.rms_sd is None else number(100 * cell.rms_sd, 2))
     ratio = _with(number(cell.ratio, 3), None if cell.ratio_sd is None else number(cell.ratio_sd, 2))
     return Row((*named, f"{rms} %", relative(cell.bias, signed=True), ratio, *counts))

@@ -56,7 +56,7 @@ def test_version(ridgeback: Ridgeback) -> None:
 def test_help_names_every_verb(ridgeback: Ridgeback, arguments: list[str]) -> None:
     done = ridgeback(*arguments)
     assert done.code == 0
-    for verb in ("systems", "derive", "generate", "simulate", "estimate", "study", "report"):
+    for verb in ("systems", "derive", "generate", "simulate", "estimate", "identify", "study", "report"):
         assert verb in done.out
         help_text = ridgeback(verb, "--help")
         assert help_text.code == 0
