@@ -11,12 +11,16 @@ from compare.derivation import Exact, derive
 from compare.errors import failure, score
 from compare.estimates import Outcome, estimates
 from compare.findings import Evidence, statements
+from compare.heyoka_reference import integrate_heyoka
 from compare.models import LOW_ORDERS, model_curves
-from compare.motion import Motion, Setting, integrate_motion
+from compare.motion import CHECKED, Motion, Setting, integrate_motion
 from compare.overtones import Overtones, overtones
 from compare.planes import spectrogram_image, wigner_image
 from compare.reconstruction import reconstruct
 from compare.results import Amplitudes, BudgetRow, Curve, DecayComparison, Image, Score
+from compare.wording import scientific
+from numeric.errors import InputError as NumericError
+from symbolic.errors import InputError
 
 Progress = Callable[[float, str], None]
 HIGH_ORDER = 20
@@ -114,7 +118,19 @@ def _scores(motion: Motion, models: tuple[Curve, ...], outcomes: tuple[Outcome, 
 def _integrators(motion: Motion) -> tuple[str, ...]:
     run = motion.trajectory
     first = f"{run.method}, rtol {run.rtol:g}, {run.evaluations} evaluations"
-    return first, motion.precise.method
+    return first, motion.precise.method, *_third(motion)
+
+
+def _third(motion: Motion) -> tuple[str, ...]:
+    """heyoka's solution beside the Taylor one, where that library is installed and takes the force."""
+    case = motion.setting
+    try:
+        run = integrate_heyoka(case.oscillator, case.initial, duration=case.duration, rate=case.rate / CHECKED)
+    except (OSError, InputError, NumericError):
+        return ()
+    shared = min(run.u.size, motion.precise.u.size)
+    apart = float(np.abs(run.u[:shared] - motion.precise.u[:shared]).max())
+    return (f"{run.method} differs from the Taylor solution by at most {scientific(apart)}",)
 
 
 def _amplitudes(motion: Motion) -> Amplitudes:

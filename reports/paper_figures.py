@@ -66,6 +66,7 @@ def figure_1(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
         f"{symbol}(0) = {number(case.initial[0])}{unit}, {symbol}′(0) = {number(case.initial[1])}. "
         f"Integrated by {decay.integrators[0] if decay.integrators else 'an unnamed integrator'}"
         + (f"; the integrators differ by at most {number(decay.disagreement, 2)}{unit}." if decay.disagreement else ".")
+        + "".join(f" {further}." for further in decay.integrators[2:])
     )
     line = Line(decay.time, decay.u, f"{symbol}(t)", "s1", width=1.4)
     return (_signal_block(decay, "paper1", [line], caption, f"Oscillation {symbol}(t)"),)

@@ -13,8 +13,8 @@ from ridgeback.output import json_text, write_text
 from ridgeback.tables import csv_text
 
 if TYPE_CHECKING:
-    from numeric.dynamics import Dynamics
     from numeric.trajectory import Trajectory
+    from symbolic.oscillator import Oscillator
 
 COLUMNS = ("time_s", "u", "velocity")
 
@@ -24,7 +24,12 @@ COLUMNS = ("time_s", "u", "velocity")
 @click.option("--initial", type=PAIR, default=None, metavar="U,V", help="State at time 0.  Default: the catalogue's.")
 @click.option("--duration", type=POSITIVE, default="20", show_default=True, metavar="T", help="Time to integrate over.")
 @click.option("--rate", type=POSITIVE, default="64", show_default=True, metavar="R", help="Samples per time unit.")
-@click.option("--method", default="DOP853", show_default=True, help="DOP853, RK45, Radau, BDF, LSODA, or taylor.")
+@click.option(
+    "--method",
+    default="DOP853",
+    show_default=True,
+    help="DOP853, RK45, Radau, BDF, LSODA, taylor, or heyoka where that is installed.",
+)
 @click.option(
     "--digits", type=click.IntRange(15, 200), default=None, help="Digits that taylor works with.  Default: 30."
 )
@@ -49,16 +54,14 @@ def command(
     ridgeback simulate pendulum --set mu=0.01 --set k=12.566370614359172 --initial 2.984513,0 -o run.csv
     ridgeback simulate van-der-pol --duration 60 --method taylor --digits 40 --format json
     """
-    from compare.bind import bind
-
     oscillator = choice.oscillator()
     start = oscillator.initial if initial is None else initial
-    run = trajectory(bind(oscillator), start, duration=duration, rate=rate, method=method, digits=digits)
+    run = trajectory(oscillator, start, duration=duration, rate=rate, method=method, digits=digits)
     write_text(output, printed(oscillator.name, run, style))
 
 
 def trajectory(
-    dynamics: Dynamics,
+    oscillator: Oscillator,
     initial: tuple[float, float],
     *,
     duration: float,
@@ -70,6 +73,15 @@ def trajectory(
 
     Raises click.UsageError when ``--digits`` is given to a method in double precision.
     """
+    if digits is not None and method.lower() != "taylor":
+        raise click.UsageError(f"--digits belongs to --method taylor; {method} works in double precision")
+    if method.lower() == "heyoka":
+        from compare.heyoka_reference import integrate_heyoka
+
+        return integrate_heyoka(oscillator, initial, duration=duration, rate=rate)
+    from compare.bind import bind
+
+    dynamics = bind(oscillator)
     if method.lower() == "taylor":
         from numeric.taylor import integrate_taylor
 
@@ -77,9 +89,7 @@ def trajectory(
     from numeric.trajectory import METHODS, integrate
 
     if method not in METHODS:
-        raise click.UsageError(f"unknown method {method!r}; use one of {', '.join(METHODS)} or taylor")
-    if digits is not None:
-        raise click.UsageError(f"--digits belongs to --method taylor; {method} works in double precision")
+        raise click.UsageError(f"unknown method {method!r}; use one of {', '.join(METHODS)}, taylor or heyoka")
     return integrate(dynamics, initial, duration=duration, rate=rate, method=method)
 
 

@@ -34,7 +34,7 @@ def test_the_papers_final_amplitude_and_frequency_range(paper):
 
 
 def test_two_integrators_agree(paper):
-    assert len(paper.integrators) == 2
+    assert len(paper.integrators) in (2, 3)  # a third where heyoka is installed
     assert 0 < paper.disagreement < 1e-7
 
 
