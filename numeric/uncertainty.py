@@ -39,7 +39,7 @@ INDEPENDENT = 0.5
 """Share of a tapered window after which its estimates are as good as independent."""
 POOLED_SHARE = 0.25
 """Share of the record over which replicates are pooled."""
-MOST_JUMPS = 0.03
+MOST_JUMPS = 0.02
 """Share of the noisy copies' valid values that may be outliers; with more of them a method claims no interval."""
 FAR, MEDIAN_OF_SQUARE = 3.0, 0.4549
 """Sigmas beyond which an error is an outlier, and the median of the square of a standard normal variable."""
