@@ -192,13 +192,14 @@ def parameter_table(candidate: Candidate) -> Table:
     return Table(
         "parameters",
         f"{candidate.title}: {candidate.equation}",
-        ("parameter", "value", "95 % interval", "unit"),
+        ("parameter", "value", "95 % interval"),
         tuple(
-            Row((_named(p), number(p.value, 6), " to ".join(number(end, 5) for end in p.interval()), p.unit))
+            Row((_named(p), number(p.value, 6), " to ".join(number(end, 5) for end in p.interval())))
             for p in candidate.parameters
         ),
     )
 
 
 def _named(parameter: Parameter) -> str:
-    return f"{parameter.name}, {parameter.meaning}" if parameter.meaning else parameter.name
+    name = f"{parameter.name}, {parameter.meaning}" if parameter.meaning else parameter.name
+    return f"{name}, in {parameter.unit}" if parameter.unit else name

@@ -22,8 +22,13 @@ FIGURES = {
     "full": [
         *("backbone", "error", "map", "needed", "tracks", "residuals", "budget"),
         *("paper1", "paper2", "paper3", "paper4", "paper5", "paper6", "paper7", "paper7w", "paper8", "paper9"),
+        *("noise-error", "noise-ratio"),
     ],
-    "recording": [f"recording-{name}" for name in ("backbone", "damping", "signal", "plane", "tracks")],
+    "recording": [
+        *(f"recording-{name}" for name in ("backbone", "damping", "signal", "plane", "tracks")),
+        *("identify-backbone", "identify-damping"),
+        *(f"prediction-{name}" for name in ("amplitude", "frequency", "phase")),
+    ],
 }
 SIDES = tuple(FIGURES)
 

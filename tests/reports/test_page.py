@@ -233,7 +233,7 @@ def test_an_identification_shows_its_ranking_parameters_and_prediction(recording
         "bilinear: no switch in reach",
     ]
     assert ranked[0][1:3] == ["0", "90.0 %"]
-    assert _cells(root, "parameters")[0][:3] == ["k, natural frequency", "7.85", "7.8461 to 7.8539"]
+    assert _cells(root, "parameters")[0][:3] == ["k, natural frequency, in rad/s", "7.85", "7.8461 to 7.8539"]
     ids = {figure.attributes["id"] for figure in root.all("figure")}
     assert ids >= {"identify-backbone", "identify-damping", "prediction-amplitude", "prediction-phase"}
 
