@@ -19,9 +19,9 @@ from reports.tables import budget_table, certified_table, range_table, score_tab
 from reports.wording import number, relative
 
 DEFINED = (
-    "These samples hold no noise, and the intervals are far narrower than ω₀(t) of a decay is defined: its crossings and "
-    "its turning points read it {} apart, rms. A coverage below 95 % here tells of definitions; in noise it is measured "
-    "by ridgeback estimate --monte-carlo."
+    "These samples hold no noise, and the intervals are far narrower than ω₀(t) of a decay is defined: its crossings "
+    "and its turning points read it {} apart, rms. A coverage below 95 % here tells of definitions; in noise it is "
+    "measured by ridgeback estimate --monte-carlo."
 )
 PartKind = Literal["figure", "table", "formula", "text", "lines", "statement", "code", "downloads", "provenance"]
 
