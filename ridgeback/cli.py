@@ -85,6 +85,10 @@ def cli(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
+LONGEST_INTEGER = 300_000
+"""Digits that an integer may have in text: exact coefficients exceed Python's 4300, and more still read quickly."""
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return its exit code; every failure is one line on standard error.
 
@@ -92,6 +96,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     2
     """
     given = sys.argv[1:] if arguments is None else list(arguments)
+    sys.set_int_max_str_digits(max(LONGEST_INTEGER, sys.get_int_max_str_digits()))
     try:
         # Not `cli.main`, which turns a broken pipe into exit code 1 before anybody can see it.
         with cli.make_context("ridgeback", list(given), obj=tuple(given)) as context:

@@ -22,7 +22,7 @@ from symbolic.amplitude import check_definition, measured, same_definition
 from symbolic.balls import natural_frequency
 from symbolic.errors import InputError
 from symbolic.fourier import Trig, degree, harmonic
-from symbolic.rendering import as_sympy, mathml
+from symbolic.rendering import as_sympy, long_integers, mathml
 from symbolic.spaces import Scalar
 from symbolic.structure import SQUARED_INVERSE
 
@@ -213,7 +213,8 @@ class Expansion:
     def latex(self) -> str:
         r"""LaTeX of the whole relation, ``\omega_0(A) = ...`` in rising order."""
         name = r"\varepsilon" if self.variable == "eps" else self.variable
-        return rf"\omega_0({name}) = " + series_latex(self.terms())
+        with long_integers():
+            return rf"\omega_0({name}) = " + series_latex(self.terms())
 
     def mathml(self) -> str:
         """Presentation MathML of the whole relation."""
@@ -234,7 +235,8 @@ class Expansion:
         return result
 
     def _rows(self, values: tuple[sympy.Expr, ...]) -> list[dict[str, object]]:
-        return [{"powers": {self.variable: n}, "coefficient": str(c)} for n, c in enumerate(values) if c != 0]
+        with long_integers():
+            return [{"powers": {self.variable: n}, "coefficient": str(c)} for n, c in enumerate(values) if c != 0]
 
 
 def series_latex(terms: tuple[sympy.Expr, ...]) -> str:

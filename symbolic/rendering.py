@@ -2,11 +2,30 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import sympy
 from flint import fmpq
 from latex2mathml.converter import convert
+
+
+@contextmanager
+def long_integers() -> Iterator[None]:
+    """Let integers of any length be written: Python stops at 4300 digits, for the sake of those who read them.
+
+    >>> with long_integers():
+    ...     len(str(10**5000))
+    5001
+    """
+    before = sys.get_int_max_str_digits()
+    sys.set_int_max_str_digits(0)
+    try:
+        yield
+    finally:
+        sys.set_int_max_str_digits(before)
 
 
 def as_sympy(value: Any, names: tuple[str, ...] = ()) -> sympy.Expr:

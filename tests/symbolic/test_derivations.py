@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import pytest
 import sympy
-from flint import fmpq
+from flint import fmpq, fmpz
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -327,3 +327,15 @@ def test_public_json_form() -> None:
         {"powers": {"eps": 0}, "coefficient": "2"},
         {"powers": {"eps": 2}, "coefficient": "1/96"},
     ]
+
+
+def test_coefficients_of_many_thousand_digits_are_written() -> None:
+    own = Oscillator.from_equation("u'' + u + 1e100*u**3 = 0")
+    expansion = lindstedt(own, 100)
+    (row,) = [row for row in expansion.to_dict()["frequency"] if row["powers"] == {"A": 98}]
+    unit = lindstedt(Oscillator.from_equation("u'' + u + u**3 = 0"), 98).coefficients[98]
+    numerator, _, denominator = str(row["coefficient"]).partition("/")
+    assert len(numerator) > 4300
+    scaled = unit * fmpq(10) ** 4900  # omega0 depends on c A^2 alone
+    assert (fmpz(numerator), fmpz(denominator or "1")) == (scaled.p, scaled.q)
+    assert len(expansion.latex()) > 100_000
