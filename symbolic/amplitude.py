@@ -8,28 +8,39 @@ In units with k = 1, for a periodic orbit u(tau), tau = omega t:
     action       sqrt(2 J),  J = (1/2 pi) * loop integral of u' du = omega * mean of (du/dtau)^2
     energy       sqrt(2 E),  E from dE = omega dJ
 
+The last two need u' to be the momentum of u, so they exist for forces f(u) only: with terms in u' the area in the plane
+of u and u' is no action, and what is conserved, such as u'^2/2 + u'^4/4 + u^2/2 for (1 + u'^2) u'' + u = 0, is fixed
+only up to a function of itself.
+
 All equal each other as they tend to zero and differ from the second order on, so the name travels with the number.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
 from symbolic import truncated
 from symbolic.errors import InputError
 from symbolic.fourier import Trig, at_zero, constant, dot, harmonic
+from symbolic.parse import V
 from symbolic.spaces import Scalar
+
+if TYPE_CHECKING:
+    from symbolic.oscillator import Oscillator
 
 MEANINGS = {
     "peak": "the positive turning point of u",
     "trough": "the size of the negative turning point of u",
     "fundamental": "the size of the first harmonic of u",
-    "action": "sqrt(2 J / k), with J the loop integral of u' du over 2 pi",
-    "energy": "sqrt(2 E) / k, with E the energy above the equilibrium",
+    "action": "sqrt(2 J / k), with J the loop integral of u' du over 2 pi, for forces without u'",
+    "energy": "sqrt(2 E) / k, with E = u'^2/2 + V(u) above the equilibrium, for forces without u'",
 }
 DEFINITIONS = tuple(MEANINGS)
+CANONICAL = ("action", "energy")
+"""Those that need u' to be the momentum of u."""
 
 
 def check_definition(amplitude: str, allowed: Sequence[str] = DEFINITIONS) -> str:
@@ -43,6 +54,54 @@ def check_definition(amplitude: str, allowed: Sequence[str] = DEFINITIONS) -> st
     if amplitude not in allowed:
         raise InputError(f"amplitude {amplitude!r} is not available here; use {' or '.join(allowed)}")
     return amplitude
+
+
+def check_amplitude(oscillator: Oscillator, amplitude: str, allowed: Sequence[str] = DEFINITIONS) -> str:
+    """Return the definition of the amplitude A that this oscillator is to be expanded in.
+
+    Raises InputError as ``check_definition``, for ``action`` and ``energy`` where the force holds u', and where a
+    parameter is called A.
+
+    >>> from symbolic.systems import find
+    >>> check_amplitude(find("pendulum"), "energy")
+    'energy'
+    """
+    check_definition(amplitude, allowed)
+    check_name(oscillator, "A")
+    if oscillator.substituted_force.has(V):
+        check_velocity(oscillator.name, amplitude)
+    return amplitude
+
+
+def check_velocity(name: str, amplitude: str) -> None:
+    """Raise InputError for a definition that a force with terms in u' does not have.
+
+    >>> check_velocity("mine", "energy")
+    Traceback (most recent call last):
+        ...
+    symbolic.errors.InputError: mine has terms in u', for which amplitude 'energy' is not defined (u' is not ...
+    """
+    if amplitude in CANONICAL:
+        raise InputError(
+            f"{name} has terms in u', for which amplitude {amplitude!r} is not defined (u' is not the momentum of u "
+            "then); use peak, trough or fundamental"
+        )
+
+
+def check_name(oscillator: Oscillator, variable: str) -> None:
+    """Raise InputError where a parameter has the name that the amplitude is printed by.
+
+    >>> from symbolic.oscillator import Oscillator
+    >>> check_name(Oscillator.from_equation("u'' + u + A*u**3", name="mine"), "A")
+    Traceback (most recent call last):
+        ...
+    symbolic.errors.InputError: mine: the parameter A has the name of the amplitude in the result; rename it, e.g. A1
+    """
+    if variable in oscillator.parameters:
+        raise InputError(
+            f"{oscillator.name}: the parameter {variable} has the name of the amplitude in the result; "
+            f"rename it, e.g. {variable}1"
+        )
 
 
 def measured(definition: str, waveform: Sequence[Trig], omega: Sequence[Scalar]) -> list[Scalar]:

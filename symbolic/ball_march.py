@@ -19,7 +19,7 @@ from typing import Final
 from flint import arb, ctx
 
 from symbolic import checkpoint as file
-from symbolic.amplitude import check_definition
+from symbolic.amplitude import check_amplitude
 from symbolic.ball_expansion import BallExpansion, log2, missing_bits
 from symbolic.checkpoint import Checkpoint, Tape
 from symbolic.cost import Budget, check
@@ -71,7 +71,7 @@ def lindstedt_in_balls(
     '0.0055338541666666666667'
     """
     order = check_order(order)
-    check_definition(amplitude, DIRECT)
+    check_amplitude(oscillator, amplitude, DIRECT)
     _check_digits(digits)
     _check_numbers(oscillator)
     check("balls", order, budget or Budget())
@@ -232,7 +232,8 @@ def _check_digits(digits: object) -> None:
 
 def _check_numbers(oscillator: Oscillator) -> None:
     natural = oscillator.normalised()
-    force = natural.force if oscillator.kind == "limit-cycle" else natural.bound
+    force = natural.force if oscillator.kind == "limit-cycle" else natural.rational
     names = sorted(set(free_names(force)) - {oscillator.small})
     if names:
-        raise InputError(f"{oscillator.name} has {', '.join(names)} as symbols; balls need a number for each of them")
+        held = ", ".join(str(natural.constants.get(name, name)) for name in names)
+        raise InputError(f"{oscillator.name} has {held} in its equation; balls need a rational number for each of them")

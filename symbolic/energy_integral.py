@@ -16,7 +16,7 @@ import sympy
 from flint import fmpq
 
 from symbolic import truncated
-from symbolic.amplitude import check_definition
+from symbolic.amplitude import check_amplitude
 from symbolic.cost import Budget, check
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion, check_order
@@ -43,9 +43,9 @@ def energy_integral(
     (1, 0, -1/16, 0, 1/3072)
     """
     order = check_order(order)
-    check_definition(amplitude, ALLOWED)
+    check_amplitude(oscillator, amplitude, ALLOWED)
     natural = oscillator.normalised()
-    force, names = natural.bound, free_names(natural.bound)
+    force, names = natural.rational, free_names(natural.rational)
     if force.has(V):
         raise InputError(
             f"{oscillator.name} has terms in u', so its energy is not conserved in this form; "
@@ -72,6 +72,7 @@ def energy_integral(
         amplitude_coefficients=None,
         residual_of=None,
         names=names,
+        constants=natural.constants,
     )
 
 

@@ -8,8 +8,8 @@ The coefficients ``c_n`` are held in units where k = 1; ``frequency`` gives them
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -18,13 +18,12 @@ import sympy
 from flint import arb, fmpq
 
 from symbolic import truncated
-from symbolic.amplitude import check_definition, measured, same_definition
+from symbolic.amplitude import check_definition, check_velocity, measured, same_definition
 from symbolic.balls import natural_frequency
 from symbolic.errors import InputError
 from symbolic.fourier import Trig, degree, harmonic
 from symbolic.rendering import as_sympy, long_integers, mathml
 from symbolic.spaces import Scalar
-from symbolic.structure import SQUARED_INVERSE
 
 
 @dataclass(frozen=True)
@@ -70,7 +69,11 @@ class Expansion:
     residual_of: Callable[[Expansion], list[int]] | None
     """Substitutes the expansion into its equation."""
     names: tuple[str, ...] = ()
-    """Parameters left symbolic."""
+    """Symbols that the coefficients hold: parameters without a value, and those of ``constants``."""
+    constants: Mapping[str, sympy.Expr] = field(default_factory=dict)
+    """Values of the symbols that stand for irrational numbers and for 1/k^2; see ``oscillator.Normalised``."""
+    velocity: bool = False
+    """Whether the force holds u', so that two amplitude definitions do not exist."""
 
     @cached_property
     def frequency(self) -> tuple[sympy.Expr, ...]:
@@ -91,14 +94,14 @@ class Expansion:
     def exact(self, coefficient: Scalar) -> sympy.Expr:
         """A coefficient in natural units as an expression in the parameters left symbolic, k among them."""
         value = as_sympy(coefficient, self.names)
-        if SQUARED_INVERSE not in self.names:
+        if not self.constants:
             return value
-        return sympy.expand(value.subs(sympy.Symbol(SQUARED_INVERSE, real=True), self.scale**-2))
+        return sympy.expand(value.subs({sympy.Symbol(name, real=True): c for name, c in self.constants.items()}))
 
     @property
     def held(self) -> tuple[str, ...]:
         """Parameters left symbolic, by the names that the equation has for them."""
-        own = {name for name in self.names if name != SQUARED_INVERSE}
+        own = {name for name in self.names if name not in self.constants}
         return tuple(sorted(own | {str(symbol) for symbol in self.scale.free_symbols}))
 
     @cached_property
@@ -137,6 +140,10 @@ class Expansion:
         It encloses the series, not the exact frequency.  Raises InputError when a parameter is still symbolic.
         """
         if not all(isinstance(c, fmpq) for c in self.coefficients):
+            if not self.held:
+                raise InputError(
+                    "the coefficients are irrational; give the equation's numbers as decimals to enclose it"
+                )
             raise InputError(f"the coefficients hold {', '.join(self.held)} as symbols; set them before evaluating")
         k, total = natural_frequency(self.scale), arb(0)
         x = value / k if self.scaled_variable else value
@@ -179,6 +186,8 @@ class Expansion:
         """
         if check_definition(definition) == self.amplitude:
             return self
+        if self.velocity:
+            check_velocity(self.system, definition)
         if self.variable != "A" or self.waveform is None:
             raise InputError(f"this {self.method} expansion cannot be converted; derive it as {definition!r} instead")
         new_of_old = measured(definition, self.waveform, self.coefficients)

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from flint import fmpq
 
-from symbolic.amplitude import DEFINITIONS, check_definition
+from symbolic.amplitude import DEFINITIONS, check_amplitude
 from symbolic.cost import Budget, check
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion, check_order
@@ -47,7 +47,7 @@ def lindstedt(
     (1, 0, -1/16, 0, 17/3072)
     """
     order = check_order(order)
-    check_definition(amplitude, DIRECT if oscillator.kind == "limit-cycle" else DEFINITIONS)
+    check_amplitude(oscillator, amplitude, DIRECT if oscillator.kind == "limit-cycle" else DEFINITIONS)
     budget = budget or Budget()
     if oscillator.kind == "limit-cycle":
         check("limit-cycle", order, budget)
@@ -59,7 +59,7 @@ def lindstedt(
 
 def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Budget) -> Expansion:
     natural = oscillator.normalised()
-    force, names = natural.bound, free_names(natural.bound)
+    force, names = natural.rational, free_names(natural.rational)
     check("lindstedt", order, budget, parameters=len(names))
     march = march_family(oscillator, order, amplitude, space_for(names))
     return Expansion(
@@ -75,6 +75,8 @@ def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Bu
         amplitude_coefficients=None,
         residual_of=lambda e: residual(e, force, {}),
         names=names,
+        constants=natural.constants,
+        velocity=force.has(V),
     )
 
 
@@ -89,7 +91,7 @@ def march_family(
     >>> march_family(find("duffing"), 2, "peak", space_for(())).omega
     [1, 0, 3/8]
     """
-    force = oscillator.normalised().bound
+    force = oscillator.normalised().rational
     program = compiled(force, space.names, constant(space, fmpq(0)))
     if program.root.slope_v:
         raise InputError(_no_family(oscillator))

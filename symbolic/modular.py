@@ -20,7 +20,7 @@ from pathlib import Path
 
 from flint import fmpq, fmpz, nmod
 
-from symbolic.amplitude import check_definition
+from symbolic.amplitude import check_amplitude
 from symbolic.cost import Budget, check
 from symbolic.errors import InputError
 from symbolic.expansion import Expansion, check_order, first_harmonic
@@ -99,11 +99,13 @@ def lindstedt_by_primes(
     (1, 0, -1/16, 0, 17/3072)
     """
     order = check_order(order)
-    check_definition(amplitude, DIRECT)
+    check_amplitude(oscillator, amplitude, DIRECT)
     natural = oscillator.normalised()
     cycle = oscillator.kind == "limit-cycle"
-    if set(free_names(natural.force if cycle else natural.bound)) - {oscillator.small}:
-        raise InputError(f"{oscillator.name} has symbolic parameters; the primes need a number for each of them")
+    if set(free_names(natural.force if cycle else natural.rational)) - {oscillator.small}:
+        raise InputError(
+            f"{oscillator.name} has parameters without a rational number; the primes need one for each of them"
+        )
     check(law(oscillator), order, budget or Budget(), workers=workers)
     identity, work = _identity(oscillator, order, amplitude), partial(residues, oscillator, order, amplitude)
     saved = read(checkpoint, identity) if checkpoint is not None and checkpoint.exists() else Gathered(())

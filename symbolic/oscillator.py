@@ -15,11 +15,13 @@ from typing import Any, Literal, TypeAlias
 import sympy
 
 from symbolic.errors import InputError
+from symbolic.irrational import named
 from symbolic.origin import brief, sign_at_origin, value_at_origin
 from symbolic.parameters import Parameters, Value, merged
 from symbolic.parse import U, V, W, names, parse_equation, parse_expression, to_sympy
 from symbolic.potential import checked_potential, potential_of
 from symbolic.structure import (
+    SQUARED_INVERSE,
     damping_name,
     divided,
     in_natural_units,
@@ -49,8 +51,7 @@ class Normalised:
     ``force`` is f(u, k*u')/k**2 with every parameter inserted except two that engines expand in and that therefore
     stay as symbols: the linear damping ``mu`` (here standing for mu/k) and the limit cycle's ``eps`` (for eps/k).
     All coefficients are rational when the parameters are and odd powers of u' carry mu or eps.
-    ``bound`` is the same force with those two inserted as well, and SQUARED_INVERSE (see ``structure``) for 1/k**2
-    where a symbolic k does not scale out.  ``scale`` is k.
+    ``bound`` is the same force with those two inserted as well.  ``scale`` is k.
     """
 
     force: sympy.Expr
@@ -62,6 +63,10 @@ class Normalised:
     """The value of eps/k of a limit cycle, None elsewhere."""
     potential: sympy.Expr | None
     """Potential of the restoring force in natural units, V(u)/k**2."""
+    rational: sympy.Expr
+    """``bound`` with symbols for irrational numbers and for 1/k**2 where a symbolic k does not scale out."""
+    constants: Mapping[str, sympy.Expr]
+    """The values of those symbols by their names, which no parameter can have."""
 
 
 @dataclass(frozen=True)
@@ -242,13 +247,18 @@ class Oscillator:
         force = self._inserted(self.force, keep=kept).subs({V: k * V, **{s: k * s for s in symbols.values()}})
         values = {name: self._inserted(symbol) / k for name, symbol in symbols.items()}
         potential = self.substituted_potential
+        bound = force.subs({symbols[name]: value for name, value in values.items()})
+        rational = named(in_natural_units(bound, self.stiffness))
+        constants = {**rational.values, SQUARED_INVERSE: 1 / self.stiffness}
         return Normalised(
             force=divided(force, self.stiffness),
-            bound=in_natural_units(force.subs({symbols[name]: v for name, v in values.items()}), self.stiffness),
+            bound=divided(bound, self.stiffness),
             scale=k,
             damping=values.get(self.damping or "", sympy.S.Zero),
             small=values.get(self.small or ""),
             potential=None if potential is None else divided(potential, self.stiffness),
+            rational=rational.force,
+            constants={name: constants[name] for name in sorted(constants) if rational.force.has(_symbol(name))},
         )
 
     def _inserted(self, expression: sympy.Expr, keep: list[str] | None = None) -> sympy.Expr:

@@ -14,7 +14,6 @@ from symbolic.errors import InputError
 from symbolic.ordering import UNITS
 from symbolic.rendering import as_sympy
 from symbolic.slow_flow import rows
-from symbolic.structure import SQUARED_INVERSE
 
 if TYPE_CHECKING:
     from symbolic.expansion import Expansion
@@ -35,10 +34,16 @@ def expansion_form(expansion: Expansion, *, equation: str = "", limit: float | N
     Parameters left symbolic become arguments; the natural frequency is then a number in the coefficients, since they
     hold for that one only.
     """
-    if SQUARED_INVERSE in expansion.names:
+    if expansion.scale.free_symbols and expansion.constants:
         raise InputError(
             f"{expansion.system}: the natural frequency {expansion.scale} does not scale out of every term, so no code "
             "takes it as an argument; give it a number"
+        )
+    if expansion.constants:
+        numbers = ", ".join(map(str, expansion.constants.values()))
+        raise InputError(
+            f"{expansion.system}: the coefficients hold the irrational {numbers}, and code is made from rational ones; "
+            "give that number as a decimal"
         )
     variable = variable_name(expansion.variable)
     units = {variable: 1} if expansion.scaled_variable else {}
