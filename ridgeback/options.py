@@ -82,7 +82,8 @@ def expansion_options(command: Decorated) -> Decorated:
             "--amplitude",
             type=click.Choice(AMPLITUDES),
             default=None,
-            help="A turning point (peak, trough), the first harmonic (fundamental), sqrt(2J/k) or sqrt(2E)/k.",
+            help="A turning point (peak, trough) or the first harmonic (fundamental); for forces without u' also "
+            "sqrt(2J/k) (action) and sqrt(2E)/k (energy).",
         ),
         click.option(
             "--method",

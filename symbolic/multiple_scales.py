@@ -27,6 +27,7 @@ from typing import Final
 import sympy
 from flint import fmpq
 
+from symbolic.amplitude import check_name
 from symbolic.cost import Budget, check
 from symbolic.expansion import check_order
 from symbolic.fourier import Trig, constant, cosine, harmonic, sine, solve_oscillator
@@ -64,6 +65,7 @@ def multiple_scales(
     -c/2
     """
     order = check_order(order)
+    check_name(oscillator, "a")
     natural = ordered(oscillator, weight=weight, weights=weights)
     counted = tuple(natural.weights.get(name, COEFFICIENT) for name in natural.names)
     check("multiple-scales", order, budget or Budget(), weights=counted)
