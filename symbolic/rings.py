@@ -63,7 +63,12 @@ class TrigRing:
 
     def invert(self, element: Trig) -> Trig:
         value = self._constant(element)
-        if value is None or value == 0:
+        if value is None:
+            raise InputError(
+                "a denominator, log or root holds what oscillates from order 0 on, as u and u' of a limit cycle do, or a "
+                "parameter; use --method multiple-scales, or give the parameter a number"
+            )
+        if value == 0:
             raise InputError(
                 "a denominator, log or root does not start from a nonzero rational number at the equilibrium; "
                 "no power series exists there"
@@ -76,6 +81,11 @@ class TrigRing:
             return constant(self.space, fmpq(_AT_ZERO[name]))
         if value == 1 and name == "log":
             return constant(self.space, fmpq(0))
+        if value is None:
+            raise InputError(
+                f"{name} is taken of what oscillates from order 0 on, as u and u' of a limit cycle do, and has no "
+                "finite Fourier series there; use --method multiple-scales"
+            )
         raise InputError(
             f"{name} is taken of something that is not {1 if name == 'log' else 0} at the equilibrium, so its series "
             "has irrational coefficients; shift the argument or use the numeric verbs"
