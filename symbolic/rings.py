@@ -65,8 +65,8 @@ class TrigRing:
         value = self._constant(element)
         if value is None:
             raise InputError(
-                "a denominator, log or root holds what oscillates from order 0 on, as u and u' of a limit cycle do, or a "
-                "parameter; use --method multiple-scales, or give the parameter a number"
+                "a denominator, log or root holds what oscillates from order 0 on, as u and u' of a limit cycle do, "
+                "or a parameter; use --method multiple-scales, or give the parameter a number"
             )
         if value == 0:
             raise InputError(
