@@ -26,4 +26,13 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 def row(series: str, found: dict[str, Any]) -> str:
     """One line: both medians in seconds and their ratio."""
     hand, ours = found["by hand"], found["Ridgeback"]
-    return f"| {series} | {hand:.2g} s | {ours:.2g} s | {ours / hand:.2g} |\n"
+    return f"| {series} | {seconds(hand)} | {seconds(ours)} | {ours / hand:.2g} |\n"
+
+
+def seconds(value: float) -> str:
+    """Two digits.
+
+    >>> seconds(0.1234), seconds(437.2)
+    ('0.12 s', '440 s')
+    """
+    return f"{float(f'{value:.2g}'):g} s"
