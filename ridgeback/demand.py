@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from ridgeback.demand_options import OPTIONS
+from ridgeback.output import keep_apart
 
 Command = Callable[..., None]
 
@@ -27,6 +28,7 @@ NEEDS = {
     "points": ("transient",),
     "transient": ("until",),
 }
+CERTIFIED = ("text", "json")  # the forms that show a certificate
 # Not of the expansion that is printed, so that a certificate would be of something else.
 UNVERIFIED = ("resummed", "transient", "harmonics")
 NOT_AT = ("transient", "harmonics")
@@ -71,6 +73,8 @@ class Demand:
             raise click.UsageError(f"--{uses[0]} and --{uses[1]} exclude each other; keep one")
         if self.verify and uses and uses[0] in UNVERIFIED:
             raise click.UsageError(f"--verify certifies an expansion, not what --{uses[0]} makes of it; keep one")
+        if self.verify and self.style not in CERTIFIED:
+            raise click.UsageError(f"--format {self.style} shows no certificate; use text or json, or leave --verify out")
         if self.asked("at") and uses and uses[0] in NOT_AT:
             raise click.UsageError(f"--at and --{uses[0]} exclude each other; keep one")
         self._check_form("at" if self.asked("at") else uses[0] if uses else "")
@@ -91,6 +95,7 @@ def demanding(command: Command) -> Command:
     def wrapped(**options: Any) -> None:
         demand = Demand(**{item.name: options.pop(item.name) for item in fields(Demand)})
         demand.check()
+        keep_apart({"-o": options.get("output"), "--checkpoint": demand.checkpoint})
         command(demand=demand, **options)
 
     for option in reversed(OPTIONS):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from ridgeback.model_options import MODEL_FIT
 from ridgeback.output import json_text
 from ridgeback.tables import aligned, csv_text, readable
 
@@ -57,7 +58,7 @@ def one_json(one: Measurement, *, backbone: bool) -> dict[str, Any]:
         "method": one.method,
         "settings": about(one.recording, one.found.settings),
         "recording": {"run": one.recording.run, "stretch": one.recording.stretch, **one.recording.facts},
-        "notes": [*one.notes],
+        "notes": [*one.notes, *misfit(one)],
     }
     if not backbone:
         whole["track"] = one.rows()
@@ -67,6 +68,24 @@ def one_json(one: Measurement, *, backbone: bool) -> dict[str, Any]:
         whole["offset"] = curve.offset
         whole["backbone"] = curve.rows()
     return whole
+
+
+def misfit(one: Measurement) -> tuple[str, ...]:
+    """The sentence that a fitted oscillator is not what made the signal, where its residual says so."""
+    settings = one.found.settings
+    if one.method != MODEL_FIT or settings["residual_white"] is not False:
+        return ()
+    chance = settings["residual_probability"]
+    return (
+        f"Misfit: what the {settings['oscillator']} leaves of the signal is no white noise (probability {chance:.1g}), "
+        "so it is not the oscillator that made it; free more parameters or name another.",
+    )
+
+
+def asides(one: Measurement) -> list[str]:
+    """What a table of numbers has no room for: the notes, and why there is no interval."""
+    reason = one.found.settings.get("no_interval")
+    return [*one.notes, *([] if reason is None else [f"No interval: {reason}."])]
 
 
 def as_csv(found: Survey, *, backbone: bool) -> str:
@@ -102,7 +121,7 @@ def one_text(one: Measurement, *, backbone: bool) -> str:
     """Heading, notes and table of one signal."""
     rows = rows_of(one, backbone=backbone)
     table = aligned(list(columns_of(rows)), rows) if rows else "no rows"
-    notes = "".join(f"\n{note}" for note in one.notes)
+    notes = "".join(f"\n{note}" for note in (*one.notes, *misfit(one)))
     return f"{heading(one)}{notes}\n\n{table}\n"
 
 

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ridgeback.failure import PartialError
 from ridgeback.monte_carlo import uncertain
-from ridgeback.output import json_text, output_path, write_text
+from ridgeback.output import json_text, keep_apart, output_path, write_text
 from ridgeback.progress import Progress
 from ridgeback.tables import aligned, csv_text
 
@@ -49,7 +48,8 @@ def estimator_options(command: Decorated) -> Decorated:
 
 
 def estimators_verb(*, trials: int | None, seed: int, checkpoint: str | None, style: str, output: str) -> None:
-    """Run the study and write its table."""
+    """Run the study and write its table; what an interrupt leaves is written too, and called partial."""
+    keep_apart({"-o": output, "--checkpoint": checkpoint})
     from compare.estimator_study import TRIALS, estimator_study
 
     with Progress() as progress:
@@ -58,9 +58,24 @@ def estimators_verb(*, trials: int | None, seed: int, checkpoint: str | None, st
         )
     write_text(output, study_text(study, style))
     if not study.complete:
-        raise PartialError(
-            f"interrupted after {len(study.results)} cases; give --checkpoint FILE to go on from there the next time"
-        )
+        raise KeyboardInterrupt(f"{stopped(study)}; {onward(checkpoint)}")
+
+
+def stopped(study: EstimatorStudy) -> str:
+    """How far an interrupted study came."""
+    count = len(study.results)
+    return f"interrupted after {count} case{'' if count == 1 else 's'}: the table is partial"
+
+
+def onward(checkpoint: str | None) -> str:
+    """How to go on after an interrupt.
+
+    >>> onward(None), onward("cases.json")
+    ('with --checkpoint FILE the next run could go on from here', 'run the same command again to go on from cases.json')
+    """
+    if checkpoint is None:
+        return "with --checkpoint FILE the next run could go on from here"
+    return f"run the same command again to go on from {checkpoint}"
 
 
 def study_text(study: EstimatorStudy, style: str) -> str:
@@ -71,9 +86,10 @@ def study_text(study: EstimatorStudy, style: str) -> str:
         rows = study.rows()
         return csv_text(list(rows[0]), rows)
     rows = [row_of(result) for result in study.results]
+    partial = "" if study.complete else f"\n{stopped(study).capitalize()}.\n"
     if style == "markdown":
-        return markdown(list(rows[0]), rows)
-    return heading(study) + "\n\n" + aligned(list(rows[0]), rows) + "\n"
+        return markdown(list(rows[0]), rows) + partial
+    return heading(study) + "\n\n" + aligned(list(rows[0]), rows) + "\n" + partial
 
 
 def heading(study: EstimatorStudy) -> str:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ridgeback.arguments import number, shown, written
-from ridgeback.failure import PartialError
 from ridgeback.output import json_text, write_text
 from ridgeback.progress import Progress
 from ridgeback.tables import aligned, csv_text
@@ -40,8 +39,15 @@ def ratios(text: str) -> tuple[float, ...]:
 
 
 def monte_carlo_options(command: Decorated) -> Decorated:
-    """``--monte-carlo``, ``--snr`` and ``--seed``."""
+    """``--monte-carlo``, ``--snr``, ``--seed`` and ``--workers``."""
     for option in (
+        click.option(
+            "--workers",
+            type=click.IntRange(1, 1024),
+            default=None,
+            metavar="N",
+            help="With --monte-carlo: N processes at a time; the table is the same.  Default: 1.",
+        ),
         click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the noise."),
         click.option(
             "--snr",
@@ -97,16 +103,18 @@ def monte_carlo_verb(
     lag: float | None,
     model: Model,
     remove_bias: bool,
+    workers: int,
     style: str,
     output: str,
 ) -> None:
     """Run the study and write its table; ``method`` is ``auto`` for all, or names with commas between."""
     from compare.noise import METHODS, TRIALS, monte_carlo
+    from symbolic.pool import processes
 
     oscillator = model.oscillator()
     if source is None and oscillator is not None:
         source = simulated(oscillator)
-    with Progress() as progress:
+    with Progress() as progress, processes(workers) as executor:
         study = monte_carlo(
             source,
             methods=METHODS if method == "auto" else tuple(word.strip() for word in method.split(",")),
@@ -118,12 +126,13 @@ def monte_carlo_verb(
             remove_bias=remove_bias,
             oscillator=oscillator,
             free=() if oscillator is None else model.to_find(oscillator),
+            executor=executor,
             progress=progress,
         )
     write_text(output, study_text(study, style))
     if not study.complete:
         fewest = min(cell.trials for cell in study.cells)
-        raise PartialError(f"interrupted: {fewest} or more of {study.trials} trials were done in each cell")
+        raise KeyboardInterrupt(f"interrupted: {fewest} or more of {study.trials} trials were done in each cell")
 
 
 def simulated(oscillator: Oscillator) -> Truth:

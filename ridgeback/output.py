@@ -8,7 +8,7 @@ import math
 import os
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -48,6 +48,28 @@ def check_writable(path: str) -> None:
     refused = target if target.exists() and not target.is_file() else folder
     if not os.access(refused, os.W_OK):
         raise PermissionError(errno.EACCES, "No permission to write", path)
+
+
+def keep_apart(written: Mapping[str, str | None], read: Iterable[str | None] = ()) -> None:
+    """Refuse two outputs in one file, and an output over a file that is read; ``written`` is by option.
+
+    Raises click.UsageError before the work starts.  Devices and pipes lose nothing and are let through.
+
+    >>> keep_apart({"-o": "out.svg", "--plot": "./out.svg"})
+    Traceback (most recent call last):
+        ...
+    click.exceptions.UsageError: --plot './out.svg' is the file of -o too; give each a name of its own
+    """
+    taken = {Path(path).resolve(): "a file that is read" for path in read if path is not None}
+    for option, path in written.items():
+        if path is None or path == STDOUT:
+            continue
+        target = Path(path).resolve()
+        if target.exists() and not target.is_file():
+            continue
+        if target in taken:
+            raise click.UsageError(f"{option} '{path}' is {taken[target]} too; give each a name of its own")
+        taken[target] = f"the file of {option}"
 
 
 def write_text(path: str, text: str) -> None:

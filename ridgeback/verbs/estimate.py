@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import click
 
-from ridgeback.estimation import survey_text
+from ridgeback.estimation import asides, misfit, survey_text
 from ridgeback.estimator_options import Estimator, estimator_options
 from ridgeback.failure import PartialError, say
 from ridgeback.model_options import MODEL_FIT, Model, model_options
 from ridgeback.monte_carlo import monte_carlo_options, monte_carlo_verb, trials_and_file
 from ridgeback.options import format_option, output_option
-from ridgeback.output import write_bytes, write_text
+from ridgeback.output import keep_apart, write_bytes, write_text
 from ridgeback.plot import plot_option
 from ridgeback.progress import Progress
 from ridgeback.recording_options import Reading, reading_options
@@ -56,6 +57,7 @@ def command(
     monte_carlo: str | None,
     snr: tuple[float, ...],
     seed: int,
+    workers: int | None,
     style: str,
     output: str,
 ) -> None:
@@ -95,6 +97,7 @@ def command(
             raise click.UsageError("--monte-carlo is about the track of the fundamental; leave out what else is asked")
         refuse_beside(estimator, "--monte-carlo", "method", "band", "lag_seconds", "remove_bias")
         trials, file = trials_and_file(monte_carlo, files[0] if files else None)
+        keep_apart({"-o": output}, [file])
         monte_carlo_verb(
             None if file is None else reading.one(file),
             trials=trials,
@@ -105,12 +108,16 @@ def command(
             lag=estimator.lag,
             model=model,
             remove_bias=estimator.remove_bias,
+            workers=workers or 1,
             style=style,
             output=output,
         )
         return
+    if workers is not None:
+        raise click.UsageError("--workers belongs to --monte-carlo; leave it out")
     if not files:
         raise click.UsageError("name the FILE of a recording; only --monte-carlo goes without one")
+    keep_apart({"-o": output, "--plot": plot}, files)
     estimator = replace(estimator, model=model)
     if estimator.method == MODEL_FIT:
         refuse_beside(estimator, "--method model-fit", "method", "band", "family")
@@ -124,7 +131,7 @@ def command(
     write_text(output, survey_text(found, style, backbone=backbone_wanted))
     if style == "csv":
         tell(found)
-    own_up(found)
+    own_up(found, backbone=backbone_wanted)
 
 
 def refuse_beside(estimator: Estimator, option: str, *names: str) -> None:
@@ -175,18 +182,33 @@ def check_backbones(found: Survey) -> None:
 def tell(found: Survey) -> None:
     """Say on standard error what a table of numbers has no room for."""
     for one in found.measured:
-        for note in one.recording.notes:
+        for note in asides(one):
             say(f"{one.recording.label}: {note}")
     for note in found.notes:
         say(note)
 
 
-def own_up(found: Survey) -> None:
+def own_up(found: Survey, *, backbone: bool) -> None:
     """Raise PartialError where a signal gave nothing, or nothing that its estimator vouches for."""
-    if found.failed:
-        raise PartialError(f"the rest is written, but gave no result: {'; '.join(found.failed)}")
+    reasons = [f"{one.recording.label}: {said.rstrip('.')}" for one in found.measured for said in misfit(one)]
+    reasons += [
+        f"{one.recording.label}: {one.method} found no sample it can vouch for; give a longer recording or a "
+        "shorter --lag"
+        for one in found.measured
+        if not one.usable
+    ]
+    missing = [*found.failed, *(without_backbone(found) if backbone else ())]
+    if missing:
+        reasons.append(f"the rest is written, but gave no result: {'; '.join(missing)}")
+    if reasons:
+        raise PartialError("; ".join(reasons))
+
+
+def without_backbone(found: Survey) -> Iterator[str]:
+    """Every signal of which no stretch gave a backbone, with the reason."""
+    from compare.measurement import signal_of
+
+    given = {signal_of(one.recording) for one in found.measured if one.backbone is not None}
     for one in found.measured:
-        if not one.usable:
-            raise PartialError(
-                f"{one.method} found no sample it can vouch for; give a longer recording or a shorter --lag"
-            )
+        if signal_of(one.recording) not in given:
+            yield f"{one.recording.label}: no backbone, {one.notes[-1].rstrip('.')}"

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ridgeback.arguments import PAIR, POSITIVE
+from ridgeback.arguments import POSITIVE, pair, shown, written
 from ridgeback.failure import PartialError
 from ridgeback.options import format_option, output_option
-from ridgeback.output import json_text, write_text
+from ridgeback.output import json_text, keep_apart, write_text
 from ridgeback.progress import Progress
 from ridgeback.recording_options import Reading, Treatment, treatment_options
 from ridgeback.tables import aligned, csv_text, readable
@@ -28,6 +28,22 @@ def names(text: str | None) -> tuple[str, ...] | None:
     ('linear', 'pendulum')
     """
     return None if text is None else tuple(word.strip() for word in text.split(",") if word.strip())
+
+
+def interval(text: str) -> tuple[float, float]:
+    """Two times, the earlier first.
+
+    >>> interval("0,40")
+    (0.0, 40.0)
+    >>> interval("5,1")
+    Traceback (most recent call last):
+        ...
+    ValueError: '5,1' is no span of time: FROM must be below TO; write for example 1,5
+    """
+    begin, end = pair(text)
+    if not begin < end:
+        raise ValueError(f"{shown(text)} is no span of time: FROM must be below TO; write for example 1,5")
+    return begin, end
 
 
 @click.command("identify", short_help="Say which oscillator made a decay.")
@@ -50,7 +66,7 @@ def names(text: str | None) -> tuple[str, ...] | None:
 @click.option(
     "--criterion", type=click.Choice(("bic", "aicc")), default="bic", show_default=True, help="What ranks them."
 )
-@click.option("--span", type=PAIR, default=None, metavar="FROM,TO", help="Use these times only.")
+@click.option("--span", type=written(interval), default=None, metavar="FROM,TO", help="Use these times only.")
 @click.option(
     "--predict-from", type=POSITIVE, default=None, metavar="CYCLES", help="Fit these cycles and predict the rest too."
 )
@@ -80,6 +96,7 @@ def command(
     ridgeback identify decay.csv --candidates linear,pendulum,duffing-softening --format json
     ridgeback identify decay.csv --span 0,40 --predict-from 20
     """
+    keep_apart({"-o": output}, [file])
     recording = Reading(column, time_column, rate, treatment=treatment).one(file)
     with Progress() as progress:
         found = identified(

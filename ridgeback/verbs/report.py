@@ -13,7 +13,7 @@ from ridgeback.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
 from ridgeback.choice import Choice, choosing
 from ridgeback.failure import PartialError, say
 from ridgeback.options import format_option, unique
-from ridgeback.output import STDOUT, json_text, output_path, write_text
+from ridgeback.output import STDOUT, json_text, keep_apart, output_path, write_text
 from ridgeback.progress import Progress
 from ridgeback.recording_options import Reading, Treatment, treatment_options
 
@@ -128,6 +128,7 @@ def command(
     """
     if trials == 1:
         raise click.UsageError("--trials 1 shows no spread; use at least 2, or 0 for no noise study")
+    keep_apart({"-o": output}, [recording])
     motion = Motion(choice, initial, duration, rate)
     scope = Scope(order, orders, amplitudes, target, trials)
     shown = as_typed(context.find_root().obj or ("report",))

@@ -19,6 +19,8 @@ from tests.face.conftest import Ridgeback
 RATE = 20.0
 T = np.arange(500) / RATE
 QUICK = ("--method", "pseudo-wigner")
+BAND = (*QUICK, "--band", "6,10")
+"""In noise too, where the band is no matter of the signal."""
 
 
 def decay(size: float = 1.0) -> np.ndarray:
@@ -40,7 +42,8 @@ def table(text: str) -> list[dict[str, str]]:
 
 def test_a_track_has_amplitude_and_damping_beside_frequency(ridgeback: Ridgeback, tmp_path: Path) -> None:
     done = ridgeback("estimate", written(tmp_path / "a.csv", t=T, u=decay()), *QUICK, "--format", "csv")
-    assert (done.code, done.err) == (0, "")
+    assert done.code == 0
+    assert "mean of the samples" in done.err
     rows = [row for row in table(done.out) if row["amplitude"] and row["valid"] == "true"]
     assert len(rows) > 200
     for row in rows:
@@ -225,3 +228,89 @@ def test_a_report_reads_what_estimate_reads(
     assert ridgeback("report", "--recording", path, "--fill", "0.2", "--detrend", "linear").code == 2
     assert [recording.values.size for recording in seen] == [250, 500]
     assert seen[1].facts["detrend"] == "linear"
+
+
+def test_what_a_table_has_no_room_for_is_said(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    """Notes of the measurement and why there is no interval: those that JSON has, a line each beside CSV."""
+    noise = np.random.default_rng(1).standard_normal(T.size)
+    path = written(tmp_path / "a.csv", t=T, u=noise)
+    public = json.loads(ridgeback("estimate", path, *BAND, "--format", "json").out)
+    assert "No amplitude: " in public["notes"][-1]
+    reason = public["settings"]["no_interval"]
+    done = ridgeback("estimate", path, *BAND, "--format", "csv")
+    assert done.code == 0
+    wanted = [*public["notes"], f"No interval: {reason}."]
+    assert done.err.splitlines() == [f"ridgeback: a.csv, u: {note}" for note in wanted]
+
+
+@pytest.mark.parametrize("style", ["text", "json", "csv"])
+def test_a_signal_without_a_backbone_is_named(ridgeback: Ridgeback, tmp_path: Path, style: str) -> None:
+    noise = np.random.default_rng(1).standard_normal(T.size)
+    files = [written(tmp_path / "a.csv", t=T, u=decay()), written(tmp_path / "noise.csv", t=T, u=noise)]
+    done = ridgeback("estimate", *files, *BAND, "--backbone", "--format", style)
+    assert done.code == 3
+    last = done.err.splitlines()[-1]
+    assert "gave no result: noise.csv, u: no backbone, No amplitude: backbone: 0 points" in last
+    assert "a.csv, u: no backbone" not in last
+    assert "amplitude" in done.out
+    assert ridgeback("estimate", *files, *BAND, "--format", style).code == 0
+
+
+def test_a_stretch_without_a_backbone_is_a_note(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    x = decay()
+    x[250] = np.nan
+    x[251:] = np.random.default_rng(1).standard_normal(T.size - 251)
+    path = written(tmp_path / "a.csv", t=T, u=x)
+    done = ridgeback("estimate", path, *BAND, "--backbone", "--format", "csv")
+    assert done.code == 0
+    assert "a.csv, u, stretch 2: No amplitude: " in done.err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("-o", "z.svg", "--plot", "./z.svg"),
+        ("-o", "a.csv"),
+        ("-o", "link.csv"),
+        ("-o", "sub/../a.csv"),
+        ("--monte-carlo", "2", "-o", "a.csv"),
+    ],
+)
+def test_no_output_replaces_another_or_the_recording(
+    ridgeback: Ridgeback, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "sub").mkdir()
+    written(tmp_path / "a.csv", t=T, u=decay())
+    (tmp_path / "link.csv").symlink_to("a.csv")
+    before = (tmp_path / "a.csv").read_bytes()
+    done = ridgeback("estimate", "a.csv", *QUICK, *words)
+    assert done.code == 2
+    assert "give each a name of its own" in done.err
+    assert done.err.count("\n") == 1
+    assert (tmp_path / "a.csv").read_bytes() == before
+    assert not (tmp_path / "z.svg").exists()
+
+
+@pytest.mark.parametrize("verb", [("identify", "a.csv"), ("report", "--recording", "a.csv")])
+def test_no_verb_writes_over_its_recording(
+    ridgeback: Ridgeback, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, verb: tuple[str, ...]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    written(tmp_path / "a.csv", t=T, u=decay())
+    done = ridgeback(*verb, "-o", "a.csv")
+    assert done.code == 2
+    assert "-o 'a.csv' is a file that is read too" in done.err
+
+
+@pytest.mark.parametrize(
+    "verb", [("study", "--estimators"), ("derive", "pendulum", "--order", "8", "--digits", "20")], ids=lambda v: v[0]
+)
+def test_a_checkpoint_is_no_output(
+    ridgeback: Ridgeback, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, verb: tuple[str, ...]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = ridgeback(*verb, "--checkpoint", "x.json", "-o", "x.json")
+    assert done.code == 2
+    assert "--checkpoint 'x.json' is the file of -o too" in done.err
+    assert not (tmp_path / "x.json").exists()

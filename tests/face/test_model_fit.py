@@ -56,3 +56,19 @@ def test_refusals(ridgeback: Ridgeback, decay: Path, words: str, message: str) -
     assert done.code == 2
     assert message in done.err
     assert done.err.count("\n") == 1
+
+
+@pytest.mark.parametrize("style", ["text", "json", "csv"])
+def test_a_misfit_is_said_and_not_certified(ridgeback: Ridgeback, decay: Path, style: str) -> None:
+    """A linear oscillator cannot have made a hardening decay: the results are printed, the exit code is 3."""
+    words = ["--method", "model-fit", "--equation", "u'' + 2*mu*u' + k**2*u = 0", "--set", "k=3.5", "--free", "k,mu"]
+    done = ridgeback("estimate", str(decay), *words, "--format", style)
+    assert done.code == 3
+    said = [line for line in done.err.splitlines() if line.startswith("ridgeback: run.csv, u: Misfit: ")]
+    assert said == done.err.splitlines()[-1:]
+    assert "omega_rad_s" in done.out
+    if style == "json":
+        found = json.loads(done.out)
+        assert any(note.startswith("Misfit: ") for note in found["notes"])
+        assert found["settings"]["residual_white"] is False
+    assert ("Misfit: " in done.out) is (style != "csv")

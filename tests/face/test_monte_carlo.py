@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from compare.noise_results import read_study
+from compare import noise
+from compare.noise_results import Trial, read_study
 from ridgeback.cli import main
 from ridgeback.monte_carlo import uncertain
 
@@ -67,6 +68,7 @@ def test_a_system_takes_the_place_of_a_file(capsys: pytest.CaptureFixture[str]) 
         (["--monte-carlo", "5", "--method", "pseudo-wigner,guess"], "method 'guess' is unknown"),
         (["--monte-carlo", "5", "--backbone"], "leave out what else is asked"),
         (["--monte-carlo", "99999", *QUICK], "over the budget"),
+        (["run.csv", "--workers", "2"], "--workers belongs to --monte-carlo"),
         ([], "name the FILE"),
     ],
 )
@@ -75,3 +77,24 @@ def test_refusals_are_one_line(words: list[str], message: str, capsys: pytest.Ca
     error = capsys.readouterr().err
     assert message in error
     assert error.count("\n") == 1
+
+
+def test_workers_give_the_same_table(capsys: pytest.CaptureFixture[str], recording: Path) -> None:
+    words = [str(recording), "--monte-carlo", "6", *QUICK, "--format", "json"]
+    assert printed(capsys, *words, "--workers", "2") == printed(capsys, *words)
+
+
+def test_an_interrupt_leaves_what_was_done(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    done = iter(range(3))
+
+    def pressed(work: noise.Work) -> list[Trial]:
+        if next(done) == 2:
+            raise KeyboardInterrupt
+        return run(work)
+
+    run = noise.run
+    monkeypatch.setattr(noise, "run", pressed)
+    assert main(["estimate", "--monte-carlo", "8", *QUICK, "--format", "csv"]) == 130
+    captured = capsys.readouterr()
+    assert "interrupted: 5 or more of 8 trials were done in each cell" in captured.err
+    assert [row["trials"] for row in csv.DictReader(io.StringIO(captured.out))] == ["5", "5"]

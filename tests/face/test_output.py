@@ -9,6 +9,7 @@ import stat
 from fractions import Fraction
 from pathlib import Path
 
+import click
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -112,3 +113,17 @@ def test_csv_floats_are_read_back_the_same(value: float) -> None:
         assert float(text).hex() == value.hex()
     else:
         assert text == ""
+
+
+def test_outputs_are_kept_apart_by_their_resolved_paths(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "real.csv").touch()
+    (tmp_path / "link.csv").symlink_to("real.csv")
+    output.keep_apart({"-o": "-", "--plot": None}, ["-", None])
+    output.keep_apart({"-o": "a.csv", "--plot": "b.svg"}, ["real.csv"])
+    output.keep_apart({"-o": os.devnull, "--checkpoint": os.devnull}, [os.devnull])
+    for other in ("link.csv", str(tmp_path / "real.csv")):
+        with pytest.raises(click.UsageError, match="is a file that is read too"):
+            output.keep_apart({"-o": other}, ["real.csv"])
+        with pytest.raises(click.UsageError, match="is the file of -o too"):
+            output.keep_apart({"-o": "real.csv", "--plot": other})
