@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
@@ -58,7 +60,7 @@ def _fitted(
         axes.vlines(x, values - 2 * sd, values + 2 * sd, color=sentinel("muted"), linewidth=0.9, zorder=3.5)
         for line in (*reversed(lines), points):
             draw(axes, line)
-        place(axes, lines)
+        place(axes, [*lines, replace(points, label="")])
 
     return block(
         key,
