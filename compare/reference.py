@@ -1,4 +1,7 @@
-"""The exact frequency that an expansion is held against: closed form and quadrature, or the periodic orbit."""
+"""The exact frequency that an expansion is held against: closed form and quadrature, or the periodic orbit.
+
+Where u' enters the conserved energy otherwise than as u'^2/2 it is the certified enclosure.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +14,10 @@ from compare.results import Array
 from numeric.dynamics import Dynamics
 from numeric.orbit import periodic_orbit
 from numeric.period import exact_frequency
+from symbolic.enclosure import enclose
 from symbolic.oscillator import Oscillator
+
+_BITS = 64
 
 
 @dataclass(frozen=True)
@@ -34,6 +40,17 @@ def conservative_reference(dynamics: Dynamics, peaks: Array) -> Exact:
         return Exact(table.omega, spread, "quadrature of the period")
     closed = dynamics.closed_form(peaks)
     return Exact(closed, np.abs(table.omega / closed - 1) + spread, "closed form, checked by quadrature")
+
+
+def enclosed_reference(oscillator: Oscillator, peaks: Array) -> Exact:
+    """Exact omega0 at peak amplitudes from certified enclosures, for forces a(u) + b(u) u'^2.
+
+    Raises InputError as ``symbolic.enclosure.enclose`` does.
+    """
+    found = [enclose(oscillator, float(peak), bits=_BITS).omega for peak in peaks]
+    omega = np.array([float(ball.mid()) for ball in found])
+    error = np.array([float(ball.rad() / ball) for ball in found]) + np.finfo(float).eps
+    return Exact(omega, error, "certified enclosure")
 
 
 def limit_cycle_reference(oscillator: Oscillator, strengths: Array) -> Exact:

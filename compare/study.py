@@ -16,17 +16,20 @@ from numpy.typing import ArrayLike
 
 from compare.bind import bind
 from compare.derivation import undamped
-from compare.reference import Exact, conservative_reference, limit_cycle_reference
+from compare.reference import Exact, conservative_reference, enclosed_reference, limit_cycle_reference
 from compare.results import Array, Range, Study
 from compare.truncations import METHODS, Method
 from numeric.dynamics import Dynamics
 from numeric.potential import peak_limit
+from symbolic.enclosure import separatrix
 from symbolic.errors import InputError
-from symbolic.oscillator import Oscillator, Value
+from symbolic.oscillator import Oscillator, V, Value
 
 MAX_CELLS = 200_000
 MAX_ORBITS = 100
 """Limit cycles: each value of eps costs one shooting, about half a second."""
+MAX_ENCLOSED = 2000
+"""Forces with u': each amplitude costs one certified enclosure, some hundredths of a second."""
 
 
 @dataclass(frozen=True)
@@ -156,9 +159,23 @@ def _reference(oscillator: Oscillator, grid: Array) -> tuple[float | None, Exact
     if oscillator.kind == "limit-cycle":
         return None, limit_cycle_reference(oscillator, grid)
     dynamics = bind(oscillator)
+    if dynamics.restoring is None and oscillator.substituted_force.has(V):
+        return _enclosed(oscillator, grid)
     limit = peak_limit(dynamics)
     _check_inside(dynamics, grid, limit)
     return (limit if math.isfinite(limit) else None), conservative_reference(dynamics, grid)
+
+
+def _enclosed(oscillator: Oscillator, grid: Array) -> tuple[float | None, Exact]:
+    """The reference where u' is in the force, by certified enclosures."""
+    if grid.size > MAX_ENCLOSED:
+        raise InputError(f"{grid.size} amplitudes exceed {MAX_ENCLOSED} enclosures; use at most {MAX_ENCLOSED}")
+    exact = enclosed_reference(oscillator, grid)
+    try:
+        limit = separatrix(oscillator).peak
+    except InputError:  # balls need not decide how far the well goes; every amplitude here has its enclosure
+        limit = None
+    return (None if limit is None else float(limit)), exact
 
 
 def _check_inside(dynamics: Dynamics, grid: Array, limit: float) -> None:

@@ -22,16 +22,19 @@ Restoring = Callable[[ArrayLike], Array]
 
 
 def restoring_of(dynamics: Dynamics) -> Restoring:
-    """Return V', or raise InputError for an oscillator without a potential.
+    """Return V', or raise InputError for an oscillator whose energy is not u'^2/2 + V(u).
 
     >>> from numeric.dynamics import van_der_pol
     >>> restoring_of(van_der_pol(1.0))
     Traceback (most recent call last):
         ...
-    numeric.errors.InputError: van-der-pol: has no potential, so no frequency by amplitude; use its periodic orbit
+    numeric.errors.InputError: van-der-pol has no potential, so no frequency by amplitude from it; take the ...
     """
     if dynamics.restoring is None:
-        raise InputError(f"{dynamics.name}: has no potential, so no frequency by amplitude; use its periodic orbit")
+        raise InputError(
+            f"{dynamics.name} has no potential, so no frequency by amplitude from it; take the frequency of a "
+            "simulated motion"
+        )
     return dynamics.restoring
 
 

@@ -18,7 +18,7 @@ from symbolic.errors import InputError
 from symbolic.expansion import Expansion
 from symbolic.lindstedt import lindstedt
 from symbolic.nome import nome
-from symbolic.oscillator import Oscillator
+from symbolic.oscillator import Oscillator, V
 from symbolic.pade import mapped, mapping_for, pade
 from symbolic.resummation import Resummation
 from symbolic.singularity import Limits, limits
@@ -93,7 +93,13 @@ def check_belongs(oscillator: Oscillator, expansion: Expansion) -> None:
 
 @lru_cache(maxsize=64)
 def _first_terms(oscillator: Oscillator, definition: str) -> tuple[Scalar, ...]:
-    return energy_integral(oscillator, FIRST_TERMS, amplitude=definition).coefficients
+    return _series(oscillator, FIRST_TERMS, definition).coefficients
+
+
+def _series(oscillator: Oscillator, order: int, definition: str = "peak") -> Expansion:
+    """The series by the energy integral, or by Lindstedt-Poincaré where the force holds u'."""
+    derive = lindstedt if oscillator.substituted_force.has(V) else energy_integral
+    return derive(oscillator, order, amplitude=definition)
 
 
 def settled_limits(oscillator: Oscillator, expansion: Expansion | BallExpansion) -> Limits:
@@ -122,8 +128,8 @@ def resummations(oscillator: Oscillator, order: int) -> tuple[Formula, ...]:
     >>> [formula.method for formula in resummations(find("duffing"), 8)]
     ['energy-integral', 'Pade [2/2]', 'Euler transformation', 'elliptic nome after 2 Landen steps']
     """
-    series = energy_integral(oscillator, order)
-    found = limits(energy_integral(oscillator, max(order, _LONGER)))
+    series = _series(oscillator, order)
+    found = limits(_series(oscillator, max(order, _LONGER)))
     builders = (
         lambda: pade(series),
         lambda: mapped(series, mapping_for(found)),

@@ -282,12 +282,15 @@ def _potential(force: sympy.Expr, given: str | None, unknown: str) -> tuple[symp
     """The potential of f(u, 0) and, when there is none, why."""
     restoring = force.subs(V, 0)
     velocity = force - restoring
+    checked = None
+    if given is not None:  # checked wherever it is given, also where it is not all that sets the motion
+        checked = checked_potential(to_sympy(parse_expression(given, unknown=unknown)), restoring)
     if sympy.expand(velocity + velocity.subs(V, -V)) != 0:
         return None, "the force has velocity terms that do not dissipate"
     if small_name(force) is not None:
         return None, "a limit cycle is not set by its potential"
-    if given is not None:
-        return checked_potential(to_sympy(parse_expression(given, unknown=unknown)), restoring), ""
+    if checked is not None:
+        return checked, ""
     potential = potential_of(restoring)
     return potential, "" if potential is not None else f"no rule integrates {brief(restoring)}"
 

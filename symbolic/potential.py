@@ -28,7 +28,8 @@ _ELEMENTARY: Final[dict[type, Callable[[sympy.Expr], sympy.Expr]]] = {
 def potential_of(restoring: sympy.Expr) -> sympy.Expr | None:
     """The potential P(u) with P' = restoring and P(0) = 0, or None when a term is in no rule.
 
-    The rules: powers of u; sin, cos, tan, sinh, cosh, tanh, exp of a*u + b; and c * g'(u) * g(u)**r.
+    The rules: powers of u; sin, cos, tan, sinh, cosh, tanh, exp of a*u + b; c * g'(u) * g(u)**r and c * g'(u) * F(g(u))
+    with F one of these functions; and p(u) * exp(q(u)) with polynomials p and q, where that is elementary.
 
     >>> potential_of(U + sympy.sin(2 * U))
     u**2/2 - cos(2*u)/2 + 1/2
@@ -106,12 +107,33 @@ def _chain(coefficient: sympy.Expr, rest: sympy.Expr) -> sympy.Expr | None:
     for factor in sympy.Mul.make_args(rest):
         base, exponent = factor.as_base_exp()
         slope = base.diff(U)
-        if isinstance(factor, sympy.exp) or not exponent.is_Rational or slope == 0:
+        if isinstance(factor, sympy.exp):
+            integral = _exponential(rest / factor, factor.args[0])
+            if integral is not None:
+                return coefficient * integral * factor
+            continue
+        if factor.func in _ELEMENTARY and factor.args[0].diff(U) != 0:
+            ratio = _cancelled(rest / factor, factor.args[0].diff(U))
+            if not ratio.has(U):
+                return coefficient * ratio * _ELEMENTARY[factor.func](factor.args[0])
+        if not exponent.is_Rational or slope == 0:
             continue
         ratio = _cancelled(rest / factor, slope)
         if not ratio.has(U):
             return _power(coefficient * ratio, base, exponent)
     return None
+
+
+# (r e^q)' = (r' + r q') e^q = p e^q fixes r from the highest power down (Liouville: no other form is elementary).
+def _exponential(p: sympy.Expr, q: sympy.Expr) -> sympy.Expr | None:
+    """The r of r(u) e^q(u), the integral of p(u) e^q(u) for polynomials; None where there is none."""
+    if not (p.is_polynomial(U) and q.is_polynomial(U)):
+        return None
+    slope, rest, found = sympy.Poly(q.diff(U), U), sympy.Poly(p, U), sympy.Poly(0, U)
+    while not slope.is_zero and not rest.is_zero and rest.degree() >= slope.degree():
+        term = sympy.Poly(sympy.cancel(rest.LC() / slope.LC()) * U ** (rest.degree() - slope.degree()), U)
+        found, rest = found + term, rest - term.diff(U) - term * slope
+    return found.as_expr() if rest.is_zero else None
 
 
 def _cancelled(above: sympy.Expr, below: sympy.Expr) -> sympy.Expr:

@@ -19,6 +19,7 @@ from flint import fmpq_poly
 from symbolic.ball_functions import Function, ball_function
 from symbolic.balls import rational
 from symbolic.errors import InputError
+from symbolic.origin import brief
 from symbolic.oscillator import Oscillator, U, V
 from symbolic.potential import potential_of
 from symbolic.rings import free_names
@@ -84,12 +85,10 @@ def well_of(oscillator: Oscillator, *, mirrored: bool = False) -> Well:
     if force.has(V):
         potential, inertia = _with_velocity(oscillator, force)
     else:
-        potential, inertia = oscillator.normalised().potential, sympy.S.One
+        known = oscillator.normalised().potential  # None, too, where terms in u' were in the equation and are set to 0
+        potential, inertia = _integral(force) if known is None else known, sympy.S.One
     if potential is None:
-        raise InputError(
-            f"{oscillator.name}: an enclosure needs the potential, and {oscillator.potential_note or 'there is none'}; "
-            "give the potential with the equation"
-        )
+        raise InputError(_no_potential(oscillator.name, force, inertia))
     return Well(
         name=oscillator.name,
         force=potential.diff(U) if force.has(V) else force,
@@ -112,8 +111,9 @@ def _check_kind(oscillator: Oscillator) -> None:
     name = oscillator.name
     if oscillator.kind == "limit-cycle":
         raise InputError(
-            f"{name} is self-excited and has no family of orbits, so omega0 is not a function of amplitude; "
-            "use --method lindstedt for its limit cycle"
+            f"{name} is self-excited: it has a limit cycle and no family of orbits, so omega0 has no "
+            "certified enclosure; instead, study holds the series against the orbit found by shooting (not proved), "
+            "and derive --digits certifies the coefficients"
         )
     if oscillator.kind == "damped":
         raise InputError(
@@ -132,14 +132,31 @@ def _with_velocity(oscillator: Oscillator, force: sympy.Expr) -> tuple[sympy.Exp
     if drag.has(V):  # the force is even in u', so nothing but a(u) + b(u) u'^2 is left
         raise InputError(
             f"{oscillator.name} has velocity terms other than b(u) u'^2, for which there is no energy to integrate; "
-            "use --method lindstedt"
+            "no enclosure exists, the series of --method lindstedt does: leave out --at and --certified"
         )
     exponent = _integral(drag)
     if exponent is None:
-        raise InputError(f"{oscillator.name}: no rule integrates {drag}, the factor of u'^2; use --method lindstedt")
+        raise InputError(
+            f"{oscillator.name}: no rule integrates {brief(drag)}, the factor of u'^2, so there is no enclosure; "
+            "the series of --method lindstedt needs none: leave out --at and --certified"
+        )
     exponent = exponent.replace(sympy.log, _log_from_origin)
     inertia = sympy.exp(exponent - exponent.subs(U, 0))
     return _integral(restoring * inertia**2), inertia
+
+
+def _no_potential(name: str, force: sympy.Expr, inertia: sympy.Expr) -> str:
+    """What is missing for an enclosure, and where it can be given."""
+    if not force.has(V):
+        return (
+            f"{name}: an enclosure needs the potential, and no rule integrates {brief(force)}; give it in a TOML "
+            'file beside the equation, as potential = "..."'
+        )
+    return (
+        f"{name}: an enclosure needs the integral of {brief(force.subs(V, 0) * inertia**2)}, the force times its "
+        "integrating factor, and no rule has it; the series of --method lindstedt needs none: leave out --at and "
+        "--certified"
+    )
 
 
 def _integral(integrand: sympy.Expr) -> sympy.Expr | None:
