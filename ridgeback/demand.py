@@ -74,7 +74,9 @@ class Demand:
         if self.verify and uses and uses[0] in UNVERIFIED:
             raise click.UsageError(f"--verify certifies an expansion, not what --{uses[0]} makes of it; keep one")
         if self.verify and self.style not in CERTIFIED:
-            raise click.UsageError(f"--format {self.style} shows no certificate; use text or json, or leave --verify out")
+            raise click.UsageError(
+                f"--format {self.style} shows no certificate; use text or json, or leave --verify out"
+            )
         if self.asked("at") and uses and uses[0] in NOT_AT:
             raise click.UsageError(f"--at and --{uses[0]} exclude each other; keep one")
         self._check_form("at" if self.asked("at") else uses[0] if uses else "")

@@ -9,7 +9,7 @@ import click
 from ridgeback.demand import Demand
 from ridgeback.output import json_text
 from ridgeback.tables import aligned, csv_text
-from ridgeback.wording import decimal, heading, joined, limit_cycles, power
+from ridgeback.wording import decimal, heading, joined, limit_rows, power, range_of_use
 
 if TYPE_CHECKING:
     from ridgeback.wording import Result
@@ -33,15 +33,31 @@ def transient_output(oscillator: Oscillator, result: Result, demand: Demand) -> 
         raise click.UsageError(f"--transient belongs to multiple-scales, not to {result.method}; leave one out")
     from symbolic.transient import closed_form
 
-    rows, formula = transient_rows(oscillator, result, demand), closed_form(result)
+    flow = flow_to_follow(oscillator, result)
+    rows, formula = transient_rows(oscillator, flow, demand), closed_form(flow)
     if demand.style == "csv":
         return csv_text(COLUMNS, rows)
     if demand.style == "json":
         exact = None if formula is None else {"amplitude": str(formula.amplitude), "phase": str(formula.phase)}
         more = {"closed_form": exact, "transient": rows, **fixed_rows(oscillator, result)}
-        return json_text({**result.to_dict(), **more})
-    below = f"\n\n{aligned(COLUMNS, rows)}\n" + limit_cycles(oscillator, result)
-    return heading(oscillator, result.to_dict()) + "\n\n" + formula_lines(formula) + below
+        return json_text({**flow.to_dict(), **limit_rows(oscillator, result), **more})
+    below = f"\n\n{aligned(COLUMNS, rows)}\n" + range_of_use(oscillator, result)
+    return heading(oscillator, flow.to_dict()) + "\n\n" + formula_lines(formula) + below
+
+
+def flow_to_follow(oscillator: Oscillator, flow: SlowFlow) -> SlowFlow:
+    """Of a self-excited oscillator the complete powers of its small parameter only: its amplitude does not stay small.
+
+    Raises click.UsageError when no power of the small parameter has all its terms.
+    """
+    if oscillator.kind != "limit-cycle" or flow.complete is None:
+        return flow
+    if not flow.entire().damping:
+        raise click.UsageError(
+            f"--order {flow.order} with weight {flow.weight} holds no power of {flow.small} with all its terms, and "
+            f"{flow.system} has an amplitude that does not stay small; raise --order"
+        )
+    return flow.entire()
 
 
 def transient_rows(oscillator: Oscillator, flow: SlowFlow, demand: Demand) -> list[dict[str, float]]:
@@ -66,18 +82,19 @@ def formula_lines(formula: ClosedForm | None) -> str:
     return f"a(t)   = {formula.amplitude}\nphi(t) = {formula.phase}"
 
 
-def fixed_rows(oscillator: Oscillator, result: Any) -> dict[str, list[dict[str, object]]]:
+def fixed_rows(oscillator: Oscillator, result: Any) -> dict[str, object]:
     """The limit cycles of a self-excited slow flow with their stability, in JSON; nothing for other results."""
     from symbolic.slow_flow import SlowFlow
 
     if not isinstance(result, SlowFlow) or oscillator.kind != "limit-cycle":
         return {}
+    more: dict[str, object] = {} if result.complete is None else {"complete_powers": {result.small: result.complete}}
     values = {name: oscillator.parameters.get(name) for name in result.weights}
     if any(value is None for value in values.values()):
-        return {}
+        return more
     from symbolic.fixed_points import fixed_points
 
-    return {"fixed_points": [point.to_dict() for point in fixed_points(result, values)]}
+    return {**more, "fixed_points": [point.to_dict() for point in fixed_points(result, values)]}
 
 
 def harmonic_output(oscillator: Oscillator, result: Result, style: str) -> str:

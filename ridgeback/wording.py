@@ -89,28 +89,71 @@ def decimal(exact: str) -> float | None:
 
 
 def range_of_use(oscillator: Oscillator, result: Result | BallExpansion) -> str:
-    """Where a series converges and how far it may be used, in one line; a slow flow's limit cycles."""
+    """Where a series converges and how far it may be used, in one line; what is known of both for a slow flow."""
     from symbolic.accuracy import settled_limits
+    from symbolic.flow_limits import flow_limits
     from symbolic.slow_flow import SlowFlow
 
     if isinstance(result, SlowFlow):
-        return limit_cycles(oscillator, result)
-    return f"\n{settled_limits(oscillator, result).sentence()}\n"
+        return f"\n{flow_limits(oscillator, result).sentence()}\n" + limit_cycles(oscillator, result)
+    return f"\n{settled_limits(oscillator, result).sentence()}\n" + no_cycle(oscillator)
+
+
+def limit_rows(oscillator: Oscillator, result: Result | BallExpansion) -> dict[str, object]:
+    """The same in JSON, and why there is no limit cycle where there is none."""
+    from symbolic.accuracy import settled_limits
+    from symbolic.flow_limits import flow_limits
+    from symbolic.slow_flow import SlowFlow
+
+    found = flow_limits(oscillator, result) if isinstance(result, SlowFlow) else settled_limits(oscillator, result)
+    none = without_cycle(oscillator)
+    return {"limits": found.to_dict(), **({"no_limit_cycle": none} if none else {})}
+
+
+def no_cycle(oscillator: Oscillator) -> str:
+    """The line that says that there is no limit cycle, where the small parameter is 0; nothing elsewhere."""
+    return f"\n{without_cycle(oscillator)}\n" if without_cycle(oscillator) else ""
+
+
+def without_cycle(oscillator: Oscillator) -> str:
+    """Why a self-excited oscillator has no limit cycle at its own parameters; empty when that is not so."""
+    if oscillator.small is None or oscillator.parameters.get(oscillator.small) != 0 or not oscillator.is_conservative:
+        return ""
+    name = oscillator.small
+    return (
+        f"At {name} = 0 there is no limit cycle: the oscillator is conservative there and keeps every amplitude. "
+        f"A series in {name} describes the limit cycle for {name} other than 0."
+    )
 
 
 def limit_cycles(oscillator: Oscillator, flow: SlowFlow) -> str:
     """The fixed points of a self-excited slow flow that belong to a series, at the oscillator's own parameters."""
     if oscillator.kind != "limit-cycle" or any(oscillator.parameters.get(name) is None for name in flow.weights):
         return ""
+    if without_cycle(oscillator):
+        return no_cycle(oscillator)
     from symbolic.fixed_points import fixed_points
 
     values = {name: oscillator.parameters[name] for name in flow.weights}
     found = [point for point in fixed_points(flow, values) if point.square_series is not None]
     at = ", ".join(f"{name} = {value}" for name, value in values.items())
-    return "".join(
+    return complete_powers(flow) + "".join(
         f"\nlimit cycle of this order at {at}: a = {float(p.amplitude.mid()):.10g}, "
         f"omega0 = {float(p.frequency.mid()):.10g}, {_STABILITY[p.stable]}\n"
         for p in found
+    )
+
+
+def complete_powers(flow: SlowFlow) -> str:
+    """Which powers of the small parameter enter a limit cycle; nothing where none ever has all its terms."""
+    if flow.complete is None:
+        return ""
+    if not flow.entire().damping:
+        return f"\nNo limit cycle is known: no power of {flow.small} has all its terms at order {flow.order}\n"
+    last = power({"powers": {flow.small: flow.complete}})
+    return (
+        f"\nA limit cycle, and the way to it, is of the powers through {last} only: those have all their terms at this "
+        "order, and a is not small there.\n"
     )
 
 

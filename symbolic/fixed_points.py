@@ -89,7 +89,8 @@ def fixed_points(flow: SlowFlow, values: Mapping[str, Value]) -> tuple[FixedPoin
     given = merged(flow.system, dict.fromkeys(flow.small_parameters), values)
     small = tuple(rational(value) for value in flow.values(given))
     with ctx.workprec(BITS):
-        delta, omega = (_squared(_inserted(_entire(flow, terms), small)) for terms in (flow.damping, flow.frequency))
+        entire = flow.entire()
+        delta, omega = (_squared(_inserted(terms, small)) for terms in (entire.damping, entire.frequency))
         polynomial = _polynomial(delta, flow)
         zeros = [s for s in real_roots(polynomial) if s > 0] if polynomial.degree() > 0 else []
         branches = tuple(_branches(flow, small[0])) if len(small) == 1 else ()
@@ -102,11 +103,6 @@ def _point(s: arb, delta: fmpq_poly, omega: list[sympy.Expr], branches: tuple[tu
     stable = None if slope.contains(0) else bool(slope < 0)
     series = [found for place, found in branches if place.overlaps(s)]
     return FixedPoint(s.sqrt(), frequency, slope, stable, series[0] if series else None)
-
-
-def _entire(flow: SlowFlow, terms: tuple[Term, ...]) -> tuple[Term, ...]:
-    """The terms of those powers of the small parameter that are complete; all of them where none ever is."""
-    return terms if flow.complete is None else tuple(t for t in terms if t.powers[1] <= flow.complete)
 
 
 def _inserted(terms: tuple[Term, ...], small: tuple[fmpq, ...]) -> dict[int, sympy.Expr]:
@@ -192,7 +188,7 @@ def frequency_series(flow: SlowFlow, square: Series) -> Series:
     >>> frequency_series(flow, cycle_series(flow)[0])
     (1, 0, -1/16, 0, 17/3072)
     """
-    terms = [(t.powers, sympy.expand(t.coefficient / flow.scale)) for t in _entire(flow, flow.frequency)]
+    terms = [(t.powers, sympy.expand(t.coefficient / flow.scale)) for t in flow.entire().frequency]
     if any(not value.is_Rational for _, value in terms):
         raise InputError(f"{flow.system}: the coefficients of phi' hold symbols; give every parameter a number")
     plane = {(powers[0] // 2, powers[1]): rational(value) for powers, value in terms}
@@ -204,7 +200,7 @@ def _reduced(flow: SlowFlow) -> tuple[Plane, int, list[fmpq]]:
     """The amplitude equation as a polynomial in s and m, the last power of m it determines, and s at m = 0."""
     if any(not term.coefficient.is_Rational for term in flow.damping):
         return {}, 0, []
-    plane = {(t.powers[0] // 2, t.powers[1]): rational(t.coefficient) for t in _entire(flow, flow.damping)}
+    plane = {(t.powers[0] // 2, t.powers[1]): rational(t.coefficient) for t in flow.entire().damping}
     lowest = min((r for _, r in plane), default=0)
     if lowest > 0:
         return _detached(plane, flow, lowest)

@@ -8,7 +8,7 @@ see ``ordering``); ``frequency``, ``damping`` and ``harmonics`` are in the oscil
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -64,6 +64,8 @@ class SlowFlow:
     residual_of: Callable[[SlowFlow], list[int]]
     method: str = "multiple-scales"
     amplitude: str = "fundamental"
+    highest: int | None = None
+    """Terms with a higher power of the one small parameter than this are left out; None keeps all; see ``entire``."""
 
     def __post_init__(self) -> None:
         for name in ("weights", "dimensions"):
@@ -124,8 +126,23 @@ class SlowFlow:
                 small, others = powers[:count], powers[count:]
                 part = as_sympy(value) * _monomial(self.names[count:], others) * self.unit(powers, rate=rate)
                 by_power[small] = by_power.get(small, sympy.S.Zero) + part
-            found += [Term((n - self._degree(small), *small), by_power[small]) for small in sorted(by_power)]
+            kept = [small for small in sorted(by_power) if self.highest is None or small[0] <= self.highest]
+            found += [Term((n - self._degree(small), *small), by_power[small]) for small in kept]
         return tuple(found)
+
+    def entire(self) -> SlowFlow:
+        """The flow without the powers of the small parameter that lack terms; the flow itself where none ever ends.
+
+        What is left is right for every amplitude, through that power: on a limit cycle a is not small, and terms of
+        an incomplete power would add noise, not accuracy.
+
+        >>> from symbolic.multiple_scales import multiple_scales
+        >>> from symbolic.systems import find
+        >>> flow = multiple_scales(find("van-der-pol"), 4, weight=2)
+        >>> flow.frequency_expression(), flow.entire().frequency_expression()
+        (1 - eps**2/8, 1)
+        """
+        return self if self.complete is None else replace(self, highest=self.complete)
 
     def unit(self, powers: tuple[int, ...], *, rate: int = 1) -> sympy.Expr:
         """The power of k that a coefficient carries: k^(rate - d.r), for powers r of the parameters (small first)."""

@@ -8,7 +8,10 @@ when c_0 = 0, and the integrals I_j of s^j dt follow from s' = 2 s (c_0 + c_2 s)
     I_0 = t,   I_1 = -ln(G)/(2 c_2),   c_2 I_j = (s^(j-1) - s_0^(j-1))/(2 (j-1)) - c_0 I_(j-1).
 
 Every other flow is integrated by its Taylor series in time, in plain floats: s' = 2 s delta(s) is a polynomial
-equation, so that each coefficient follows from those before it.
+equation, so that each coefficient follows from those before it.  Near a stable state r of s (a limit cycle, or rest)
+the deviation y = s - r is soon so small that its square is lost; from there on, exactly so far as floats go,
+
+    y = y_0 exp(-L t),   phi = phi_0 + omega(r) t + omega'(r) y_0 (1 - exp(-L t))/L,   L = -d(2 s delta)/ds at r > 0.
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Final
+from typing import Final, NamedTuple, TypeAlias
 
 import sympy
 
@@ -32,7 +35,18 @@ PHASE: Final = sympy.Symbol("phi_0", real=True)
 
 TERMS: Final = 20
 """Order of the Taylor steps: near the best for double precision."""
-MOST_STEPS: Final = 100_000
+MOST_STEPS: Final = 10_000
+"""From one time to the next; until a state settles the steps grow with its age, so that only few are ever needed."""
+SETTLED: Final = 1e-10
+"""Deviation from a limit cycle whose square no longer counts, relative to s; a hundred times that to L/curvature."""
+NEGLIGIBLE: Final = 1e-15
+"""What the higher powers of s may add near rest, relative to the rate of decay."""
+MOST_PHASE: Final = 2.0**52 * 1e-6
+"""Phases beyond, in rad, are spaced by more than 1e-6: cos(phi) would have lost the digits that are printed."""
+
+
+State: TypeAlias = tuple[float, float]
+"""s = a^2 and phi."""
 
 
 @dataclass(frozen=True)
@@ -120,24 +134,39 @@ def transient(
     """a and phi at rising times, from their values at the first of them, by Taylor steps in floats.
 
     ``small`` holds one value for each small parameter; ``tolerance`` bounds the relative error of a^2, and the error of
-    phi in rad, that each step adds.  Raises InputError for times that do not rise, an amplitude that is not positive,
-    and an amplitude that runs away, where the truncated flow has lost its meaning.
+    phi in rad, that each step adds.  A state that has settled is continued in closed form, so that late times cost
+    nothing.  Raises InputError for times that do not rise or at which the phase has lost its digits, an amplitude that
+    is not positive, and an amplitude that runs away, where the truncated flow has lost its meaning.
 
     >>> from symbolic.multiple_scales import multiple_scales
     >>> from symbolic.systems import find
     >>> flow = multiple_scales(find("damped-pendulum"), 2)
-    >>> transient(flow, [0.0, 10.0], [0.01], amplitude=0.5).amplitude == (0.5, 0.5 * math.exp(-0.1))
+    >>> found = transient(flow, [0.0, 10.0], [0.01], amplitude=0.5).amplitude[1]
+    >>> abs(found / (0.5 * math.exp(-0.1)) - 1) < 1e-13
     True
     """
     times = _checked(time, amplitude)
     values = flow.checked(tuple(small))
-    delta, omega = (amplitude_powers(rounded(terms), values)[::2] for terms in (flow.damping, flow.frequency))
+    rates = _Rates(*(amplitude_powers(rounded(terms), values)[::2] for terms in (flow.damping, flow.frequency)))
     state, t, found = (amplitude * amplitude, phase), times[0], [(amplitude, phase)]
     for end in times[1:]:
-        state = _advanced(state, t, end, delta, omega, tolerance)
+        state = _advanced(state, t, end, rates, tolerance)
+        if not abs(state[1]) <= MOST_PHASE:
+            fits = t + 0.9 * (end - t) * max(0.0, MOST_PHASE - abs(found[-1][1])) / abs(state[1] - found[-1][1])
+            raise InputError(
+                f"the phase at t = {end:.6g} is {state[1]:.3g} rad, too large for its cosine to six decimals in double "
+                f"precision; end at t = {fits:.2g} or before"
+            )
         found.append((math.sqrt(state[0]), state[1]))
         t = end
     return Transient(times, tuple(a for a, _ in found), tuple(p for _, p in found))
+
+
+class _Rates(NamedTuple):
+    """Coefficients of a'/a and of phi' in powers of s = a^2."""
+
+    delta: list[float]
+    omega: list[float]
 
 
 def _checked(time: Sequence[float], amplitude: float) -> tuple[float, ...]:
@@ -149,25 +178,61 @@ def _checked(time: Sequence[float], amplitude: float) -> tuple[float, ...]:
     return times
 
 
-def _advanced(
-    state: tuple[float, float], t: float, end: float, delta: list[float], omega: list[float], tolerance: float
-) -> tuple[float, float]:
-    """Take Taylor steps from t to the end."""
+def _advanced(state: State, start: float, end: float, rates: _Rates, tolerance: float) -> State:
+    """Take Taylor steps from one time to the next, the last one in closed form when the state has settled."""
+    t, span = 0.0, end - start
     for _ in range(MOST_STEPS):
-        if t >= end:
+        if t >= span:
             return state
-        square, phase = _taylor(state, delta, omega)
-        step = min(_step(square, phase, tolerance), end - t)
-        if not step > 1e-14 * max(abs(t), abs(end)):
-            break
+        settled = _near_rest(state, span - t, rates) or _near_cycle(state, span - t, rates)
+        if settled is not None:
+            return settled
+        square, phase = _taylor(state, *rates)
+        step = min(_step(square, phase, tolerance), span - t)
+        if step < span - t and not step > 1e-14 * t:
+            raise InputError(
+                f"the amplitude of the truncated slow flow runs away at t = {start + t:.6g}; start it smaller, or take "
+                "a lower order"
+            )
         state = _sum(square, step), _sum(phase, step)
-        t = end if step == end - t else t + step
-    raise InputError(
-        f"the amplitude of the truncated slow flow runs away at t = {t:.6g}; start it smaller, or take a lower order"
-    )
+        t = span if step == span - t else t + step
+    raise InputError(f"the transient takes more than {MOST_STEPS} steps to t = {end:.6g}; end at {start + t:.2g}")
 
 
-def _taylor(state: tuple[float, float], delta: list[float], omega: list[float]) -> tuple[list[float], list[float]]:
+def _near_rest(state: State, time: float, rates: _Rates) -> State | None:
+    """The state after ``time`` when s decays with c_0 < 0 alone, and phi' = w_0 + w_2 s; None when more counts."""
+    delta, omega = ([abs(c * state[0] ** n) for n, c in enumerate(row)] for row in rates)
+    decay = -2 * rates.delta[0] if delta else 0.0
+    if not decay > 0 or sum(delta[1:]) > NEGLIGIBLE * decay or sum(omega[2:]) > NEGLIGIBLE * decay:
+        return None
+    return _relaxed(state, state[0], decay, time, rates)
+
+
+def _near_cycle(state: State, time: float, rates: _Rates) -> State | None:
+    """The state after ``time`` when it is next to a stable limit cycle, found by a Newton step; None elsewhere."""
+    growth = [0.0, *(2 * c for c in rates.delta)]  # s' in powers of s
+    slope = _derivative(growth)
+    decay, curvature = -_sum(slope, state[0]), abs(_sum(_derivative(slope), state[0]))
+    if not decay > 0:
+        return None
+    y = -_sum(growth, state[0]) / decay
+    if abs(y) > SETTLED * state[0] or abs(y) * curvature > 100 * SETTLED * decay:
+        return None
+    return _relaxed(state, y, decay, time, rates)
+
+
+def _relaxed(state: State, y: float, decay: float, time: float, rates: _Rates) -> State:
+    """Carry the deviation y = s - r from the stable state r through a time, see the head of this file."""
+    rest, gone = state[0] - y, -math.expm1(-decay * time)
+    drift = _sum(_derivative(rates.omega), rest) * y * gone / decay
+    return rest + y * math.exp(-decay * time), state[1] + _sum(rates.omega, rest) * time + drift
+
+
+def _derivative(coefficients: list[float]) -> list[float]:
+    return [n * c for n, c in enumerate(coefficients)][1:]
+
+
+def _taylor(state: State, delta: list[float], omega: list[float]) -> tuple[list[float], list[float]]:
     """Taylor coefficients of s = a^2 and phi: (n + 1) s_(n+1) = 2 [s delta(s)]_n, (n + 1) phi_(n+1) = [omega(s)]_n."""
     square, phase = [state[0]], [state[1]]
     powers: list[list[float]] = [[] for _ in range(max(len(delta) + 1, len(omega)))]  # of s, from s^0 on

@@ -20,7 +20,7 @@ from ridgeback.motion import fixed_rows, harmonic_output, transient_output
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.resumming import formula_text, resummed_from
-from ridgeback.wording import as_text, certified, expressions, joined, range_of_use
+from ridgeback.wording import as_text, certified, expressions, joined, limit_rows, range_of_use
 
 if TYPE_CHECKING:
     from symbolic.ball_expansion import BallExpansion
@@ -60,9 +60,12 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     ridgeback derive damped-pendulum --order 4 --harmonics
 
     JSON: system, method, amplitude, order, variables; frequency (damping, amplitude_series) as a list of powers and
-    coefficient.  Of balls also radius, ball and certain_digits (null: exact), and limits.  With --verify certificate.
+    coefficient.  Of balls also radius, ball and certain_digits (null: exact).  limits holds radius of convergence,
+    uncertainty, range_of_use (null: not known), singularities and the sentence; for a slow flow also which frequency
+    they are of.  With --verify certificate.
     With --at a list of amplitude, omega0, radius (of its certified ball), formula_omega0, relative_error and
-    error_bound.  Of a self-excited slow flow fixed_points with their slope and whether they are stable.  With
+    error_bound.  Of a self-excited slow flow fixed_points with their slope and whether they are stable, and the
+    complete_powers they are of, as is the transient; no_limit_cycle says why there is none at eps = 0.  With
     --resummed expression, and of a quotient numerator, denominator (in w), growth and the first pole.  With
     --transient closed_form (or null) and rows of time, amplitude, phase, omega0, u.  With --harmonics, harmonics.
     """
@@ -162,14 +165,6 @@ def formulas(result: Any, style: str) -> str:
 def at_rows(found: Sequence[Reading], demand: Demand) -> dict[str, list[dict[str, object]]]:
     """The frequencies at amplitudes in JSON, when they are asked for."""
     return {"at": rows(found, demand)} if found else {}
-
-
-def limit_rows(oscillator: Oscillator, result: Result | BallExpansion) -> dict[str, dict[str, object]]:
-    """The limits that balls show, in JSON."""
-    from symbolic.accuracy import settled_limits
-    from symbolic.ball_expansion import BallExpansion
-
-    return {"limits": settled_limits(oscillator, result).to_dict()} if isinstance(result, BallExpansion) else {}
 
 
 def certificate_rows(checks: tuple[Check, ...] | None) -> dict[str, list[dict[str, object]]]:

@@ -33,7 +33,7 @@ def test_the_closed_form_printed_is_the_rows_printed(ridgeback: Ridgeback, words
     public = output(ridgeback, words + " --transient 0.5,0.25 --until 40 --points 5")
     system = public["system"]
     flow = multiple_scales(find(system), public["order"], weight=public["weight"])
-    form = closed_form(flow)
+    form = closed_form(flow.entire())
     assert form is not None
     assert public["closed_form"] == {"amplitude": str(form.amplitude), "phase": str(form.phase)}
     small = {"damped-pendulum": ("mu", Fraction(1, 100)), "van-der-pol": ("eps", Fraction(1, 10))}[system]
@@ -81,12 +81,129 @@ def test_without_a_closed_form_it_is_said(ridgeback: Ridgeback) -> None:
     (cycle,) = public["fixed_points"]
     assert (cycle["stable"], cycle["square_series"]) == (True, ["4", "0", "1/16", "0"])
     last = public["transient"][-1]
-    # It is attracted to the cycle, which is of the powers of eps that have all their terms: eps^3 makes the difference.
-    assert last["amplitude"] == pytest.approx(float(cycle["amplitude"]), rel=1e-4)
-    assert last["omega0"] == pytest.approx(float(cycle["frequency"]), rel=1e-4)
+    assert last["amplitude"] == pytest.approx(float(cycle["amplitude"]), rel=1e-6)  # 400 e^-20 of s is left
+    assert last["omega0"] == pytest.approx(float(cycle["frequency"]), rel=1e-6)
     text = ridgeback("derive", *words.split()).out
     assert "no closed form at this order" in text
     assert "stable" in text
+
+
+def test_a_long_transient_ends_on_the_limit_cycle_printed_and_converges_to_the_true_one(ridgeback: Ridgeback) -> None:
+    """Truth: the fundamental of the periodic solution at eps = 1/2, by SciPy and a Fourier integral."""
+    amplitude, omega = true_cycle(0.5)
+    errors = []
+    for order in (4, 8, 16, 24):
+        public = output(ridgeback, f"van-der-pol --order {order} --transient 0.1 --until 400 --points 2")
+        last, (cycle,) = public["transient"][-1], [p for p in public["fixed_points"] if p["square_series"]]
+        assert public["complete_powers"] == {"eps": order // 4}
+        assert last["amplitude"] == pytest.approx(float(cycle["amplitude"]), rel=1e-13)
+        assert last["omega0"] == pytest.approx(float(cycle["frequency"]), rel=1e-13)
+        assert all(row["powers"]["eps"] <= order // 4 for row in public["frequency"] + public["damping"])
+        errors.append((abs(last["omega0"] / omega - 1), abs(last["amplitude"] / amplitude - 1)))
+    frequency = [error for error, _ in errors]
+    assert frequency == sorted(frequency, reverse=True)
+    assert frequency[0] > 1e-2
+    assert frequency[-1] < 2e-6
+    assert errors[-1][1] < 1e-4
+
+
+def true_cycle(eps: float) -> tuple[float, float]:
+    """Amplitude of the fundamental and frequency of van der Pol's limit cycle."""
+
+    section: Any = lambda _, y: y[0]  # noqa: E731
+    section.direction = 1.0
+    found: Any = solve_ivp(
+        lambda _, y: [y[1], eps * (1 - y[0] ** 2) * y[1] - y[0]],
+        (0, 130),
+        [2.0, 0.0],
+        events=section,
+        dense_output=True,
+        rtol=1e-11,
+        atol=1e-12,
+    )
+    start, end = found.t_events[0][-2:]
+    omega, count = 2 * math.pi / (end - start), 512
+    time = [start + (end - start) * i / count for i in range(count)]
+    wave = sum(found.sol(t)[0] * complex(math.cos(omega * t), math.sin(omega * t)) for t in time)
+    return float(2 * abs(wave) / count), float(omega)
+
+
+def test_a_transient_without_a_complete_power_is_refused_and_the_expansion_says_so(ridgeback: Ridgeback) -> None:
+    done = ridgeback(*["derive", "van-der-pol", "--order", "3", "--transient", "0.1", "--until", "5"])
+    assert (done.code, done.out) == (2, "")
+    assert "--order 3" in done.err
+    assert "no power of eps with all its terms" in done.err
+    assert (
+        "No limit cycle is known"
+        in ridgeback(*["derive", "van-der-pol", "--method", "multiple-scales", "--order", "3"]).out
+    )
+
+
+def test_late_times_cost_nothing_and_too_late_ones_are_refused_by_the_phase(ridgeback: Ridgeback) -> None:
+    words = "van-der-pol --order 12 --transient 0.1 --points 2 --until "
+    public = output(ridgeback, words + "1e9")
+    last, (cycle,) = public["transient"][-1], [p for p in public["fixed_points"] if p["square_series"]]
+    near = output(ridgeback, words + "1000")["transient"][-1]
+    assert last["amplitude"] == pytest.approx(float(cycle["amplitude"]), rel=1e-14)
+    gained = Fraction(cycle["frequency"]) * (10**9 - 1000)
+    assert last["phase"] - near["phase"] == pytest.approx(float(gained), abs=1e-6)
+    done = ridgeback("derive", *words.split(), "1e12")
+    assert (done.code, done.err.count("\n")) == (2, 1)
+    fits = done.err.split("end at t = ")[1].split()[0]
+    assert 1e9 < float(fits) < 1e10
+    assert ridgeback("derive", *words.split(), fits).code == 0
+
+
+@pytest.mark.parametrize("until", ["50", "3000", "1e8"])
+def test_the_decay_to_rest_is_the_closed_form_at_any_time(ridgeback: Ridgeback, until: str) -> None:
+    """phi of the damped pendulum, order 2: t + a_0^2 (exp(-2 mu t) - 1)/(32 mu)."""
+    (*_, last) = output(ridgeback, f"damped-pendulum --order 4 --transient 1 --until {until} --points 3")["transient"]
+    end, mu = float(until), 0.01
+    rows = output(ridgeback, f"damped-pendulum --order 2 --transient 1 --until {until} --points 3")["transient"]
+    assert rows[-1]["amplitude"] == pytest.approx(math.exp(-mu * end), rel=1e-11, abs=1e-300)
+    assert rows[-1]["phase"] == pytest.approx(end + math.expm1(-2 * mu * end) / (32 * mu), rel=1e-12)
+    assert abs(last["phase"] - rows[-1]["phase"]) < 0.1 + mu**2 * end
+
+
+def test_a_vanishing_small_parameter_has_no_limit_cycle(ridgeback: Ridgeback) -> None:
+    for words in ("", " --method multiple-scales", " --transient 0.1 --until 5 --points 2"):
+        still = f"van-der-pol --order 4 --set eps=0{words}"
+        assert "At eps = 0 there is no limit cycle" in ridgeback("derive", *still.split()).out
+        assert "eps = 0" in output(ridgeback, still)["no_limit_cycle"]
+    assert "no_limit_cycle" not in output(ridgeback, "van-der-pol --order 4")
+
+
+def test_the_limits_are_in_the_json_of_every_expansion(ridgeback: Ridgeback) -> None:
+    assert output(ridgeback, "pendulum --order 8")["limits"]["radius"] == pytest.approx(math.pi, abs=1e-4)
+    text = ridgeback(*["derive", "pendulum", "--order", "8"]).out
+    assert output(ridgeback, "pendulum --order 8")["limits"]["sentence"] in text
+    assert output(ridgeback, "van-der-pol --method multiple-scales")["limits"]["radius"] == pytest.approx(
+        1.849, abs=5e-3
+    )
+    unknown = output(ridgeback, "--equation u''+2*m*u'+u+c*u**3=0 --order 4")["limits"]
+    assert unknown["radius"] is None
+    assert "symbols" in unknown["sentence"]
+
+
+def test_the_limits_of_a_slow_flow_are_those_of_its_undamped_frequency(ridgeback: Ridgeback) -> None:
+    """At the separatrix of the pendulum u is a square wave between -pi and pi, whose fundamental is (4/pi) pi = 4."""
+    found = output(ridgeback, "damped-pendulum --order 4")["limits"]
+    assert found["of"] == "the frequency with mu = 0"
+    assert abs(found["radius"] - 4) < found["uncertainty"] < 0.2
+    flow, longer = (multiple_scales(find("damped-pendulum"), order) for order in (4, 24))
+    edge = found["range_of_use"]
+    assert abs(flow.frequency_at(edge, 0.0) / longer.frequency_at(edge, 0.0) - 1) < 1e-3
+    assert found["sentence"] in ridgeback(*["derive", "damped-pendulum", "--order", "4"]).out
+    unsettled = output(ridgeback, "duffing --method multiple-scales --order 4")["limits"]
+    assert unsettled["radius"] is None
+    assert "fundamental amplitude do not settle" in unsettled["sentence"]
+
+
+@pytest.mark.parametrize("style", ["latex", "mathml", "python"])
+def test_a_form_without_a_certificate_refuses_verify(ridgeback: Ridgeback, style: str) -> None:
+    done = ridgeback("derive", "pendulum", "--verify", "--format", style)
+    assert (done.code, done.out) == (2, "")
+    assert f"--format {style} shows no certificate" in done.err
 
 
 def test_fixed_points_are_in_the_json_of_a_self_excited_flow(ridgeback: Ridgeback) -> None:
