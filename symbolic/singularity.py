@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
+from decimal import Decimal
 from typing import Any, Final, TypeAlias
 
 from flint import arb, ctx, fmpq
@@ -39,6 +40,9 @@ _LOGARITHMS: Final = 10
 
 
 _ROUNDING: Final = 2.0**-50
+
+_SMALLEST: Final = 1e-290
+"""Places are floats, and their uncertainties need room below them."""
 
 _LAST: Final = 4
 """How many coefficients, of the upper half, stand for the size of those left out."""
@@ -154,6 +158,8 @@ def limits(expansion: Series, *, longer: Series | None = None) -> Limits:
     if found is None:
         return _unknown(expansion, f"{len(series)} coefficients do not settle the nearest singularity; raise the order")
     of, estimate = found
+    if not all(_SMALLEST < abs(point.place) < 1 / arb(_SMALLEST) for point in estimate.points):
+        return _unknown(expansion, "the nearest singularity is beyond the range of floats; scale the unknown")
     exact = isinstance(longer or expansion, Expansion)
     second = dlog_singularities(_function(series, of), estimate) if exact else None
     singularities = _singularities(estimate, of, f"recurrence of {len(estimate.points) + 1} terms")
@@ -281,13 +287,24 @@ def _usable(series: list[Any], modulus: float) -> float:
 
 
 def _with_error(value: float, error: float) -> str:
-    """A value with its uncertainty, to the digit where that begins.
+    """A value with its uncertainty, to the digit where that begins; with a power of ten where the value is far from 1.
 
-    >>> _with_error(3.14159265, 0.00012)
-    '3.1416 ± 0.0002'
+    >>> _with_error(3.14159265, 0.00012), _with_error(3.14159265e-15, 1.2e-19), _with_error(2.5e8, 1e6)
+    ('3.1416 ± 0.0002', '(3.1416 ± 0.0002)e-15', '(2.50 ± 0.01)e+08')
     """
     if error < 1e-9 * abs(value):
         return f"{value:.10g}"
-    digits = min(max(0, -math.floor(math.log10(error))), 12)
+    mantissa, power = _scaled(value)
+    size = float(Decimal(error).scaleb(-power))
+    digits = max(0, -math.floor(math.log10(size)))
     step = 10.0**-digits
-    return f"{value:.{digits}f} ± {math.ceil(error / step) * step:.{digits}f}"
+    text = f"{mantissa:.{digits}f} ± {math.ceil(size / step) * step:.{digits}f}"
+    return f"({text})e{power:+03d}" if power else text
+
+
+def _scaled(value: float) -> tuple[float, int]:
+    """A value as its mantissa and a power of ten, which is 0 from 1e-4 to 1e6."""
+    if value == 0 or 1e-4 <= abs(value) < 1e6:
+        return value, 0
+    power = math.floor(math.log10(abs(value)))
+    return float(Decimal(value).scaleb(-power)), power

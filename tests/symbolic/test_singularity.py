@@ -276,6 +276,28 @@ def test_the_claimed_errors_cover_the_truth_beside_a_further_singularity() -> No
     assert settled > 50
 
 
+@pytest.mark.parametrize(
+    ("unit", "radius", "square"),
+    [
+        ("1e15", "(3.142 ± 0.002)e-15", "(9.87 ± 0.02)e-30"),
+        ("1e-7", "(3.142 ± 0.002)e+07", "(9.87 ± 0.02)e+14"),
+        ("1e3", "0.003142 ± 0.000002", "(9.87 ± 0.02)e-06"),
+        ("1e90*1e90", None, None),
+        ("1e-90*1e-90", None, None),
+    ],
+)
+def test_the_sentence_keeps_its_digits_in_any_unit(unit: str, radius: str | None, square: str | None) -> None:
+    """The pendulum with its angle measured in other units: the same digits, the point moved."""
+    found = limits(own(f"u'' + sin({unit}*u)/({unit})", 40))
+    if radius is None:
+        assert found.sentence() == (
+            "The range of convergence is not known: the nearest singularity is beyond the range of floats; "
+            "scale the unknown."
+        )
+    else:
+        assert f"for |A| < {radius} (estimated: logarithm of the period at A² = {square})" in found.sentence()
+
+
 def test_two_opposite_singularities_of_different_exponents() -> None:
     left, right = power(padded([1, -1], 40), Fraction(1, 2)), power(padded([1, 1], 40), Fraction(-1, 3))
     found = nearest_singularities([a + b for a, b in zip(left, right, strict=True)], 2)
