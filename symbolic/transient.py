@@ -152,7 +152,8 @@ def transient(
     for end in times[1:]:
         state = _advanced(state, t, end, rates, tolerance)
         if not abs(state[1]) <= MOST_PHASE:
-            fits = t + 0.9 * (end - t) * max(0.0, MOST_PHASE - abs(found[-1][1])) / abs(state[1] - found[-1][1])
+            part = max(0.0, MOST_PHASE - abs(found[-1][1])) / abs(state[1] - found[-1][1])
+            fits = t + 0.9 * part * (end - t)
             raise InputError(
                 f"the phase at t = {end:.6g} is {state[1]:.3g} rad, too large for its cosine to six decimals in double "
                 f"precision; end at t = {fits:.2g} or before"
