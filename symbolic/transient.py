@@ -133,6 +133,7 @@ def transient(
 ) -> Transient:
     """a and phi at rising times, from their values at the first of them, by Taylor steps in floats.
 
+    All terms of the flow count; of a self-excited oscillator give ``flow.entire()``, since its a does not stay small.
     ``small`` holds one value for each small parameter; ``tolerance`` bounds the relative error of a^2, and the error of
     phi in rad, that each step adds.  A state that has settled is continued in closed form, so that late times cost
     nothing.  Raises InputError for times that do not rise or at which the phase has lost its digits, an amplitude that
