@@ -11,12 +11,13 @@ from click.core import ParameterSource
 
 from ridgeback.demand import Demand
 from ridgeback.derivation import Request
+from ridgeback.failure import PartialError
 from ridgeback.output import json_text
 from ridgeback.tables import aligned, csv_text
 
 if TYPE_CHECKING:
     from symbolic.oscillator import Oscillator
-    from symbolic.readings import Formula, Reading
+    from symbolic.readings import Formula, Reading, Unread
 
 DIGITS = 20
 """Digits printed when ``--digits`` does not say."""
@@ -29,12 +30,12 @@ TEXT = {
 }
 
 
-def read_at(oscillator: Oscillator, formula: Any, demand: Demand) -> tuple[Reading, ...]:
-    """Hold the formula against the enclosures.
+def read_at(oscillator: Oscillator, formula: Any, demand: Demand) -> tuple[Reading | Unread, ...]:
+    """Hold the formula against the enclosures, wherever there is one.
 
-    Raises click.UsageError for a slow flow, InputError from the enclosures.
+    Raises click.UsageError for a slow flow, InputError from the enclosures when there is none at all.
     """
-    from symbolic.readings import readings
+    from symbolic.readings import reading, wherever
     from symbolic.slow_flow import SlowFlow
 
     if isinstance(formula, SlowFlow):
@@ -43,7 +44,19 @@ def read_at(oscillator: Oscillator, formula: Any, demand: Demand) -> tuple[Readi
             "(--set mu=0), or use --transient"
         )
     series: Formula = formula
-    return readings(oscillator, series, demand.at or (), bits=bits(demand))
+    return wherever(lambda a: reading(oscillator, series, a, bits=bits(demand)), demand.at or ())
+
+
+def complete(found: Sequence[Reading | Unread]) -> None:
+    """Raise PartialError, which names the first, when amplitudes were refused; the output is written by then."""
+    from symbolic.readings import Unread
+
+    refused = [row for row in found if isinstance(row, Unread)]
+    if refused:
+        raise PartialError(
+            f"{len(refused)} of {len(found)} amplitudes have no enclosure and are left empty in the output; "
+            f"A = {refused[0].amplitude}: {refused[0].why}"
+        )
 
 
 def bits(demand: Demand) -> int:
@@ -55,18 +68,19 @@ def bits(demand: Demand) -> int:
     return max(64, math.ceil((demand.digits or DIGITS) * math.log2(10)) + 16)
 
 
-def rows(found: Sequence[Reading], demand: Demand) -> list[dict[str, object]]:
+def rows(found: Sequence[Reading | Unread], demand: Demand) -> list[dict[str, object]]:
     """The public rows."""
     return [reading.to_dict(demand.digits or DIGITS) for reading in found]
 
 
-def as_csv(found: Sequence[Reading], demand: Demand) -> str:
+def as_csv(found: Sequence[Reading | Unread], demand: Demand) -> str:
     """One row per amplitude, the public keys as columns."""
     public = rows(found, demand)
-    return csv_text(list(public[0]), public)
+    keys = dict.fromkeys(key for row in public for key in row)
+    return csv_text(sorted(keys, key="refused".__eq__), public)  # the reason last, and only where there is one
 
 
-def as_text(found: Sequence[Reading], demand: Demand, what: str, definition: str) -> str:
+def as_text(found: Sequence[Reading | Unread], demand: Demand, what: str, definition: str) -> str:
     """A table for reading; ``what`` says which formula stands beside the exact frequency."""
     public = [
         {title: zero_error(row) if key == "relative_error" else row.get(key) for key, title in TEXT.items()}
@@ -91,20 +105,26 @@ def zero_error(row: dict[str, object]) -> object:
     return row.get("relative_error") or (f"below {1.1 * bound:.1e}" if isinstance(bound, float) else None)
 
 
-def strong(oscillator: Oscillator, request: Request, demand: Demand) -> str:
-    """The output for an oscillator without a linear restoring force, which has no expansion but orbits.
+def read_strong(oscillator: Oscillator, request: Request, demand: Demand) -> tuple[Reading | Unread, ...]:
+    """The enclosures for an oscillator without a linear restoring force, which has no expansion but orbits.
 
     Raises click.UsageError for options of expansions, InputError for forces that have no enclosure.
     """
     refuse_expansion(demand)
-    from symbolic.readings import Reading
-    from symbolic.strong import enclose_strong, law_of, law_row
+    from symbolic.readings import Reading, wherever
+    from symbolic.strong import enclose_strong
+
+    definition, precision = request.amplitude or "peak", bits(demand)
+    return wherever(
+        lambda a: Reading(enclose_strong(oscillator, a, definition=definition, bits=precision)), demand.at or ()
+    )
+
+
+def strong(oscillator: Oscillator, found: Sequence[Reading | Unread], request: Request, demand: Demand) -> str:
+    """The output for an oscillator without a linear restoring force: its law where it has one, and the enclosures."""
+    from symbolic.strong import law_of, law_row
 
     definition, law = request.amplitude or "peak", law_of(oscillator)
-    found = [
-        Reading(enclose_strong(oscillator, value, definition=definition, bits=bits(demand)))
-        for value in demand.at or ()
-    ]
     if demand.style == "csv":
         return as_csv(found, demand)
     public = {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeAlias
@@ -57,6 +57,56 @@ class Reading:
             return row
 
 
+@dataclass(frozen=True)
+class Unread:
+    """An amplitude at which omega0 could not be enclosed, and why."""
+
+    amplitude: Fraction
+    why: str
+
+    def to_dict(self, digits: int) -> dict[str, object]:  # noqa: ARG002 - the signature of Reading
+        """The public JSON form: the keys of a reading with nothing in them, and the reason."""
+        return {
+            "amplitude": float(self.amplitude),
+            "amplitude_exact": str(self.amplitude),
+            "omega0": None,
+            "radius": None,
+            "refused": self.why,
+        }
+
+
+def wherever(read: Callable[[Fraction], Reading], amplitudes: Sequence[Fraction]) -> tuple[Reading | Unread, ...]:
+    """Read each amplitude; those that are refused keep their place.  Raises the first refusal when all are.
+
+    >>> from symbolic.systems import find
+    >>> [type(row).__name__ for row in wherever(lambda a: Reading(enclose(find("pendulum"), a)), [1, 4])]
+    ['Reading', 'Unread']
+    """
+    found: list[Reading | Unread] = []
+    refusals = []
+    for amplitude in amplitudes:
+        try:
+            found.append(read(amplitude))
+        except InputError as refusal:
+            refusals.append(refusal)
+            found.append(Unread(amplitude, str(refusal)))
+    if refusals and len(refusals) == len(found):
+        raise refusals[0]
+    return tuple(found)
+
+
+def reading(oscillator: Oscillator, formula: Formula, amplitude: Fraction, *, bits: int = 128) -> Reading:
+    """Enclose omega0 at one amplitude, and the formula with its error; raises as ``readings``."""
+    exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
+    if isinstance(formula, Expansion):
+        check_belongs(oscillator, formula)
+    if formula.variable != "A" or formula.system != oscillator.name:
+        raise InputError(f"{formula.method} of {formula.system} is no series of {oscillator.name} in its amplitude")
+    with ctx.workprec(bits + GUARD):
+        value = formula.in_balls(arb(rational(exact.amplitude)))
+        return Reading(exact, value, value / exact.omega - 1)
+
+
 def readings(
     oscillator: Oscillator, formula: Formula, amplitudes: Sequence[Fraction], *, bits: int = 128
 ) -> tuple[Reading, ...]:
@@ -71,14 +121,4 @@ def readings(
     >>> row["omega0"], row["relative_error"]
     ('0.937792258051', '1.71087e-7')
     """
-    found = []
-    for amplitude in amplitudes:
-        exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
-        if isinstance(formula, Expansion):
-            check_belongs(oscillator, formula)
-        if formula.variable != "A" or formula.system != oscillator.name:
-            raise InputError(f"{formula.method} of {formula.system} is no series of {oscillator.name} in its amplitude")
-        with ctx.workprec(bits + GUARD):
-            value = formula.in_balls(arb(rational(exact.amplitude)))
-            found.append(Reading(exact, value, value / exact.omega - 1))
-    return tuple(found)
+    return tuple(reading(oscillator, formula, amplitude, bits=bits) for amplitude in amplitudes)

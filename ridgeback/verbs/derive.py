@@ -10,7 +10,7 @@ import click
 
 from ridgeback.at import as_csv as at_csv
 from ridgeback.at import as_text as at_text
-from ridgeback.at import read_at, rows, strong
+from ridgeback.at import complete, read_at, read_strong, rows, strong
 from ridgeback.choice import Choice, choosing
 from ridgeback.demand import Demand, demanding
 from ridgeback.derivation import Request, derived, requesting
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from symbolic.certificate import Check
     from symbolic.expansion import Expansion
     from symbolic.oscillator import Oscillator
-    from symbolic.readings import Reading
+    from symbolic.readings import Reading, Unread
     from symbolic.slow_flow import SlowFlow
 
     Result = Expansion | SlowFlow
@@ -64,24 +64,30 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     uncertainty, range_of_use (null: not known), singularities and the sentence; for a slow flow also which frequency
     they are of.  With --verify certificate.
     With --at a list of amplitude, omega0, radius (of its certified ball), formula_omega0, relative_error and
-    error_bound.  Of a self-excited slow flow fixed_points with their slope and whether they are stable, and the
-    complete_powers they are of, as is the transient; no_limit_cycle says why there is none at eps = 0.  With
+    error_bound; an amplitude without an enclosure has refused, the reason, and the exit code is 3.  Of a self-excited
+    slow flow fixed_points with their slope and whether they are stable, and the complete_powers they are of, as is the
+    transient; no_limit_cycle says why there is none at eps = 0.  With
     --resummed expression, and of a quotient numerator, denominator (in w), growth and the first pole.  With
     --transient closed_form (or null) and rows of time, amplitude, phase, omega0, u.  With --harmonics, harmonics.
     """
     try:
         oscillator = choice.oscillator()
     except ValueError as refusal:
-        write_text(output, strong(unexpandable(refusal, demand), request, demand))
+        oscillator = unexpandable(refusal, demand)
+        found = read_strong(oscillator, request, demand)
+        write_text(output, strong(oscillator, found, request, demand))
+        complete(found)
         return
     result = derived_as(oscillator, request, demand)
-    if demand.resummed is not None or demand.transient is not None or demand.harmonics:
-        write_text(output, made_of(oscillator, result, demand))
-        return
+    formula = formula_of(oscillator, result, demand)
+    found = read_at(oscillator, formula, demand) if demand.at else ()
     checks = certificate(oscillator, result) if demand.verify else None
-    write_text(output, printed(oscillator, result, demand, checks))
+    write_text(
+        output, made_of(oscillator, formula, found, demand) or printed(oscillator, result, found, demand, checks)
+    )
     if checks and not all(check.passed for check in checks if check.passed is not None):
         raise PartialError("the certificate does not hold; the output says which check failed")
+    complete(found)
 
 
 def unexpandable(refusal: ValueError, demand: Demand) -> Oscillator:
@@ -104,19 +110,22 @@ def derived_as(oscillator: Oscillator, request: Request, demand: Demand) -> Resu
     return derived(oscillator, request)
 
 
-def made_of(oscillator: Oscillator, result: Any, demand: Demand) -> str:
-    """The output of what is made of an expansion, in place of the expansion itself."""
+def formula_of(oscillator: Oscillator, result: Any, demand: Demand) -> Any:
+    """What is held against the exact frequency: the expansion, or the formula made of it."""
+    return result if demand.resummed is None else resummed_from(oscillator, result, demand)
+
+
+def made_of(oscillator: Oscillator, formula: Any, found: Sequence[Reading | Unread], demand: Demand) -> str | None:
+    """The output of what is made of an expansion, in place of the expansion itself; None where nothing is."""
     if demand.transient is not None:
-        return transient_output(oscillator, result, demand)
+        return transient_output(oscillator, formula, demand)
     if demand.harmonics:
-        return harmonic_output(oscillator, result, demand.style)
-    return resummation(oscillator, result, demand)
+        return harmonic_output(oscillator, formula, demand.style)
+    return None if demand.resummed is None else resummation(oscillator, formula, found, demand)
 
 
-def resummation(oscillator: Oscillator, result: Any, demand: Demand) -> str:
+def resummation(oscillator: Oscillator, formula: Any, found: Sequence[Reading | Unread], demand: Demand) -> str:
     """The output of another formula from the coefficients, with its certified errors where they are asked for."""
-    formula = resummed_from(oscillator, result, demand)
-    found = read_at(oscillator, formula, demand) if demand.at else ()
     if demand.style == "json":
         return json_text({**formula.to_dict(), **at_rows(found, demand)})
     if demand.style == "csv":
@@ -134,10 +143,13 @@ def certificate(oscillator: Oscillator, result: Result | BallExpansion) -> tuple
 
 
 def printed(
-    oscillator: Oscillator, result: Result | BallExpansion, demand: Demand, checks: tuple[Check, ...] | None
+    oscillator: Oscillator,
+    result: Result | BallExpansion,
+    found: Sequence[Reading | Unread],
+    demand: Demand,
+    checks: tuple[Check, ...] | None,
 ) -> str:
     """The result in the form asked for, with a line end; the certificate goes with text and JSON."""
-    found = read_at(oscillator, result, demand) if demand.at else ()
     match demand.style:
         case "csv":
             return at_csv(found, demand)
@@ -162,7 +174,7 @@ def formulas(result: Any, style: str) -> str:
     return joined(tuple(map(str, expressions(result))))
 
 
-def at_rows(found: Sequence[Reading], demand: Demand) -> dict[str, list[dict[str, object]]]:
+def at_rows(found: Sequence[Reading | Unread], demand: Demand) -> dict[str, list[dict[str, object]]]:
     """The frequencies at amplitudes in JSON, when they are asked for."""
     return {"at": rows(found, demand)} if found else {}
 

@@ -73,6 +73,65 @@ def test_resummations_have_their_certified_errors(ridgeback: Ridgeback) -> None:
 
 
 @pytest.mark.parametrize(
+    ("words", "refused", "why"),
+    [
+        (["--equation", "u'' + u - 2*u**3 + u**5", "--at", "0.99999,0.5"], 0, "cannot decide"),
+        (["pendulum", "--at", "1,4,2"], 1, "separatrix at 3.14159"),
+        (["pendulum", "--at", "1,4", "--resummed", "map", "--order", "8"], 1, "separatrix at 3.14159"),
+        (["--equation", "u'' + u**3 - u**5", "--at", "0.5,2"], 1, "separatrix at 1"),
+    ],
+)
+def test_an_amplitude_without_an_enclosure_leaves_the_others(
+    ridgeback: Ridgeback, words: list[str], refused: int, why: str
+) -> None:
+    done = ridgeback("derive", *words, "--format", "json")
+    assert done.code == 3
+    assert done.err.count("\n") == 1
+    assert why in done.err
+    rows = json.loads(done.out)["at"]
+    assert f"A = {rows[refused]['amplitude_exact']}: " in done.err
+    assert [row["omega0"] is None for row in rows] == [n == refused for n in range(len(rows))]
+    assert why in rows[refused]["refused"]
+    table = list(csv.reader(io.StringIO(ridgeback("derive", *words, "--format", "csv").out)))
+    assert table[0][-1] == "refused"
+    assert [bool(row[-1]) for row in table[1:]] == [n == refused for n in range(len(rows))]
+    text = ridgeback("derive", *words)
+    assert text.code == 3
+    assert all(str(row["omega0"]) in text.out for row in rows if row["omega0"])
+
+
+def test_an_expansion_in_eps_says_what_there_is_in_place_of_an_enclosure(ridgeback: Ridgeback) -> None:
+    for words in (
+        ("derive", "van-der-pol", "--order", "20", "--resummed", "map", "--at", "1"),
+        ("study", "van-der-pol", "--amplitudes", "0.5", "--certified"),
+    ):
+        done = ridgeback(*words)
+        assert (done.code, done.out) == (2, "")
+        assert "by shooting (not proved)" in done.err
+    studied = ridgeback("study", "van-der-pol", "--amplitudes", "0.5", "--orders", "8")
+    assert "periodic orbit found by shooting" in studied.out
+    certified = ridgeback("derive", "van-der-pol", "--order", "8", "--digits", "20")
+    assert "certain digits" in certified.out
+
+
+def test_a_force_with_a_velocity_squared_has_its_enclosure(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    path = tmp_path / "pdm.toml"
+    path.write_text('[oscillator]\nequation = "u\'\' + u + u*u\'**2 = 0"\npotential = "u**2/2"\n')
+    row = json.loads(said(ridgeback, f"{path} --at 1 --format json"))["at"][0]
+    assert row["omega0"].startswith("1.13677548843054")
+    studied = ridgeback("study", str(path), "--amplitudes", "0.5,1", "--orders", "8", "--format", "json")
+    assert studied.code == 0
+    assert json.loads(studied.out)[1]["relative_error"] == pytest.approx(float(row["relative_error"]), rel=1e-5)
+
+
+@pytest.mark.parametrize("style", ["text", "json", "python", "latex", "mathml"])
+def test_a_parameter_named_like_the_amplitude_is_refused_in_every_form(ridgeback: Ridgeback, style: str) -> None:
+    done = ridgeback("derive", "--equation", "u'' + u + A*u**3", "--order", "4", "--format", style)
+    assert (done.code, done.out) == (2, "")
+    assert "rename it, e.g. A1" in done.err
+
+
+@pytest.mark.parametrize(
     ("words", "why"),
     [
         ("pendulum --at 4", "separatrix at 3.14159"),
