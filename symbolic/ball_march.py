@@ -236,4 +236,4 @@ def _check_numbers(oscillator: Oscillator) -> None:
     names = sorted(set(free_names(force)) - {oscillator.small})
     if names:
         held = ", ".join(str(natural.constants.get(name, name)) for name in names)
-        raise InputError(f"{oscillator.name} has {held} in its equation; balls need a rational number for each of them")
+        raise InputError(f"{oscillator.name}: {held} is no rational number; balls need one for each parameter")

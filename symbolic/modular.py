@@ -102,10 +102,9 @@ def lindstedt_by_primes(
     check_amplitude(oscillator, amplitude, DIRECT)
     natural = oscillator.normalised()
     cycle = oscillator.kind == "limit-cycle"
-    if set(free_names(natural.force if cycle else natural.rational)) - {oscillator.small}:
-        raise InputError(
-            f"{oscillator.name} has parameters without a rational number; the primes need one for each of them"
-        )
+    if names := sorted(set(free_names(natural.force if cycle else natural.rational)) - {oscillator.small}):
+        held = ", ".join(str(natural.constants.get(name, name)) for name in names)
+        raise InputError(f"{oscillator.name}: {held} is no rational number; the primes need one for each parameter")
     check(law(oscillator), order, budget or Budget(), workers=workers)
     identity, work = _identity(oscillator, order, amplitude), partial(residues, oscillator, order, amplitude)
     saved = read(checkpoint, identity) if checkpoint is not None and checkpoint.exists() else Gathered(())

@@ -167,12 +167,12 @@ def test_work_over_the_budget_is_refused_beforehand_and_allowed_when_asked_for(r
         (["pendulum", "--workers", "0"], "--workers"),
         (["damped-pendulum", "--workers", "2", "--method", "multiple-scales"], "lindstedt"),
         (["pendulum", "--workers", "2", "--weights", "mu=1"], "--weights"),
-        (["--equation", "u'' + u + c*u**3 = 0", "--workers", "1"], "symbolic"),
+        (["--equation", "u'' + u + c*u**3 = 0", "--workers", "1"], "c is no rational number"),
         (["van-der-pol", "--workers", "2", "--order", "859"], "order 859 by primes of a limit-cycle"),
         (["pendulum", "--budget", "2 parsecs"], "not a budget"),
         (["pendulum", "--budget", "0h"], "not a budget"),
         (["pendulum", "--budget", "1h,2h"], "not a budget"),
-        (["--equation", "u'' + u + c*u**3 = 0", "--digits", "5"], "c as symbols"),
+        (["--equation", "u'' + u + c*u**3 = 0", "--digits", "5"], "c is no rational number"),
     ],
 )
 def test_what_balls_cannot_do_is_said_in_one_line(ridgeback: Ridgeback, words: list[str], said: str) -> None:

@@ -292,7 +292,7 @@ def test_a_ball_is_written_and_read_exactly(mid: int, exponent: int, radius: int
 
 
 def test_what_balls_cannot_do_is_refused_in_one_line() -> None:
-    with pytest.raises(InputError, match="has c in its equation; balls need a rational number"):
+    with pytest.raises(InputError, match="c is no rational number; balls need one"):
         lindstedt_in_balls(Oscillator.from_equation("u'' + u + c*u**3"), 4)
     with pytest.raises(InputError, match="digits 0"):
         lindstedt_in_balls(find(VDP), 4, digits=0)

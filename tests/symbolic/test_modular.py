@@ -71,5 +71,5 @@ def test_rational_reconstruction_inverts_reduction(value: Fraction) -> None:
 
 
 def test_symbolic_parameters_are_refused() -> None:
-    with pytest.raises(InputError, match="parameters without a rational number"):
+    with pytest.raises(InputError, match="is no rational number; the primes need one"):
         lindstedt_by_primes(Oscillator.from_equation("u'' + u + c*u**3"), 4)
