@@ -16,6 +16,7 @@ from compare.results import Array, Mask
 from numeric.amplitude import estimate_amplitude
 from numeric.backbone import Backbone, backbone
 from numeric.combined_backbone import CombinedBackbone, combine
+from numeric.decimation import every, every_flag
 from numeric.errors import InputError
 from numeric.estimate import estimate
 from numeric.half_cycles import HalfCycles, half_cycles
@@ -133,11 +134,12 @@ def size_columns(size: AmplitudeTrack, time: Array) -> Mapping[str, Array]:
 
 def of_harmonic(recording: Recording, track: Track, multiple: int, settings: Mapping[str, object]) -> Measurement:
     """A harmonic with its track, phase-locked to the fundamental's, and its amplitude where the data show it."""
-    start, notes = float(recording.time[0]), recording.notes
-    size = None
+    notes, size = recording.notes, None
     try:
         band: Any = settings.get("band")
-        size = estimate_amplitude(recording.values, recording.rate, harmonic=multiple, band=band, start=start)
+        used = as_tracked(recording, track)
+        start = float(used.time[0])
+        size = estimate_amplitude(used.values, used.rate, harmonic=multiple, band=band, start=start)
     except InputError as error:
         notes = (*notes, f"No amplitude: {error}.")
     return Measurement(recording, track, None, notes, size)
@@ -162,10 +164,29 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
     if harmonic > 1:
         return of_harmonic(recording, track, harmonic, settings)
     try:
-        curve = backbone(track, recording.values, recording.rate, start=start, exclude=marked(recording))
+        used = as_tracked(recording, track)
+        curve = backbone(track, used.values, used.rate, start=float(used.time[0]), exclude=marked(used))
     except InputError as error:
         return Measurement(recording, track, None, (*recording.notes, f"No amplitude: {error}."))
     return Measurement(recording, track, curve, (*recording.notes, *curve.notes))
+
+
+def as_tracked(recording: Recording, track: Track) -> Recording:
+    """The recording, decimated as the track's estimator did: the fundamental needs no more samples.
+
+    >>> t = np.arange(20_000) / 1000.0
+    >>> run = Recording(t, np.cos(30.0 * t), 1000.0, "u", "mm", "run.csv", "")
+    >>> few = as_tracked(run, estimate(run.values, run.rate))
+    >>> few.rate < 60.0, bool(np.allclose(few.values, np.cos(30.0 * few.time), atol=1e-3))
+    (True, True)
+    """
+    factor = track.settings.get("decimated_by")
+    if not isinstance(factor, int) or factor < 2:
+        return recording
+    few = every(recording.values, recording.rate, factor, start=float(recording.time[0]))
+    time = few.start + np.arange(few.x.size) / few.rate
+    clipped, filled = (every_flag(flags, factor) for flags in (recording.clipped, recording.filled))
+    return replace(recording, time=time, values=few.x, rate=few.rate, clipped=clipped, filled=filled)
 
 
 def of_half_cycles(recording: Recording, settings: Mapping[str, object]) -> Measurement:

@@ -20,9 +20,9 @@ from numeric.phase_track import by_harmonic_least_squares, by_hilbert, by_zero_c
 from numeric.polynomial_track import by_polynomial_wigner
 from numeric.reassigned_track import by_reassigned_spectrogram, by_synchrosqueezing
 from numeric.request import Request, prepared, refuse_cross_term
-from numeric.samples import checked_rate, checked_real_samples
+from numeric.samples import checked_rate, checked_real_samples, checked_swing
 from numeric.spline_track import by_harmonic_splines, with_spline_interval
-from numeric.track import Track
+from numeric.track import NORMAL_95, Track
 from numeric.uncertainty import trial_of, with_interval
 
 
@@ -138,7 +138,7 @@ def estimate(
         raise InputError(
             f"method {method!r} has no band-limited or single-precision form; {', '.join(OF_ONE_KERNEL)} have"
         )
-    few = Decimated(checked_real_samples(x, what="estimate"), checked_rate(rate), start, 1)
+    few = Decimated(checked_swing(checked_real_samples(x, what="estimate")), checked_rate(rate), start, 1)
     if method == "auto":
         few = decimated(few.x, few.rate, start=start, band=band, per_cycle=max(PER_CYCLE, 4.0 * harmonic))
     request = prepared(
@@ -169,16 +169,20 @@ def estimate(
 def trusted(track: Track) -> Track:
     """Take out of the valid part what its own interval hardly knows, as at the end of a decay that sinks into noise.
 
+    Where an interval was wanted and no model of the signal settles, the deviation alone counts.
+
     >>> import numpy as np
     >>> sigma, none = np.array([0.01, 0.5]), np.zeros(2)
     >>> track = Track(np.arange(2.0), np.ones(2), np.ones(2, bool), "example", sigma, none, bias_deviation=none)
     >>> trusted(track).valid.tolist()
     [True, False]
     """
-    interval = track.interval
-    if interval is None:
-        return track
-    return replace(track, valid=track.valid & (0.5 * (interval.high - interval.low) <= HARDLY_KNOWN * track.omega))
+    interval, reach = track.interval, None
+    if interval is not None:
+        reach = 0.5 * (interval.high - interval.low)
+    elif "no_interval" in track.settings and track.standard_deviation is not None:
+        reach = NORMAL_95 * track.standard_deviation
+    return track if reach is None else replace(track, valid=track.valid & (reach <= HARDLY_KNOWN * track.omega))
 
 
 def of_model(

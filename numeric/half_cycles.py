@@ -209,10 +209,13 @@ def turning_point(x: Array, first: float, last: float) -> tuple[float, float, fl
 
 
 def decrements(at: Array, peak: Array, deviation: Array) -> tuple[Array, Array]:
-    """a'/a of each half cycle from the turning points before and after it, with its standard deviation."""
+    """a'/a of each half cycle from the turning points before and after it, with its standard deviation.
+
+    NaN where noise alone leaves no turning point, or two of them at one time.
+    """
     damping, spread = np.full(peak.size, np.nan), np.full(peak.size, np.nan)
-    size = np.maximum(np.abs(peak), np.finfo(float).tiny)
-    between = at[2:] - at[:-2]
+    size = np.where(np.abs(peak) > np.finfo(float).tiny, np.abs(peak), np.nan)
+    between = np.where(at[2:] > at[:-2], at[2:] - at[:-2], np.nan)
     damping[1:-1] = np.log(size[2:] / size[:-2]) / between
     spread[1:-1] = np.hypot(deviation[2:] / size[2:], deviation[:-2] / size[:-2]) / between
     return damping, spread

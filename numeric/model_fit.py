@@ -26,7 +26,7 @@ from numeric.harmonic_signal import HarmonicSignal, decompose
 from numeric.model_start import matched
 from numeric.model_work import EVALUATIONS, OFFSET, Polar, Problem, inverse_normal, polar_of
 from numeric.request import LAG_CYCLES
-from numeric.samples import TWO_PI, checked_rate, checked_real_samples, checked_work
+from numeric.samples import TWO_PI, checked_rate, checked_real_samples, checked_swing, checked_work
 from numeric.search_band import find_corridor
 from numeric.sensitivity import steps_needed
 from numeric.whiteness import Whiteness, whiteness
@@ -135,7 +135,7 @@ def model_fit(
     (7.0, 0.5)
     """
     samples, rate = checked_real_samples(x, what="the fit of an oscillator", at_least=16), checked_rate(rate)
-    signal = smooth_model(samples, rate, band=band)
+    signal = smooth_model(checked_swing(samples), rate, band=band)
     floor = free_noise(samples, signal)
     begin, limits = matched(family, signal, free_offset=free_offset)
     problem = Problem(samples, rate, family, free_offset, 4.0 * float(np.ptp(samples)), 1, limits)

@@ -33,7 +33,7 @@ def peak_estimate(
     checked_work(work, f"{method} of {time.size} samples by {bins} bins", "use a windowed method or less signal")
     ridge = ridge_of(request.z)
     valid = ridge.inside & request.away_from_border(border + request.ringing)
-    need(valid, method, border + request.ringing)
+    need(valid, method, border + request.ringing, request)
     how = request.settings(band_limited=request.band_limited, single=request.single, **settings)
     return Track(time, ridge.omega, valid, method, request.deviation(deviation, ridge.omega, valid), None, how)
 

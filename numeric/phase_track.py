@@ -25,7 +25,7 @@ def by_hilbert(request: Request) -> Track:
     low, high = request.corridor.limits
     omega = band_frequency(request.x, request.rate, low, high)
     valid = request.away_from_border(2.0 * request.cycle)
-    need(valid, "hilbert", 2.0 * request.cycle)
+    need(valid, "hilbert", 2.0 * request.cycle, request)
     centre = np.clip(omega, request.corridor.low, request.corridor.high)
     spread = ((high - centre) ** 3 + (centre - low) ** 3) / (3.0 * TWO_PI * request.rate)
     deviation = request.deviation(lambda level: np.sqrt(2.0 * spread) * level.noise / level.amplitude, centre, valid)
@@ -71,7 +71,7 @@ def by_harmonic_least_squares(request: Request) -> Track:
     fit = harmonic_fit(x, rate, guide, half=half, shape=shape, start_time=request.start, centres=centres)
     omega = spread(fit, fit.omega, request.time)
     valid = np.interp(request.time, fit.time, fit.valid) == 1.0
-    need(valid, "harmonic-least-squares", 0.5 * request.lag_seconds)
+    need(valid, "harmonic-least-squares", 0.5 * request.lag_seconds, request)
     settings = request.settings(
         scope="local",
         noise=float(np.median(fit.noise[fit.valid])),

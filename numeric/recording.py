@@ -20,7 +20,7 @@ from numeric.column_choice import SECONDS, find_column, name_and_units, signal_i
 from numeric.columns import FILE_BUDGET, Columns
 from numeric.errors import InputError
 from numeric.file_columns import READERS
-from numeric.samples import Array, Mask, checked_budget, checked_rate
+from numeric.samples import Array, Mask, checked_budget, checked_rate, checked_swing
 from numeric.stretches import Rows, stamped
 from numeric.treatment import FEWEST_SAMPLES, Treatment, treated
 
@@ -211,6 +211,7 @@ def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> l
     time, note = stamps(signal, values.size, rate)
     names = (header if signal.clock is None else columns.names[signal.clock], header)
     samples = stamped(time, values[signal.rows], signal.rows, columns, names, fewest=FEWEST_SAMPLES)
+    checked_swing(samples.values, name=f"{columns.source}, column {header}")
     if not np.ptp(samples.values) > 0.0:
         raise InputError(
             f"{columns.source}, column {header} is constant at {samples.values[0]:g}; there is no oscillation in it"

@@ -13,7 +13,7 @@ from numeric.band_limit import ringing
 from numeric.curvature import held
 from numeric.errors import InputError
 from numeric.noise import Level, measure_level
-from numeric.samples import TWO_PI, Array, ComplexArray, Mask, checked_rate, checked_real_samples
+from numeric.samples import TWO_PI, Array, ComplexArray, Mask, checked_rate, checked_real_samples, checked_swing
 from numeric.search_band import Corridor, find_corridor, strongest_frequency
 from numeric.signal_model import SignalModels, signal_models
 from numeric.wigner import as_analytic
@@ -21,10 +21,10 @@ from numeric.windows import half_width
 
 FEWEST_SAMPLES = 16
 FEWEST_VALID = 8
+FEWEST_IN_WINDOW = 4.0
+"""Steps of the samples that a lag window must span before a shorter one could be the remedy."""
 NEAR_MULTIPLE = 0.05
 """Relative distance within which a frequency counts as a multiple of another."""
-SWING = (1e-40, 1e40)
-"""Magnitudes whose sixth powers (the polynomial kernel) and their squares stay within float64."""
 LAG_CYCLES = 4.0
 """Default window, in cycles of the strongest component: 3 s for the paper's pendulum."""
 
@@ -159,11 +159,8 @@ def prepared(
     samples, rate = checked_real_samples(x, what="estimate", at_least=FEWEST_SAMPLES), checked_rate(rate)
     if not np.ptp(samples) > 0.0:
         raise InputError(f"signal is constant at {samples[0]:g}; there is no oscillation to follow")
-    offset = float(samples.mean())
+    offset = float(checked_swing(samples).mean())
     real = samples - offset
-    largest = float(np.abs(real).max())
-    if not SWING[0] <= largest <= SWING[1]:
-        raise InputError(f"signal swings by {largest:.3g}, outside {SWING[0]:g} .. {SWING[1]:g}; scale it to order 1")
     corridor = find_corridor(real, rate, band=band)
     cycle, span = TWO_PI / corridor.centre, (real.size - 1) / rate
     if lag_seconds is None and LAG_CYCLES * cycle > span:
@@ -208,10 +205,17 @@ def refuse_cross_term(request: Request, method: str) -> None:
     )
 
 
-def need(valid: Mask, method: str, border: float) -> None:
-    """Refuse a track with hardly a valid sample."""
-    if np.count_nonzero(valid) < FEWEST_VALID:
-        raise InputError(
-            f"{method}: {np.count_nonzero(valid)} samples of {valid.size} lie {border:.4g} inside the record "
-            f"and have a peak in the band; give a longer record, a shorter lag_seconds or another band"
+def need(valid: Mask, method: str, border: float, request: Request) -> None:
+    """Refuse a track with hardly a valid sample, with what would give more of them."""
+    if np.count_nonzero(valid) >= FEWEST_VALID:
+        return
+    advice = "give a longer record, a shorter lag_seconds or another band"
+    if request.lag_seconds * request.rate < FEWEST_IN_WINDOW:
+        advice = (
+            f"lag_seconds {request.lag_seconds:.4g} holds only {request.lag_seconds * request.rate:.2g} steps of "
+            f"{1.0 / request.rate:.4g}; give a longer one, such as {LAG_CYCLES * TWO_PI / request.corridor.centre:.4g}"
         )
+    raise InputError(
+        f"{method}: {np.count_nonzero(valid)} samples of {valid.size} lie {border:.4g} inside the record and have a "
+        f"peak in the band; {advice}"
+    )

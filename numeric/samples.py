@@ -21,6 +21,10 @@ Mask = NDArray[np.bool_]
 TWO_PI = 2.0 * math.pi
 LARGEST = 1e140
 """Magnitude that a sample may have: products of two still fit into float64."""
+SWING = (1e-40, 1e40)
+"""Magnitudes whose sixth powers (the polynomial kernel) and their squares stay within float64."""
+RATES = (1e-18, 1e18)
+"""Sampling rates whose powers in a fit stay far from overflow: any unit of time comes nearer to 1 than that."""
 WORK_BUDGET = 1e12
 """Floating-point operations that one estimate may take: about ten minutes on one core."""
 
@@ -84,7 +88,25 @@ def checked_rate(rate: float) -> float:
     value = float(rate)
     if not (math.isfinite(value) and value > 0.0):
         raise InputError(f"sampling rate {rate} is not positive; give samples per time unit, such as 32.0")
+    if not RATES[0] <= value <= RATES[1]:
+        raise InputError(
+            f"sampling rate {rate:g} is outside {RATES[0]:g} .. {RATES[1]:g}; give it per another unit of time"
+        )
     return value
+
+
+def checked_swing(x: Array, *, name: str = "signal") -> Array:
+    """Return samples that are constant, or swing by what their squares and sixth powers leave within float64.
+
+    >>> checked_swing(np.array([0.0, 2e200]))
+    Traceback (most recent call last):
+        ...
+    numeric.errors.InputError: signal swings by 1e+200, outside 1e-40 .. 1e+40; scale it to order 1
+    """
+    swing = 0.5 * float(x.max()) - 0.5 * float(x.min())
+    if swing and not SWING[0] <= swing <= SWING[1]:
+        raise InputError(f"{name} swings by {swing:.3g}, outside {SWING[0]:g} .. {SWING[1]:g}; scale it to order 1")
+    return x
 
 
 def checked_budget(needed: int, budget: int, what: str, remedy: str) -> None:

@@ -16,14 +16,17 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.signal import decimate
 
 from numeric.errors import InputError
-from numeric.samples import TWO_PI, Array
-from numeric.spectrogram import spectrogram
+from numeric.samples import TWO_PI, Array, Floats, checked_budget
+from numeric.windows import half_width, window
 
 MARGIN = 1.45
 """Corridor half width as a factor: below 1.5, so that a second harmonic 1.45 times off its corridor stays out."""
 GUIDE_CYCLES = 6.0
 FEWEST_CYCLES = 3.0
 LONG = 100_000
+BLOCK_VALUES = 60_000
+"""Values that the segments of one block of columns hold, padded: half a megabyte."""
+MEMORY, MEMORY_PER_LEVEL = 1_000_000_000, 6
 THINNED = 1.25
 """Nyquist frequency of a thinned record over the highest frequency looked for."""
 
@@ -66,24 +69,24 @@ def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | No
     return float(omega[within.argmax()])
 
 
-def continuous_path(level: Array, reach: int) -> NDArray[np.intp]:
+def continuous_path(level: Floats, reach: int) -> NDArray[np.intp]:
     """Row indices of the path through ``level[row, column]`` with the largest sum, moving at most ``reach`` a column.
 
     >>> continuous_path(np.array([[9.0, 0, 0], [0, 9, 0], [0, 0, 9]]), reach=1).tolist()
     [0, 1, 2]
     """
     rows, columns = level.shape
-    best, came = level[:, 0].copy(), np.zeros((rows, columns), dtype=np.intp)
+    best, came = level[:, 0].astype(np.float64), np.zeros((rows, columns), dtype=np.int16)
     for column in range(1, columns):
         padded = np.pad(best, reach, constant_values=-np.inf)
         choices = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1)
         pick = choices.argmax(axis=1)
-        came[:, column] = np.arange(rows) + pick - reach
+        came[:, column] = pick - reach
         best = choices[np.arange(rows), pick] + level[:, column]
     path = np.empty(columns, dtype=np.intp)
     path[-1] = best.argmax()
     for column in range(columns - 1, 0, -1):
-        path[column - 1] = came[path[column], column]
+        path[column - 1] = path[column] + came[path[column], column]
     return path
 
 
@@ -99,15 +102,38 @@ def guide_path(x: Array, rate: float, centre: float, low: float, high: float) ->
     seconds = min(GUIDE_CYCLES * TWO_PI / centre, (x.size - 1) / rate * 0.999)
     hop = max(1, round(0.25 * TWO_PI / centre * rate))
     n_fft = fft.next_fast_len(max(int(8 * seconds * rate), 64), real=True)
-    plane = spectrogram(x, rate, window_seconds=seconds, hop=hop, n_fft=n_fft)
-    rows = (plane.omega >= low) & (plane.omega <= high)
-    if not rows.any():
+    ridge = Columns(half_width(seconds, rate, longest=x.size), hop, n_fft)
+    omega = TWO_PI * rate * np.arange(n_fft // 2 + 1) / n_fft
+    rows = np.flatnonzero((omega >= low) & (omega <= high))
+    if not rows.size:
         return np.full(x.size, centre)
-    values = plane.values[rows]
-    level = np.log(values / np.maximum(values.max(axis=0), np.finfo(float).tiny) + 1e-6)
-    path = plane.omega[rows][continuous_path(level, reach=3)]
+    path = omega[rows][continuous_path(ridge.levels(x, slice(rows[0], rows[-1] + 1)), reach=3)]
     smooth = gaussian_filter1d(path, GUIDE_CYCLES, mode="nearest")
-    return np.asarray(np.interp(np.arange(x.size) / rate, plane.time, smooth), dtype=np.float64)
+    return np.asarray(np.interp(np.arange(x.size), hop * np.arange(path.size), smooth), dtype=np.float64)
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Columns of a Hann spectrogram, every ``hop`` samples: half a window, and the length of the transform."""
+
+    half: int
+    hop: int
+    n_fft: int
+
+    def levels(self, x: Array, rows: slice) -> Floats:
+        """Logarithms of the bins ``rows`` relative to the highest of them, ``[row, column]``, a block at a time."""
+        frames, height = -(-x.size // self.hop), rows.stop - rows.start
+        checked_budget(MEMORY_PER_LEVEL * frames * height, MEMORY, f"the search for a path through {frames} columns by "
+            f"{height} bins", "give a narrower band")  # fmt: skip
+        w, padded = window("hann", self.half), np.pad(x - x.mean(), self.half)
+        segments = np.lib.stride_tricks.sliding_window_view(padded, w.size)[:: self.hop]
+        found, block = np.empty((height, frames), dtype=np.float32), max(1, BLOCK_VALUES // self.n_fft)
+        for first in range(0, frames, block):
+            spectra = fft.rfft(segments[first : first + block] * w, self.n_fft, axis=1)[:, rows]
+            values = (spectra.real**2 + spectra.imag**2).T
+            highest = np.maximum(values.max(axis=0), np.finfo(float).tiny)
+            found[:, first : first + block] = np.log(values / highest + 1e-6)
+        return found
 
 
 def checked_band(band: tuple[float, float], rate: float) -> tuple[float, float]:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -84,17 +84,17 @@ def treated(
     """
     longest = treatment.longest(samples.usual)
     if treatment.resample is None:
-        check_not_scattered(samples, columns)
+        check_not_scattered(samples, columns, treatment)
     flat = clipped(samples.values)
     parts, gaps = split(samples, longest)
     marks = np.split(flat, np.cumsum([part.time.size for part in parts])[:-1])
-    whole = grid_of(samples.time, samples.usual)
+    whole = Whole(samples, grid_of(samples.time, samples.usual), columns, treatment)
     kept, lost = [], []
     for part, mark in zip(parts, marks, strict=True):
         if part.time.size < FEWEST_SAMPLES or not np.ptp(part.values) > 0.0:
             lost.append(part)
             continue
-        kept.append(piece(uniform(part, mark, whole, columns, treatment), treatment))
+        kept.append(piece(uniform(part, mark, whole), treatment))
     if not kept:
         raise InputError(
             f"{columns.source}, column {header}: no stretch between its {len(gaps)} gaps has {FEWEST_SAMPLES} samples "
@@ -105,28 +105,60 @@ def treated(
     return kept, tuple(signal_notes(samples, header, gaps, lost, flat))
 
 
-def uniform(part: Stamped, mark: Mask, whole: Grid, columns: Columns, treatment: Treatment) -> Uniform:
+@dataclass(frozen=True)
+class Whole:
+    """The signal that a stretch is a part of: its samples and their grid, where it is from, what was asked for."""
+
+    samples: Stamped
+    grid: Grid
+    columns: Columns
+    treatment: Treatment
+
+    def advised(self) -> float:
+        """The rate to suggest for its uneven times."""
+        return advised_rate(self.samples, self.treatment)
+
+
+def uniform(part: Stamped, mark: Mask, whole: Whole) -> Uniform:
     """One stretch on a uniform grid: the whole recording's, its own, or by interpolation."""
-    own = grid_of(part.time, part.usual)
-    rate = treatment.resample
+    own, columns = grid_of(part.time, part.usual), whole.columns
+    rate = whole.treatment.resample
     if own.off <= JITTER:
-        if whole.off <= JITTER:
-            own = Grid(own.k, whole.step, own.off)
+        if whole.grid.off <= JITTER:
+            own = Grid(own.k, whole.grid.step, own.off)
         even = sound(on_grid(part, mark, own), columns)
         return even if rate is None else resampled(even, rate)
     if rate is not None:
-        check_not_slower(rate, part, columns)
+        check_not_slower(rate, part, whole)
         return sound(off_grid(part, mark, rate, GAP_STEPS * part.usual), columns)
     steps = np.diff(part.time)
     if float(np.abs(steps / part.usual - 1.0).max()) > EASY:
-        refuse_uneven(part, columns)
+        refuse_uneven(part, whole)
     found = off_grid(part, mark, own.k[-1] / (part.time[-1] - part.time[0]), GAP_STEPS * part.usual)
     if found.error > TOLERANCE:
-        refuse_uneven(part, columns, f"; interpolation would err by {found.error:.1e} of the rms")
+        refuse_uneven(part, whole, f"; interpolation would err by {found.error:.1e} of the rms")
     return found
 
 
-def check_not_scattered(samples: Stamped, columns: Columns) -> None:
+# A higher rate cuts at shorter steps, and what is left between the cuts has the higher mean rate: hence the rounds.
+# They end, since a cut stays a cut while the rate rises, and no step below RESAMPLED_STEPS usual ones is ever cut at.
+def advised_rate(samples: Stamped, treatment: Treatment) -> float:
+    """A rate to resample uneven times to, at least the mean rate of every stretch that it leaves.
+
+    >>> time = np.concatenate([np.arange(20.0), 40.0 + 0.5 * np.arange(20)])
+    >>> round(advised_rate(Stamped(time, time, np.arange(40), 0), Treatment()), 3)
+    2.0
+    """
+    rate = 1.0 / samples.mean
+    while True:
+        parts, _ = split(samples, replace(treatment, resample=rate).longest(samples.usual))
+        needed = max((1.0 / part.mean for part in parts if part.time.size >= FEWEST_SAMPLES), default=rate)
+        if needed <= rate * (1 + 1e-9):
+            return rate
+        rate = needed
+
+
+def check_not_scattered(samples: Stamped, columns: Columns, treatment: Treatment) -> None:
     """Refuse times of which many leave any grid, rather than take each step for a gap."""
     steps = np.diff(samples.time) / samples.usual
     off = np.abs(steps - np.maximum(1.0, np.rint(steps))) > EASY
@@ -134,7 +166,7 @@ def check_not_scattered(samples: Stamped, columns: Columns) -> None:
         raise InputError(
             f"{columns.source}: {np.count_nonzero(off)} of {steps.size} steps of the time differ from the usual one, "
             f"{samples.usual:.6g}, by more than {EASY:.0%}; resample the recording, for instance to "
-            f"{1.0 / samples.mean:.4g} per time unit"
+            f"{advised_rate(samples, treatment):.4g} per time unit"
         )
 
 
@@ -148,17 +180,18 @@ def sound(samples: Uniform, columns: Columns) -> Uniform:
     return samples
 
 
-def check_not_slower(rate: float, part: Stamped, columns: Columns) -> None:
+def check_not_slower(rate: float, part: Stamped, whole: Whole) -> None:
     """Refuse to pick samples from uneven ones at a rate at which they would alias."""
     if rate < 0.9 / part.mean:
         raise InputError(
-            f"{columns.source}: resampling uneven times to {rate:g} per time unit, below their own mean rate of "
-            f"{1.0 / part.mean:.6g}, would alias; give at least that rate"
+            f"{whole.columns.source}: resampling uneven times to {rate:g} per time unit, below their own mean rate of "
+            f"{1.0 / part.mean:.6g} in one stretch, would alias; use for instance {whole.advised():.4g}"
         )
 
 
-def refuse_uneven(part: Stamped, columns: Columns, more: str = "") -> None:
+def refuse_uneven(part: Stamped, whole: Whole, more: str = "") -> None:
     """Raise the InputError for uneven times, at the first odd step."""
+    columns = whole.columns
     steps = np.diff(part.time)
     grid = grid_of(part.time, part.usual)
     odd = np.flatnonzero(np.abs(steps - part.usual) > 2.0 * JITTER * part.usual)
@@ -167,7 +200,7 @@ def refuse_uneven(part: Stamped, columns: Columns, more: str = "") -> None:
     raise InputError(
         f"{columns.source}, {columns.place(int(part.row[at]))}: time {part.time[at]:.9g} comes {steps[at - 1]:.6g} "
         f"after the one above, the usual step is {part.usual:.6g}; steps must agree to {2 * JITTER:.0%} (resample the "
-        f"recording to about {1.0 / part.mean:.4g} per time unit, or give its rate if the stamps are at fault){more}"
+        f"recording to about {whole.advised():.4g} per time unit, or give its rate if the stamps are at fault){more}"
     )
 
 

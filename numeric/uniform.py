@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
+from scipy.fft import rfft
 from scipy.interpolate import make_interp_spline
 from scipy.signal import resample_poly
 
@@ -25,6 +26,10 @@ EASY = 0.1
 TOLERANCE = 1e-3
 """Interpolation error, relative to the rms of the signal, up to which it need not be asked for."""
 MOST_SAMPLES = 50_000_000
+MOST_LOST = 0.9
+"""Share of the signal's energy that a lower rate may filter out: more is no longer noise about an oscillation."""
+KEPT, ROOM = 0.9, 1.25
+"""Share of the energy that an advised rate keeps, and that rate over twice the highest frequency in it."""
 REACH = 10
 """Output samples that scipy's default resampling filter reaches on either side."""
 
@@ -156,8 +161,12 @@ def slower(samples: Uniform, rate: float) -> Uniform:
     at = (np.arange(values.size) / exact)[edge : values.size - edge]
     values = values[edge : values.size - edge]
     source = np.arange(samples.values.size) / samples.rate
+    gone = lost_share(samples.values[(source >= at[0]) & (source <= at[-1])], values)
+    if gone > MOST_LOST:
+        refuse_loss(samples, exact, gone)
     how = (
-        f"resampled from {samples.rate:.6g} to {exact:.6g} per time unit below a low-pass at {exact / 2:.6g}, "
+        f"resampled from {samples.rate:.6g} to {exact:.6g} per time unit below a low-pass at {exact / 2:.6g}, which "
+        f"took off {100.0 * gone:.2g} % of the signal's energy, "
         f"without the {edge} samples at either end that it sees incompletely"
     )
     return Uniform(
@@ -168,6 +177,29 @@ def slower(samples: Uniform, rate: float) -> Uniform:
         filled=nearby(source, samples.filled, at),
         error=samples.error,
         how="; ".join(text for text in (samples.how, how) if text),
+    )
+
+
+def lost_share(before: Array, after: Array) -> float:
+    """Share of the energy without the mean that is gone, 0 where there is none.
+
+    >>> lost_share(np.array([2.0, -2.0]), np.array([1.0, -1.0])), lost_share(np.ones(3), np.ones(3))
+    (0.75, 0.0)
+    """
+    energy = float(np.var(before))
+    return max(0.0, 1.0 - float(np.var(after)) / energy) if energy > 0.0 else 0.0
+
+
+def refuse_loss(samples: Uniform, rate: float, gone: float) -> None:
+    """Raise the InputError for a rate too low for the signal, with one under which most of its energy passes."""
+    spectrum = np.abs(rfft(samples.values - samples.values.mean())) ** 2
+    share = np.cumsum(spectrum) / spectrum.sum()
+    highest = int(np.searchsorted(share, KEPT)) * samples.rate / samples.values.size
+    enough = ROOM * 2.0 * highest
+    fits = f"use at least {enough:.4g}" if enough < samples.rate else "leave its rate as it is"
+    raise InputError(
+        f"resampling from {samples.rate:.6g} to {rate:.6g} per time unit would take off {100.0 * gone:.3g} % of the "
+        f"signal's energy, which lies above the new Nyquist frequency {rate / 2:.6g}; {fits}"
     )
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from compare.measurement import amplitude_columns, measure, survey
+from numeric.backbone import backbone
 from numeric.errors import InputError
 from numeric.recording import Recording
 
@@ -99,3 +100,25 @@ def test_progress_names_each_signal():
     told = []
     survey([recording(run="1"), recording(run="2")], progress=lambda share, text: told.append((share, text)), **QUICK)
     assert told == [(0.0, "estimating a.csv, 1, u"), (0.5, "estimating a.csv, 2, u")]
+
+
+def test_a_long_record_is_measured_at_the_rate_of_its_decimated_track(monkeypatch):
+    """Amplitude and backbone fit the samples that the track used, not a hundred times as many."""
+    seen = []
+
+    def watched(track, x, rate, **rest):
+        seen.append((x.size, rate))
+        return backbone(track, x, rate, **rest)
+
+    monkeypatch.setattr("compare.measurement.backbone", watched)
+    rate = 8000.0
+    t = np.arange(64_000) / rate
+    x = 2.0 * np.exp(-0.1 * t) * np.cos(10 * np.pi * t) + 0.001 * np.random.default_rng(0).normal(size=t.size)
+    found = measure(Recording(t, x, rate, "u", "V", "a.wav", "", clipped=t < 1.0))
+    factor = found.found.settings["decimated_by"]
+    assert factor > 100
+    assert seen == [(found.found.time.size, rate / factor)]
+    curve = found.backbone
+    assert curve.time.min() > 1.0
+    assert np.abs(curve.amplitude / (2.0 * np.exp(-0.1 * curve.time)) - 1.0).max() < 3e-4
+    assert np.abs(curve.damping + 0.1).max() < 5e-3

@@ -148,6 +148,7 @@ def test_a_lower_rate_is_filtered_first(tmp_path: Path) -> None:
     """What lies above the new Nyquist frequency is gone, what lies below is kept."""
     high = 0.5 * np.cos(2 * np.pi * 8.0 * T)
     found = read_recording(written(tmp_path / "a.csv", T, X + high), resample=10.0)
+    assert any("which took off 20 % of the signal's energy" in note for note in found.notes)
     assert found.rate == 10.0
     assert np.abs(found.values - wave(found.time)).max() < 5e-3
     finer = read_recording(written(tmp_path / "b.csv", T, X), resample=50.0)
@@ -276,3 +277,33 @@ def test_the_guide_of_a_thinned_record_is_that_of_the_whole() -> None:
     inside = (t > 1.0) & (t < 59.0)
     assert np.abs(corridor.guide / omega - 1.0)[inside].max() < 0.02
     assert corridor.guide.size == t.size
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_rate_that_is_suggested_for_scattered_times_passes(tmp_path: Path, seed: int) -> None:
+    t = np.sort(np.random.default_rng(seed).uniform(0.0, 20.0, 801))
+    path = written(tmp_path / "a.csv", t, wave(t))
+    with pytest.raises(InputError, match="for instance to") as refused:
+        read_recordings([path])
+    rate = float(str(refused.value).split("for instance to ")[1].split()[0])
+    assert {found.rate for found in read_recordings([path], resample=rate)} == {rate}
+    with pytest.raises(InputError, match=rf"would alias; use for instance {rate:.4g}"):
+        read_recordings([path], resample=0.5 * rate)
+
+
+def test_a_rate_below_the_signal_is_refused_with_one_that_fits(tmp_path: Path) -> None:
+    x = np.cos(2 * np.pi * 2.1 * T) + 0.05 * np.random.default_rng(1).normal(size=T.size)
+    path = written(tmp_path / "a.csv", T, x)
+    message = r"take off [19]\d+.* % of the signal's energy, .* Nyquist frequency 1.5; use"
+    with pytest.raises(InputError, match=message) as no:
+        read_recording(path, resample=3.0)
+    enough = float(str(no.value).rpartition(" ")[2])
+    assert 4.2 < enough < 6.5
+    found = read_recording(path, resample=enough)
+    assert np.std(found.values) == pytest.approx(np.std(x), rel=0.02)
+
+
+@pytest.mark.parametrize("scale", [1e200, 1e-200])
+def test_extreme_values_are_refused_on_reading(tmp_path: Path, scale: float) -> None:
+    with pytest.raises(InputError, match=r"a.csv, column u swings by 1e[+-]200, outside"):
+        read_recordings([written(tmp_path / "a.csv", T, scale * np.cos(5.0 * T))])
