@@ -32,6 +32,7 @@ SCATTERED = 0.02
 """Share of steps over GAP_STEPS usual ones from which on times are uneven altogether, not even with gaps."""
 GUESS = 0.3
 """Interpolation error, relative to the rms of the signal, from which on it is refused."""
+ROUNDS = 100
 PLACES = 4
 """Places that a note lists."""
 
@@ -150,12 +151,13 @@ def advised_rate(samples: Stamped, treatment: Treatment) -> float:
     2.0
     """
     rate = 1.0 / samples.mean
-    while True:
+    for _round in range(ROUNDS):
         parts, _ = split(samples, replace(treatment, resample=rate).longest(samples.usual))
         needed = max((1.0 / part.mean for part in parts if part.time.size >= FEWEST_SAMPLES), default=rate)
         if needed <= rate * (1 + 1e-9):
-            return rate
+            break
         rate = needed
+    return rate
 
 
 def check_not_scattered(samples: Stamped, columns: Columns, treatment: Treatment) -> None:
