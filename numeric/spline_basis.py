@@ -136,8 +136,8 @@ def overlap_sums(basis: SplineBasis, weights: Array, pairs: list[tuple[int, int]
     for first in range(0, weights.shape[0], rows):
         part = weights[first : first + rows]
         products = part[:, left] * part[:, right]
-        for total, overlap in zip(sums, basis.overlaps, strict=True):
-            total += (overlap if len(part) == len(weights) else overlap[:, first : first + rows]) @ products
+        for j, overlap in enumerate(basis.overlaps):
+            sums[j] += (overlap if len(part) == len(weights) else overlap[:, first : first + rows]) @ products
     yield from sums
 
 
