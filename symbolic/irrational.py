@@ -54,8 +54,23 @@ def _irrational(e: sympy.Expr) -> bool:
 
 def _opened(force: sympy.Expr) -> sympy.Expr:
     """sin(u + c) as sin u cos c + cos u sin c and the like, multiplied out."""
-    opened = sympy.expand(sympy.expand(force, trig=True, power_base=False, log=False))
-    return sympy.Add(*(_collected(opened)))
+    apart = force.replace(lambda e: e.func in _ADDITION and e.args[0].is_Add, _apart)
+    return sympy.Add(*_collected(sympy.expand(apart, power_base=False, log=False)))
+
+
+_ADDITION = {
+    sympy.sin: lambda a, c: sympy.sin(a) * sympy.cos(c) + sympy.cos(a) * sympy.sin(c),
+    sympy.cos: lambda a, c: sympy.cos(a) * sympy.cos(c) - sympy.sin(a) * sympy.sin(c),
+    sympy.sinh: lambda a, c: sympy.sinh(a) * sympy.cosh(c) + sympy.cosh(a) * sympy.sinh(c),
+    sympy.cosh: lambda a, c: sympy.cosh(a) * sympy.cosh(c) + sympy.sinh(a) * sympy.sinh(c),
+}
+"""The addition theorems."""
+
+
+def _apart(e: sympy.Expr) -> sympy.Expr:
+    """A function of a sum with a number in it, by its addition theorem."""
+    number, rest = e.args[0].as_independent(U, V, as_Add=True)
+    return e if number == 0 or not number.is_number else _ADDITION[e.func](rest, number)
 
 
 def _collected(e: sympy.Expr) -> list[sympy.Expr]:
