@@ -51,3 +51,9 @@ def test_asymmetric_well_by_hand() -> None:
 def test_numbers_that_must_cancel_are_not_taken_for_parameters() -> None:
     force = U * (sympy.sqrt(2) + sympy.sqrt(3)) ** 2 / (5 + 2 * sympy.sqrt(6)) + U**3
     assert named(force).values == {} or sympy.expand(named(force).force.diff(U).subs(U, 0)) == 1
+
+
+def test_functions_without_a_number_in_their_sum_are_left_closed() -> None:
+    """Opening sinh of 27 u' or so would never end."""
+    own = Oscillator.from_equation("u'' + 2*u + u**3 + asinh(sinh(u'**27)**9) = 0")
+    assert list(own.normalised().constants.values()) == [sympy.sqrt(2)]
