@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import fields
+from types import MappingProxyType
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -29,3 +34,25 @@ def frozen_flags(values: ArrayLike) -> Flags:
     copy = np.array(values, dtype=bool)
     copy.flags.writeable = False
     return copy
+
+
+def freeze(value: Any) -> None:
+    """Make the arrays and mappings of a frozen dataclass read-only copies; for its ``__post_init__``.
+
+    >>> from dataclasses import dataclass
+    >>> @dataclass(frozen=True)
+    ... class Pair:
+    ...     x: Array
+    ...     settings: Mapping[str, int]
+    ...     def __post_init__(self) -> None:
+    ...         freeze(self)
+    >>> pair = Pair(np.zeros(2), {"a": 1})
+    >>> pair.x.flags.writeable, type(pair.settings).__name__
+    (False, 'mappingproxy')
+    """
+    for item in fields(value):
+        held = getattr(value, item.name)
+        if isinstance(held, np.ndarray):
+            object.__setattr__(value, item.name, frozen_flags(held) if held.dtype == np.bool_ else frozen(held))
+        elif isinstance(held, Mapping):
+            object.__setattr__(value, item.name, MappingProxyType(dict(held)))

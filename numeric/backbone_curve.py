@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from types import MappingProxyType
 
 import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
-from numeric.arrays import frozen
+from numeric.arrays import freeze
 from numeric.samples import TWO_PI, Array, Mask
 
 MOST_BINS = 24
@@ -46,10 +45,7 @@ class Backbone:
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        for item in fields(self):
-            if isinstance(getattr(self, item.name), np.ndarray):
-                object.__setattr__(self, item.name, frozen(getattr(self, item.name)))
-        object.__setattr__(self, "settings", MappingProxyType(dict(self.settings)))
+        freeze(self)
 
     def rows(self) -> list[dict[str, float]]:
         """One row per point of the curve: amplitude, omega, frequency and damping with their standard deviations."""

@@ -12,11 +12,11 @@ Runs that agree within their own errors give tau = 0; runs that do not are avera
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
-from numeric.arrays import frozen
+from numeric.arrays import freeze
 from numeric.backbone_curve import MOST_BINS, Backbone
 from numeric.errors import InputError
 from numeric.samples import TWO_PI, Array
@@ -42,9 +42,7 @@ class CombinedBackbone:
     definition: str
 
     def __post_init__(self) -> None:
-        for item in fields(self):
-            if item.name not in ("labels", "definition"):
-                object.__setattr__(self, item.name, frozen(getattr(self, item.name)))
+        freeze(self)
 
     def rows(self) -> list[dict[str, float]]:
         """One row per amplitude, named as those of a Backbone, with the scatter between runs."""

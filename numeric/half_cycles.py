@@ -14,15 +14,14 @@ crossings and turning points are all the more wrong the smaller the oscillation 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from itertools import pairwise
-from types import MappingProxyType
 
 import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
-from numeric.arrays import frozen
+from numeric.arrays import freeze
 from numeric.backbone import CLEAR
 from numeric.backbone_curve import Backbone, Crowding, Points, assemble
 from numeric.errors import InputError
@@ -58,10 +57,7 @@ class HalfCycles:
     definition: str = "peak"
 
     def __post_init__(self) -> None:
-        for item in fields(self):
-            if isinstance(getattr(self, item.name), np.ndarray):
-                object.__setattr__(self, item.name, frozen(getattr(self, item.name)))
-        object.__setattr__(self, "settings", MappingProxyType(dict(self.settings)))
+        freeze(self)
 
     def rows(self) -> list[dict[str, float]]:
         """One row per half cycle."""

@@ -14,13 +14,13 @@ All windows have the same length; near the border they stop moving and omega is 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 
-from numeric.arrays import frozen, frozen_flags
+from numeric.arrays import freeze
 from numeric.errors import InputError
 from numeric.samples import Array, Mask, checked_work
 
@@ -74,11 +74,7 @@ class HarmonicFit:
     window_seconds: float
 
     def __post_init__(self) -> None:
-        for item in fields(self):
-            if item.name not in ("settled", "valid", "shape", "window_seconds"):
-                object.__setattr__(self, item.name, frozen(getattr(self, item.name)))
-        object.__setattr__(self, "settled", frozen_flags(self.settled))
-        object.__setattr__(self, "valid", frozen_flags(self.valid))
+        freeze(self)
 
 
 def powers(s: Array, degree: int) -> Array:

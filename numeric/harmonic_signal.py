@@ -15,7 +15,7 @@ from scipy.interpolate import BSpline, make_interp_spline
 from scipy.sparse import csc_array, diags_array, hstack
 from scipy.sparse.linalg import splu
 
-from numeric.arrays import frozen
+from numeric.arrays import freeze
 from numeric.errors import InputError
 from numeric.samples import TWO_PI, Array
 
@@ -43,8 +43,7 @@ class HarmonicSignal:
     """Spline coefficients that were fitted, 0 for a signal that was not."""
 
     def __post_init__(self) -> None:
-        for name in ("phase", "omega", "cosine", "sine", "offset"):
-            object.__setattr__(self, name, frozen(getattr(self, name)))
+        freeze(self)
 
     @property
     def time(self) -> Array:

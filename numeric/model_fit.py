@@ -17,7 +17,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike
 
-from numeric.arrays import Array, frozen
+from numeric.arrays import Array, freeze
 from numeric.dynamics import Dynamics
 from numeric.errors import InputError
 from numeric.family import Family
@@ -71,8 +71,7 @@ class ModelFit:
     start: float
 
     def __post_init__(self) -> None:
-        for name in ("theta", "covariance", "residual", "fitted"):
-            object.__setattr__(self, name, frozen(getattr(self, name)))
+        freeze(self)
 
     @property
     def initial(self) -> tuple[float, float]:

@@ -8,13 +8,13 @@ nodes reach 1e-9 up to nine tenths of the way to a separatrix (``exact_frequency
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from numeric.arrays import Array, frozen
+from numeric.arrays import Array, freeze
 from numeric.bilinear import Bilinear, bilinear_frequency, bilinear_waveform, potential
 from numeric.dynamics import Dynamics
 from numeric.errors import InputError
@@ -39,8 +39,7 @@ class OrbitTable:
     quartic: Array
 
     def __post_init__(self) -> None:
-        for item in fields(self):
-            object.__setattr__(self, item.name, frozen(getattr(self, item.name)))
+        freeze(self)
 
 
 def orbit_table(dynamics: Dynamics, peak: ArrayLike, *, harmonics: int = HARMONICS, nodes: int = NODES) -> OrbitTable:

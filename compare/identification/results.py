@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
-from types import MappingProxyType
 
 import numpy as np
 
 from compare.results import Array
-from numeric.arrays import frozen
+from numeric.arrays import freeze
 
 NORMAL_95 = 1.959963984540054
 """The 97.5 % point of the normal distribution: half the width of a 95 % interval in standard deviations."""
@@ -23,12 +22,7 @@ class _Values:
     """Arrays are copied and made read-only, mappings read-only; ``record`` gives what JSON knows."""
 
     def __post_init__(self) -> None:
-        for item in fields(self):  # type: ignore[arg-type]
-            value = getattr(self, item.name)
-            if isinstance(value, np.ndarray):
-                object.__setattr__(self, item.name, frozen(value))
-            elif isinstance(value, Mapping):
-                object.__setattr__(self, item.name, MappingProxyType(dict(value)))
+        freeze(self)
 
     def record(self) -> dict[str, object]:
         """All fields by name, as lists, numbers, text and mappings of them."""
