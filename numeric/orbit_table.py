@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from numeric.arrays import Array, freeze
+from numeric.arrays import Array, freeze, frozen
 from numeric.bilinear import Bilinear, bilinear_frequency, bilinear_waveform, potential
 from numeric.dynamics import Dynamics
 from numeric.errors import InputError

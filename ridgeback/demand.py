@@ -11,7 +11,6 @@ from typing import Any
 import click
 
 from ridgeback.demand_options import OPTIONS
-from ridgeback.output import keep_apart
 
 Command = Callable[..., None]
 
@@ -97,7 +96,6 @@ def demanding(command: Command) -> Command:
     def wrapped(**options: Any) -> None:
         demand = Demand(**{item.name: options.pop(item.name) for item in fields(Demand)})
         demand.check()
-        keep_apart({"-o": options.get("output"), "--checkpoint": demand.checkpoint})
         command(demand=demand, **options)
 
     for option in reversed(OPTIONS):

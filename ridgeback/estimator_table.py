@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ridgeback.monte_carlo import uncertain
-from ridgeback.output import json_text, keep_apart, output_path, write_text
+from ridgeback.output import json_text, output_path, write_text
 from ridgeback.progress import Progress
 from ridgeback.tables import aligned, csv_text
 
@@ -49,7 +49,6 @@ def estimator_options(command: Decorated) -> Decorated:
 
 def estimators_verb(*, trials: int | None, seed: int, checkpoint: str | None, style: str, output: str) -> None:
     """Run the study and write its table; what an interrupt leaves is written too, and called partial."""
-    keep_apart({"-o": output, "--checkpoint": checkpoint})
     from compare.estimator_study import TRIALS, estimator_study
 
     with Progress() as progress:

@@ -12,7 +12,7 @@ import click
 from ridgeback.arguments import shown, written
 from ridgeback.failure import say
 from ridgeback.options import Decorated
-from ridgeback.output import STDOUT, output_path
+from ridgeback.output import STDOUT, OutputPath, output_path
 from ridgeback.progress import Progress, is_terminal
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def budget(text: str) -> Budget:
     return Budget(**given)
 
 
-def checkpoint_path(text: str) -> str:
+def checkpoint_path(text: str) -> OutputPath:
     """A file for a checkpoint, refused before the work starts."""
     if text == STDOUT:
         raise click.BadParameter("a checkpoint is a file that is read again; give its name")

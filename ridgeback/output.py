@@ -17,7 +17,13 @@ import click
 STDOUT = "-"
 
 
-def output_path(text: str) -> str:
+class OutputPath(str):
+    """A place that was named to be written to."""
+
+    __slots__ = ()
+
+
+def output_path(text: str) -> OutputPath:
     """A place to write to, refused before the work starts as the operating system would at its end.
 
     >>> output_path("-")
@@ -26,7 +32,7 @@ def output_path(text: str) -> str:
     if "\0" in text or not text:
         raise click.BadParameter("a file name cannot be empty or hold a null character; use - for the screen")
     check_writable(text)
-    return text
+    return OutputPath(text)
 
 
 def check_writable(path: str) -> None:
@@ -48,6 +54,8 @@ def check_writable(path: str) -> None:
     refused = target if target.exists() and not target.is_file() else folder
     if not os.access(refused, os.W_OK):
         raise PermissionError(errno.EACCES, "No permission to write", path)
+    if target.is_file() and not target.stat().st_mode & 0o222:
+        raise PermissionError(errno.EACCES, "The file is read-only; allow writing or name another", path)
 
 
 def keep_apart(written: Mapping[str, str | None], read: Iterable[str | None] = ()) -> None:
@@ -60,16 +68,29 @@ def keep_apart(written: Mapping[str, str | None], read: Iterable[str | None] = (
         ...
     click.exceptions.UsageError: --plot './out.svg' is the file of -o too; give each a name of its own
     """
-    taken = {Path(path).resolve(): "a file that is read" for path in read if path is not None}
+    taken = [(path, "a file that is read") for path in read if path is not None]
     for option, path in written.items():
         if path is None or path == STDOUT:
             continue
-        target = Path(path).resolve()
+        target = Path(path)
         if target.exists() and not target.is_file():
             continue
-        if target in taken:
-            raise click.UsageError(f"{option} '{path}' is {taken[target]} too; give each a name of its own")
-        taken[target] = f"the file of {option}"
+        for other, what in taken:
+            if same_file(path, other):
+                raise click.UsageError(f"{option} '{path}' is {what} too; give each a name of its own")
+        taken.append((path, f"the file of {option}"))
+
+
+def same_file(one: str, other: str) -> bool:
+    """Whether two names are of one file, through symbolic links, hard links and other spellings.
+
+    >>> same_file("a.csv", "./a.csv"), same_file("a.csv", "b.csv")
+    (True, False)
+    """
+    try:
+        return Path(one).resolve() == Path(other).resolve() or Path(one).samefile(other)
+    except OSError:
+        return False
 
 
 def write_text(path: str, text: str) -> None:

@@ -8,14 +8,14 @@ from typing import Any, TypeVar
 import click
 
 from ridgeback.arguments import shown
-from ridgeback.output import check_writable
+from ridgeback.output import OutputPath, output_path
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 KINDS = ("svg", "png", "pdf")
 
 
-def picture_path(text: str) -> str:
+def picture_path(text: str) -> OutputPath:
     """A place to draw to, with one of the endings that can be drawn.
 
     >>> picture_path("decay.svg")
@@ -23,8 +23,7 @@ def picture_path(text: str) -> str:
     """
     if text.rpartition(".")[2].lower() not in KINDS or "." not in text:
         raise click.BadParameter(f"{shown(text)} does not end in .svg, .png or .pdf; name a picture file")
-    check_writable(text)
-    return text
+    return output_path(text)
 
 
 def plot_option(command: Decorated) -> Decorated:

@@ -20,6 +20,7 @@ from ridgeback.motion import fixed_rows, harmonic_output, transient_output
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.resumming import formula_text, resummed_from
+from ridgeback.verb import Verb
 from ridgeback.wording import as_text, certified, expressions, joined, limit_rows, range_of_use
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     Result = Expansion | SlowFlow
 
 
-@click.command("derive", short_help="Derive the frequency as an exact series.")
+@click.command("derive", cls=Verb, short_help="Derive the frequency as an exact series.")
 @choosing
 @requesting
 @demanding

@@ -14,16 +14,17 @@ from ridgeback.failure import PartialError, say
 from ridgeback.model_options import MODEL_FIT, Model, model_options
 from ridgeback.monte_carlo import monte_carlo_options, monte_carlo_verb, trials_and_file
 from ridgeback.options import format_option, output_option
-from ridgeback.output import keep_apart, write_bytes, write_text
+from ridgeback.output import write_bytes, write_text
 from ridgeback.plot import plot_option
 from ridgeback.progress import Progress
 from ridgeback.recording_options import Reading, reading_options
+from ridgeback.verb import Verb
 
 if TYPE_CHECKING:
     from compare.measurement import Survey
 
 
-@click.command("estimate", short_help="Estimate the frequency of a recording over time.")
+@click.command("estimate", cls=Verb, short_help="Estimate the frequency of a recording over time.")
 @click.argument("files", nargs=-1, metavar="FILE...")
 @reading_options
 @estimator_options
@@ -97,7 +98,6 @@ def command(
             raise click.UsageError("--monte-carlo is about the track of the fundamental; leave out what else is asked")
         refuse_beside(estimator, "--monte-carlo", "method", "band", "lag_seconds", "remove_bias")
         trials, file = trials_and_file(monte_carlo, files[0] if files else None)
-        keep_apart({"-o": output}, [file])
         monte_carlo_verb(
             None if file is None else reading.one(file),
             trials=trials,
@@ -117,7 +117,6 @@ def command(
         raise click.UsageError("--workers belongs to --monte-carlo; leave it out")
     if not files:
         raise click.UsageError("name the FILE of a recording; only --monte-carlo goes without one")
-    keep_apart({"-o": output, "--plot": plot}, files)
     estimator = replace(estimator, model=model)
     if estimator.method == MODEL_FIT:
         refuse_beside(estimator, "--method model-fit", "method", "band", "family")

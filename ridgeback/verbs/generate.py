@@ -15,6 +15,7 @@ from ridgeback.derivation import Request, derived, requesting
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.resumming import resummed_from
+from ridgeback.verb import Verb
 
 if TYPE_CHECKING:
     from symbolic.expansion import Expansion
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     from symbolic.slow_flow import SlowFlow
 
 
-@click.command("generate", short_help="Write an expansion as Python or C.")
+@click.command("generate", cls=Verb, short_help="Write an expansion as Python or C.")
 @choosing
 @click.option(
     "--language",

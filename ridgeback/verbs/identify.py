@@ -9,10 +9,11 @@ import click
 from ridgeback.arguments import POSITIVE, pair, shown, written
 from ridgeback.failure import PartialError
 from ridgeback.options import format_option, output_option
-from ridgeback.output import json_text, keep_apart, write_text
+from ridgeback.output import json_text, write_text
 from ridgeback.progress import Progress
 from ridgeback.recording_options import Reading, Treatment, treatment_options
 from ridgeback.tables import aligned, csv_text, readable
+from ridgeback.verb import Verb
 
 if TYPE_CHECKING:
     from compare.identification.results import Identification, Prediction
@@ -46,7 +47,7 @@ def interval(text: str) -> tuple[float, float]:
     return begin, end
 
 
-@click.command("identify", short_help="Say which oscillator made a decay.")
+@click.command("identify", cls=Verb, short_help="Say which oscillator made a decay.")
 @click.argument("file")
 @click.option(
     "--column", default=None, metavar="NAME", help="The samples.  Needed when the file holds several signals."
@@ -96,7 +97,6 @@ def command(
     ridgeback identify decay.csv --candidates linear,pendulum,duffing-softening --format json
     ridgeback identify decay.csv --span 0,40 --predict-from 20
     """
-    keep_apart({"-o": output}, [file])
     recording = Reading(column, time_column, rate, treatment=treatment).one(file)
     with Progress() as progress:
         found = identified(

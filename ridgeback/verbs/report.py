@@ -13,9 +13,10 @@ from ridgeback.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
 from ridgeback.choice import Choice, choosing
 from ridgeback.failure import PartialError, say
 from ridgeback.options import format_option, unique
-from ridgeback.output import STDOUT, json_text, keep_apart, output_path, write_text
+from ridgeback.output import STDOUT, json_text, output_path, write_text
 from ridgeback.progress import Progress
 from ridgeback.recording_options import Reading, Treatment, treatment_options
+from ridgeback.verb import Verb
 
 if TYPE_CHECKING:
     from compare.motion import Setting
@@ -56,7 +57,7 @@ class Source:
     treatment: Treatment
 
 
-@click.command("report", short_help="Write the comparison as one HTML page.")
+@click.command("report", cls=Verb, short_help="Write the comparison as one HTML page.")
 @choosing
 @click.option("--initial", type=PAIR, default=None, metavar="U,V", help="State at time 0.")
 @click.option("--duration", type=POSITIVE, default=None, metavar="T", help="Time to integrate over.")
@@ -128,7 +129,6 @@ def command(
     """
     if trials == 1:
         raise click.UsageError("--trials 1 shows no spread; use at least 2, or 0 for no noise study")
-    keep_apart({"-o": output}, [recording])
     motion = Motion(choice, initial, duration, rate)
     scope = Scope(order, orders, amplitudes, target, trials)
     shown = as_typed(context.find_root().obj or ("report",))

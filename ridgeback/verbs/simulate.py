@@ -11,6 +11,7 @@ from ridgeback.choice import Choice, choosing
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.tables import csv_text
+from ridgeback.verb import Verb
 
 if TYPE_CHECKING:
     from numeric.trajectory import Trajectory
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 COLUMNS = ("time_s", "u", "velocity")
 
 
-@click.command("simulate", short_help="Integrate the equation of motion.")
+@click.command("simulate", cls=Verb, short_help="Integrate the equation of motion.")
 @choosing
 @click.option("--initial", type=PAIR, default=None, metavar="U,V", help="State at time 0.  Default: the catalogue's.")
 @click.option("--duration", type=POSITIVE, default="20", show_default=True, metavar="T", help="Time to integrate over.")

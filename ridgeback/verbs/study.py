@@ -14,13 +14,14 @@ from ridgeback.failure import PartialError
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.tables import Row, aligned, csv_text
+from ridgeback.verb import Verb
 
 if TYPE_CHECKING:
     from compare.results import Study
     from symbolic.oscillator import Oscillator
 
 
-@click.command("study", short_help="Error of expansions over order and amplitude.")
+@click.command("study", cls=Verb, short_help="Error of expansions over order and amplitude.")
 @choosing
 @click.option(
     "--orders", type=ORDERS, default="2,4,8,16", show_default=True, metavar="N,N,...", help="Orders to compare."

@@ -10,6 +10,7 @@ from ridgeback.choice import Choice
 from ridgeback.options import format_option, output_option
 from ridgeback.output import json_text, write_text
 from ridgeback.tables import aligned, csv_text
+from ridgeback.verb import Verb
 
 if TYPE_CHECKING:
     from symbolic.oscillator import Oscillator
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 COLUMNS = ("name", "kind", "equation", "parameters")
 
 
-@click.command("systems", short_help="List the oscillators, or describe one.")
+@click.command("systems", cls=Verb, short_help="List the oscillators, or describe one.")
 @click.argument("system", required=False)
 @format_option("text", "json", "csv", default="text")
 @output_option

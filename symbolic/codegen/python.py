@@ -7,6 +7,7 @@ from textwrap import wrap
 from sympy import Expr
 from sympy.printing.pycode import PythonCodePrinter
 
+from symbolic.codegen.comments import comment_text
 from symbolic.codegen.form import Constant, Form, Function
 
 WIDTH = 110
@@ -30,24 +31,15 @@ def write(form: Form) -> str:
 def header(form: Form) -> str:
     """The module's documentation: what the numbers mean, and how they were rounded."""
     lines = [
-        f'"""{safe(form.title)}.',
+        f'"""{comment_text(form.title)}.',
         "",
-        *map(safe, form.facts),
+        *map(comment_text, form.facts),
         "",
         *(LIBRARY if form.uses_library else PLAIN),
         '"""',
         *(("", "import math") if form.uses_library else ()),
     ]
     return "\n".join(lines)
-
-
-def safe(text: str) -> str:
-    """Text on one line that cannot end the docstring it stands in.
-
-    >>> safe("a  back" + chr(92) + "slash")
-    'a back/slash'
-    """
-    return " ".join(text.split()).replace("\\", "/").replace('"""', "'''")
 
 
 def write_function(function: Function) -> str:
@@ -70,10 +62,10 @@ def signature(function: Function) -> str:
 
 def documentation(function: Function) -> str:
     """The docstring: one line per argument."""
-    arguments = "\n".join(f"    {a.name}: {a.meaning}" for a in function.arguments)
-    lines = (line for note in function.notes for line in wrap(safe(note), WIDTH))
+    arguments = "\n".join(f"    {a.name}: {comment_text(a.meaning)}" for a in function.arguments)
+    lines = (line for note in function.notes for line in wrap(comment_text(note), WIDTH))
     notes = "\n" + "".join(f"\n    {line}" for line in lines)
-    return f'    """{function.summary}\n\n{arguments}{notes}\n    """'
+    return f'    """{comment_text(function.summary)}\n\n{arguments}{notes}\n    """'
 
 
 def body_lines(function: Function) -> list[str]:

@@ -314,5 +314,5 @@ def test_a_checkpoint_is_no_output(
     monkeypatch.chdir(tmp_path)
     done = ridgeback(*verb, "--checkpoint", "x.json", "-o", "x.json")
     assert done.code == 2
-    assert "--checkpoint 'x.json' is the file of -o too" in done.err
+    assert "-o 'x.json' is the file of --checkpoint too" in done.err
     assert not (tmp_path / "x.json").exists()

@@ -16,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ridgeback import output, tables
+from ridgeback.cli import main
 
 
 def test_a_file_is_replaced_in_one_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -127,3 +128,32 @@ def test_outputs_are_kept_apart_by_their_resolved_paths(tmp_path: Path, monkeypa
             output.keep_apart({"-o": other}, ["real.csv"])
         with pytest.raises(click.UsageError, match="is the file of -o too"):
             output.keep_apart({"-o": "real.csv", "--plot": other})
+
+
+VERBS = ("derive", "generate", "simulate", "study", "report", "systems")
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_no_verb_writes_over_the_description_it_reads(
+    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = "[oscillator]\nequation = \"u'' + u + u**3 = 0\"\n"
+    source = tmp_path / "mine.toml"
+    source.write_text(text)
+    (tmp_path / "link").symlink_to(source)
+    (tmp_path / "hard").hardlink_to(source)
+    (tmp_path / "folder").mkdir()
+    for name in ("mine.toml", "./mine.toml", str(source), "folder/../mine.toml", "link", "hard"):
+        assert main([verb, "mine.toml", "-o", name]) == 2
+        assert "is a file that is read too" in capsys.readouterr().err
+    assert source.read_text() == text
+
+
+def test_a_read_only_file_is_not_replaced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    kept = tmp_path / "kept.txt"
+    kept.write_text("kept")
+    kept.chmod(0o444)
+    assert main(["systems", "-o", str(kept)]) == 4
+    assert "read-only" in capsys.readouterr().err
+    assert kept.read_text() == "kept"
