@@ -8,7 +8,7 @@ from __future__ import annotations
 import argparse
 import sys
 
-from compare.identification.confusion import DRAWS, Confusion, confusion
+from ridgeback.compare.identification.confusion import DRAWS, Confusion, confusion
 
 
 def shown(found: Confusion) -> str:

@@ -10,10 +10,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from numeric.cycles import cycle_frequency
-from numeric.dynamics import Dynamics, duffing, pendulum
-from numeric.estimate import METHODS, estimate
-from numeric.trajectory import integrate
+from ridgeback.numeric.estimators.estimate import METHODS, estimate
+from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
+from ridgeback.numeric.motion.dynamics import Dynamics, duffing, pendulum
+from ridgeback.numeric.motion.trajectory import integrate
 
 RATE, SECONDS, TRIALS = 32.0, 20.0, 6
 DECIBELS = (10.0, 20.0, 30.0, 40.0)

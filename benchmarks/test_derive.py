@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
-from symbolic.energy_integral import energy_integral
-from symbolic.lindstedt import lindstedt
-from symbolic.multiple_scales import multiple_scales
-from symbolic.systems import find
+from ridgeback.symbolic.expansion.energy_integral import energy_integral
+from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.systems.catalogue import find
 
 
 @pytest.mark.parametrize("order", [10, 20, 50, 100])

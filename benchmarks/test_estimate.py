@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from numeric.estimate import METHODS, estimate
+from ridgeback.numeric.estimators.estimate import METHODS, estimate
 
 RATE = 32.0
 

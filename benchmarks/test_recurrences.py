@@ -13,8 +13,8 @@ from typing import Any
 
 import pytest
 
-from symbolic.lindstedt import lindstedt
-from symbolic.systems import find
+from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.systems.catalogue import find
 
 sys.path.insert(0, str(Path(__file__).parent))
 import recurrences

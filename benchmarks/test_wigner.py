@@ -17,10 +17,10 @@ import numpy as np
 import pytest
 from scipy import fft
 
-from numeric.reassigned import reassigned_spectrogram, synchrosqueezed_spectrogram
-from numeric.ridge import follow
-from numeric.spectrogram import spectrogram
-from numeric.wigner import smoothed_pseudo_wigner, wigner, wigner_kernel
+from ridgeback.numeric.distributions.reassigned_spectrogram import reassigned_spectrogram, synchrosqueezed_spectrogram
+from ridgeback.numeric.distributions.ridge import follow
+from ridgeback.numeric.distributions.spectrogram import spectrogram
+from ridgeback.numeric.distributions.wigner import smoothed_pseudo_wigner, wigner, wigner_kernel
 
 RATE = 32.0
 BAND = (9.0, 25.0)

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+ComplexArray = NDArray[np.complex128]
+Mask = NDArray[np.bool_]
 
 
 def frozen(values: ArrayLike) -> Array:
@@ -25,10 +26,10 @@ def frozen(values: ArrayLike) -> Array:
     return copy
 
 
-def frozen_flags(values: ArrayLike) -> Flags:
+def frozen_mask(values: ArrayLike) -> Mask:
     """Return a read-only boolean copy.
 
-    >>> frozen_flags([True]).flags.writeable
+    >>> frozen_mask([True]).flags.writeable
     False
     """
     copy = np.array(values, dtype=bool)
@@ -53,6 +54,6 @@ def freeze(value: Any) -> None:
     for item in fields(value):
         held = getattr(value, item.name)
         if isinstance(held, np.ndarray):
-            object.__setattr__(value, item.name, frozen_flags(held) if held.dtype == np.bool_ else frozen(held))
+            object.__setattr__(value, item.name, frozen_mask(held) if held.dtype == np.bool_ else frozen(held))
         elif isinstance(held, Mapping):
             object.__setattr__(value, item.name, MappingProxyType(dict(held)))

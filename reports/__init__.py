@@ -1,1 +1,4 @@
-"""Figures, formulas and the one HTML page."""
+"""Figures, formulas and the one HTML page.
+
+Order: text, drawing, figures, then sections and page.  Computes no result.
+"""

@@ -8,10 +8,10 @@ from importlib import resources
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from compare.results import Report
-from reports.formulas import FormulaError, mathml
-from reports.sections import sections
-from reports.theme import variables_css
+from ridgeback.compare.report.results import Report
+from ridgeback.reports.drawing.theme import variables_css
+from ridgeback.reports.sections import sections
+from ridgeback.reports.text.mathml import FormulaError, mathml
 
 WARN_BYTES = 2_000_000
 

@@ -7,16 +7,24 @@ from dataclasses import dataclass
 from typing import Literal
 from urllib.parse import quote
 
-from compare.results import Derivation, Formula, Provenance, Range, RecordingComparison, Report
-from reports.decay_figures import budget_figure, residuals_figure, tracks_figure
-from reports.formulas import FormulaError, formula_latex, formula_mathml
-from reports.identification_figures import identification_blocks, parameter_table, ranking_table
-from reports.noise_figures import noise_blocks, noise_table
-from reports.paper_figures import paper_figures
-from reports.recording_figures import recording_blocks
-from reports.study_figures import backbone_block, error_block, map_block, order_needed
-from reports.tables import budget_table, certified_table, range_table, score_table, standing_table, timing_table
-from reports.wording import number, relative
+from ridgeback.compare.report.results import Report
+from ridgeback.compare.results import Derivation, Formula, Provenance, Range, RecordingComparison
+from ridgeback.reports.figures.decay import budget_figure, residuals_figure, tracks_figure
+from ridgeback.reports.figures.identification import identification_blocks, parameter_table, ranking_table
+from ridgeback.reports.figures.noise import noise_blocks, noise_table
+from ridgeback.reports.figures.paper import paper_figures
+from ridgeback.reports.figures.recording import recording_blocks
+from ridgeback.reports.figures.study import backbone_block, error_block, map_block, order_needed
+from ridgeback.reports.text.mathml import FormulaError, formula_latex, formula_mathml
+from ridgeback.reports.text.tables import (
+    budget_table,
+    certified_table,
+    range_table,
+    score_table,
+    standing_table,
+    timing_table,
+)
+from ridgeback.reports.text.wording import number, relative
 
 DEFINED = (
     "These samples hold no noise, and the intervals are far narrower than ω₀(t) of a decay is defined: its crossings "

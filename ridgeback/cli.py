@@ -10,7 +10,7 @@ from importlib import import_module
 
 import click
 
-from ridgeback.failure import Exit, say, verdict
+from ridgeback.console.failure import Exit, say, verdict
 
 # The matrices here are small: threads of the linear algebra library only wait for each other (measured: a report takes
 # 2.7 times the processor time with them).  It must be said before NumPy is imported; the user's own word comes first.

@@ -1,1 +1,4 @@
-"""What made it?  Oscillator classes fitted to one decay, ranked, and used to predict it."""
+"""Which oscillator made a recording: candidates, fits along their slow flow, ranking, prediction.
+
+Knows orbits and tracks; knows no page.
+"""

@@ -11,17 +11,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from compare.identification.identify import identify
-from compare.identification.models import LAWS, NAMES
-from compare.identification.results import Candidate
-from compare.results import Array
-from numeric.arrays import frozen
-from numeric.bilinear import Bilinear
-from numeric.bilinear_motion import bilinear_motion
-from numeric.dynamics import Dynamics, duffing, helmholtz_duffing, linear, pendulum, van_der_pol
-from numeric.errors import InputError
-from numeric.recording import Recording
-from numeric.trajectory import integrate
+from ridgeback.common.errors import InputError
+from ridgeback.compare.identification.candidates import LAWS, NAMES
+from ridgeback.compare.identification.identify import identify
+from ridgeback.compare.identification.results import Candidate
+from ridgeback.numeric.arrays import Array, frozen
+from ridgeback.numeric.motion.bilinear import Bilinear
+from ridgeback.numeric.motion.bilinear_motion import bilinear_motion
+from ridgeback.numeric.motion.dynamics import Dynamics, duffing, helmholtz_duffing, linear, pendulum, van_der_pol
+from ridgeback.numeric.motion.trajectory import integrate
+from ridgeback.numeric.recording.recording import Recording
 
 CYCLES = 40.0
 PER_CYCLE = 8.0

@@ -12,17 +12,17 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import least_squares
 
-from compare.identification.models import LAWS, Model, level_at
-from compare.identification.potentials import Shape
-from compare.results import Array
-from numeric.backbone import Backbone, backbone
-from numeric.errors import InputError
-from numeric.harmonics import carrier
-from numeric.local_line import local_line
-from numeric.recording import Recording
-from numeric.slow_decay import motion
-from numeric.track import Track
-from numeric.windows import half_width, window
+from ridgeback.common.errors import InputError
+from ridgeback.compare.identification.candidates import LAWS, Model, level_at
+from ridgeback.compare.identification.potentials import Shape
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.backbone.backbone import Backbone, backbone
+from ridgeback.numeric.estimators.higher_harmonics import carrier
+from ridgeback.numeric.orbits.slow_flow import motion
+from ridgeback.numeric.recording.recording import Recording
+from ridgeback.numeric.signal.local_line import local_line
+from ridgeback.numeric.signal.windows import half_width, window
+from ridgeback.numeric.tracking.track import Track
 
 ANCHORS = 60
 """Points of the record whose phase and amplitude start the fit."""

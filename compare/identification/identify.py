@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from scipy import signal
 
-from compare.identification.fitting import Data, Fit, fit, prepare, refit
-from compare.identification.models import (
+from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
+from ridgeback.compare.identification.candidates import (
     BACKBONE,
     LAWS,
     NAMES,
@@ -19,15 +20,14 @@ from compare.identification.models import (
     backbone_model,
     models_of,
 )
-from compare.identification.ranking import CLEAR, CRITERIA, candidate, criterion, effective_number
-from compare.identification.results import Candidate, Identification, MeasuredBackbone
-from compare.results import Array
-from numeric.errors import InputError
-from numeric.estimate import estimate
-from numeric.recording import Recording
-from numeric.track import Track
+from ridgeback.compare.identification.fitting import Data, Fit, fit, prepare, refit
+from ridgeback.compare.identification.ranking import CLEAR, CRITERIA, candidate, criterion, effective_number
+from ridgeback.compare.identification.results import Candidate, Identification, MeasuredBackbone
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.recording.recording import Recording
+from ridgeback.numeric.tracking.track import Track
 
-Progress = Callable[[float, str], None]
 MOST_TERMS = 4
 WORTH_TRYING = 9.0
 """Other damping laws are tried where the residual's variance is at most this many times the least one."""
@@ -65,7 +65,7 @@ def identify(
     laws: Sequence[str] = LAWS,
     kind: str = "bic",
     span: tuple[float, float] | None = None,
-    progress: Progress = lambda _, __: None,
+    progress: Progress = silent,
 ) -> Identification:
     """Fit every candidate to a decay and rank them; ``span`` limits the recording to times from .. to.
 
@@ -114,7 +114,7 @@ def checked(candidates: Iterable[str], laws: Sequence[str], kind: str) -> tuple[
     >>> checked(["linear", "linear"], ["linear"], "aic")
     Traceback (most recent call last):
         ...
-    numeric.errors.InputError: criterion 'aic' is unknown; use one of bic, aicc
+    ridgeback.common.errors.InputError: criterion 'aic' is unknown; use one of bic, aicc
     """
     names = tuple(dict.fromkeys(candidates))
     for what, given, known in (("candidate", names, NAMES), ("damping law", tuple(laws), LAWS)):

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from numeric.bilinear import Bilinear
-from numeric.dynamics import Dynamics, duffing, helmholtz_duffing, pendulum
-from numeric.orbit_table import HARMONICS, OrbitTable, bilinear_table, orbit_table
-from numeric.slow_decay import ScaledOrbits, as_scaled, refine
+from ridgeback.numeric.motion.bilinear import Bilinear
+from ridgeback.numeric.motion.dynamics import Dynamics, duffing, helmholtz_duffing, pendulum
+from ridgeback.numeric.orbits.orbit_table import HARMONICS, OrbitTable, bilinear_table, orbit_table
+from ridgeback.numeric.orbits.slow_flow import ScaledOrbits, as_scaled, refine
 
 Shape = tuple[float, ...]
 REACH = 1.5

@@ -14,16 +14,25 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from compare.identification.fitting import Data, Fit, demodulated, fit, prepare, refit
-from compare.identification.identify import FEWEST_CYCLES, Progress, Ranked, checked, local_track, part_of, rank, usable
-from compare.identification.models import LAWS, NAMES
-from compare.identification.ranking import covariance, spread_along
-from compare.identification.results import NORMAL_95, Prediction
-from compare.results import Array
-from numeric.backbone import backbone
-from numeric.errors import InputError
-from numeric.recording import Recording
-from numeric.track import Track
+from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
+from ridgeback.compare.identification.candidates import LAWS, NAMES
+from ridgeback.compare.identification.fitting import Data, Fit, demodulated, fit, prepare, refit
+from ridgeback.compare.identification.identify import (
+    FEWEST_CYCLES,
+    Ranked,
+    checked,
+    local_track,
+    part_of,
+    rank,
+    usable,
+)
+from ridgeback.compare.identification.ranking import covariance, spread_along
+from ridgeback.compare.identification.results import NORMAL_95, Prediction
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.backbone.backbone import backbone
+from ridgeback.numeric.recording.recording import Recording
+from ridgeback.numeric.tracking.track import Track
 
 LEAST_WEIGHT = 0.01
 """Candidates of less weight are left out of the mean."""
@@ -55,7 +64,7 @@ def predict(
     laws: Sequence[str] = LAWS,
     kind: str = "bic",
     span: tuple[float, float] | None = None,
-    progress: Progress = lambda _, __: None,
+    progress: Progress = silent,
 ) -> Prediction:
     """Fit the first ``cycles`` cycles and predict amplitude, frequency and phase of the rest.
 

@@ -16,9 +16,9 @@ from collections.abc import Callable
 import numpy as np
 from scipy import fft
 
-from compare.identification.fitting import Data, Fit, bounds
-from compare.identification.results import NORMAL_95, Candidate, Parameter
-from compare.results import Array
+from ridgeback.compare.identification.fitting import Data, Fit, bounds
+from ridgeback.compare.identification.results import NORMAL_95, Candidate, Parameter
+from ridgeback.numeric.arrays import Array
 
 CRITERIA = ("bic", "aicc")
 CLEAR = 6.0

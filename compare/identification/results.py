@@ -11,8 +11,7 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
-from compare.results import Array
-from numeric.arrays import freeze
+from ridgeback.numeric.arrays import Array, freeze
 
 NORMAL_95 = 1.959963984540054
 """The 97.5 % point of the normal distribution: half the width of a 95 % interval in standard deviations."""

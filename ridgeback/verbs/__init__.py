@@ -1,1 +1,4 @@
-"""One file per verb; each holds a click command called ``command``."""
+"""One file per verb; each holds a click command called ``command``.
+
+Parse, call, print; no mathematics.
+"""

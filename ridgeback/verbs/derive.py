@@ -8,28 +8,28 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ridgeback.at import as_csv as at_csv
-from ridgeback.at import as_text as at_text
-from ridgeback.at import complete, read_at, read_strong, rows, strong
-from ridgeback.choice import Choice, choosing
-from ridgeback.demand import Demand, demanding
-from ridgeback.derivation import Request, derived, requesting
-from ridgeback.failure import PartialError
-from ridgeback.high_order import by_primes, in_balls
-from ridgeback.motion import fixed_rows, harmonic_output, transient_output
-from ridgeback.options import format_option, output_option
-from ridgeback.output import json_text, write_text
-from ridgeback.resumming import formula_text, resummed_from
-from ridgeback.verb import Verb
-from ridgeback.wording import as_text, certified, expressions, joined, limit_rows, range_of_use
+from ridgeback.answers.at import as_csv as at_csv
+from ridgeback.answers.at import as_text as at_text
+from ridgeback.answers.at import complete, read_at, read_strong, rows, strong
+from ridgeback.answers.expansion_text import as_text, certified, expressions, joined, limit_rows, range_of_use
+from ridgeback.answers.high_order import by_primes, in_balls
+from ridgeback.answers.motion import fixed_rows, harmonic_output, transient_output
+from ridgeback.answers.resummation import formula_text, resummed_from
+from ridgeback.console.failure import PartialError
+from ridgeback.console.output import json_text, write_text
+from ridgeback.console.verb import Verb
+from ridgeback.options.demand import Demand, demanding
+from ridgeback.options.derivation import Request, derived, requesting
+from ridgeback.options.shared import format_option, output_option
+from ridgeback.options.system import Choice, choosing
 
 if TYPE_CHECKING:
-    from symbolic.ball_expansion import BallExpansion
-    from symbolic.certificate import Check
-    from symbolic.expansion import Expansion
-    from symbolic.oscillator import Oscillator
-    from symbolic.readings import Reading, Unread
-    from symbolic.slow_flow import SlowFlow
+    from ridgeback.symbolic.certificates.at_amplitudes import Reading, Unread
+    from ridgeback.symbolic.certificates.certificate import Check
+    from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
+    from ridgeback.symbolic.expansion.expansion import Expansion
+    from ridgeback.symbolic.flow.slow_flow import SlowFlow
+    from ridgeback.symbolic.systems.oscillator import Oscillator
 
     Result = Expansion | SlowFlow
 
@@ -93,7 +93,7 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
 
 def unexpandable(refusal: ValueError, demand: Demand) -> Oscillator:
     """The oscillator that has no expansion for want of a linear force but can be enclosed; raises what else it is."""
-    from symbolic.oscillator import NoLinearForceError
+    from ridgeback.symbolic.systems.oscillator import NoLinearForceError
 
     if demand.at is None or not isinstance(refusal, NoLinearForceError):
         raise refusal
@@ -137,8 +137,8 @@ def resummation(oscillator: Oscillator, formula: Any, found: Sequence[Reading | 
 
 def certificate(oscillator: Oscillator, result: Result | BallExpansion) -> tuple[Check, ...]:
     """Every independent check that applies."""
-    from symbolic.ball_expansion import BallExpansion
-    from symbolic.certificate import certify, certify_balls
+    from ridgeback.symbolic.certificates.certificate import certify, certify_balls
+    from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
 
     return certify_balls(oscillator, result) if isinstance(result, BallExpansion) else certify(oscillator, result)
 

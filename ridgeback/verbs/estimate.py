@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ridgeback.estimation import asides, misfit, survey_text
-from ridgeback.estimator_options import Estimator, estimator_options
-from ridgeback.failure import PartialError, say
-from ridgeback.model_options import MODEL_FIT, Model, model_options
-from ridgeback.monte_carlo import monte_carlo_options, monte_carlo_verb, trials_and_file
-from ridgeback.options import format_option, output_option
-from ridgeback.output import write_bytes, write_text
-from ridgeback.plot import plot_option
-from ridgeback.progress import Progress
-from ridgeback.recording_options import Reading, reading_options
-from ridgeback.verb import Verb
+from ridgeback.answers.monte_carlo import monte_carlo_options, monte_carlo_verb, trials_and_file
+from ridgeback.answers.survey_text import asides, misfit, survey_text
+from ridgeback.console.failure import PartialError, say
+from ridgeback.console.output import write_bytes, write_text
+from ridgeback.console.progress import Progress
+from ridgeback.console.verb import Verb
+from ridgeback.options.estimator import Estimator, estimator_options
+from ridgeback.options.model import MODEL_FIT, Model, model_options
+from ridgeback.options.plot import plot_option
+from ridgeback.options.recording import Reading, reading_options
+from ridgeback.options.shared import format_option, output_option
 
 if TYPE_CHECKING:
-    from compare.measurement import Survey
+    from ridgeback.compare.recording.survey import Survey
 
 
 @click.command("estimate", cls=Verb, short_help="Estimate the frequency of a recording over time.")
@@ -124,7 +124,7 @@ def command(
     if backbone_wanted:
         check_backbones(found)
     if plot is not None:
-        from reports.measurement_plot import plot_file
+        from ridgeback.reports.figures.measurement import plot_file
 
         write_bytes(plot, plot_file(found, plot.rpartition(".")[2].lower()))
     write_text(output, survey_text(found, style, backbone=backbone_wanted))
@@ -156,7 +156,7 @@ def surveyed(
     files: tuple[str, ...], reading: Reading, estimator: Estimator, *, combine: str, harmonic: int, halves: bool
 ) -> Survey:
     """Every signal of the files, measured."""
-    from compare.measurement import survey
+    from ridgeback.compare.recording.survey import survey
 
     recordings = reading.all(files)
     with Progress() as progress:
@@ -172,7 +172,7 @@ def surveyed(
 
 def check_backbones(found: Survey) -> None:
     """Refuse when there is no backbone at all, for the reason that the first signal gives."""
-    from numeric.errors import InputError
+    from ridgeback.common.errors import InputError
 
     if all(one.backbone is None for one in found.measured):
         raise InputError(found.measured[0].notes[-1].rstrip("."))
@@ -205,7 +205,7 @@ def own_up(found: Survey, *, backbone: bool) -> None:
 
 def without_backbone(found: Survey) -> Iterator[str]:
     """Every signal of which no stretch gave a backbone, with the reason."""
-    from compare.measurement import signal_of
+    from ridgeback.compare.recording.survey import signal_of
 
     given = {signal_of(one.recording) for one in found.measured if one.backbone is not None}
     for one in found.measured:

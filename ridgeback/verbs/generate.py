@@ -7,21 +7,21 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ridgeback.arguments import rational, written
-from ridgeback.choice import Choice, choosing
-from ridgeback.demand import Demand
-from ridgeback.demand_options import degrees
-from ridgeback.derivation import Request, derived, requesting
-from ridgeback.options import format_option, output_option
-from ridgeback.output import json_text, write_text
-from ridgeback.resumming import resummed_from
-from ridgeback.verb import Verb
+from ridgeback.answers.resummation import resummed_from
+from ridgeback.console.output import json_text, write_text
+from ridgeback.console.verb import Verb
+from ridgeback.options.arguments import rational, written
+from ridgeback.options.demand import Demand
+from ridgeback.options.demand_options import degrees
+from ridgeback.options.derivation import Request, derived, requesting
+from ridgeback.options.shared import format_option, output_option
+from ridgeback.options.system import Choice, choosing
 
 if TYPE_CHECKING:
-    from symbolic.expansion import Expansion
-    from symbolic.oscillator import Oscillator
-    from symbolic.resummation import Resummation
-    from symbolic.slow_flow import SlowFlow
+    from ridgeback.symbolic.expansion.expansion import Expansion
+    from ridgeback.symbolic.flow.slow_flow import SlowFlow
+    from ridgeback.symbolic.resummation.resummation import Resummation
+    from ridgeback.symbolic.systems.oscillator import Oscillator
 
 
 @click.command("generate", cls=Verb, short_help="Write an expansion as Python or C.")
@@ -101,14 +101,14 @@ def written_out(
     up_to: Fraction | None,
 ) -> str:
     """The source with what is known about the formula: where the oscillation ends, and its certified error."""
-    from compare.derivation import described, limit_of
-    from symbolic.codegen import generate
-    from symbolic.slow_flow import SlowFlow
+    from ridgeback.compare.study.derivation import described, limit_of
+    from ridgeback.symbolic.codegen import generate
+    from ridgeback.symbolic.flow.slow_flow import SlowFlow
 
     limit = limit_of(oscillator) if result.amplitude == "peak" and not free(oscillator) else None
     if isinstance(result, SlowFlow) or isinstance(series, SlowFlow):
         return generate(result, language, equation=described(oscillator), limit=limit)
-    from symbolic.codegen.facts import before_pole, certified_facts, reach_of
+    from ridgeback.symbolic.codegen.facts import before_pole, certified_facts, reach_of
 
     end = up_to or (reach_of(oscillator, series, result) if limit is None else before_pole(Fraction(limit), result))
     facts = () if end is None else certified_facts(oscillator, result, end)

@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ridgeback.arguments import POSITIVE, pair, shown, written
-from ridgeback.failure import PartialError
-from ridgeback.options import format_option, output_option
-from ridgeback.output import json_text, write_text
-from ridgeback.progress import Progress
-from ridgeback.recording_options import Reading, Treatment, treatment_options
-from ridgeback.tables import aligned, csv_text, readable
-from ridgeback.verb import Verb
+from ridgeback.console.failure import PartialError
+from ridgeback.console.output import json_text, write_text
+from ridgeback.console.progress import Progress
+from ridgeback.console.tables import aligned, csv_text, readable
+from ridgeback.console.verb import Verb
+from ridgeback.options.arguments import POSITIVE, pair, shown, written
+from ridgeback.options.recording import Reading, Treatment, treatment_options
+from ridgeback.options.shared import format_option, output_option
 
 if TYPE_CHECKING:
-    from compare.identification.results import Identification, Prediction
-    from numeric.recording import Recording
+    from ridgeback.compare.identification.results import Identification, Prediction
+    from ridgeback.numeric.recording.recording import Recording
 
 Row = dict[str, object]
 
@@ -126,9 +126,9 @@ def identified(
     """The ranking and, when cycles are given, the prediction in it."""
     from dataclasses import replace
 
-    from compare.identification.identify import identify
-    from compare.identification.models import LAWS, NAMES
-    from compare.identification.prediction import predict
+    from ridgeback.compare.identification.candidates import LAWS, NAMES
+    from ridgeback.compare.identification.identify import identify
+    from ridgeback.compare.identification.prediction import predict
 
     candidates = NAMES if chosen is None else chosen
     laws = LAWS if damping is None else tuple(law for law in LAWS if law.split(" + ")[-1] == damping)

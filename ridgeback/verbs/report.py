@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ridgeback.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
-from ridgeback.choice import Choice, choosing
-from ridgeback.failure import PartialError, say
-from ridgeback.options import format_option, unique
-from ridgeback.output import STDOUT, json_text, output_path, write_text
-from ridgeback.progress import Progress
-from ridgeback.recording_options import Reading, Treatment, treatment_options
-from ridgeback.verb import Verb
+from ridgeback.console.failure import PartialError, say
+from ridgeback.console.output import STDOUT, json_text, output_path, write_text
+from ridgeback.console.progress import Progress
+from ridgeback.console.verb import Verb
+from ridgeback.options.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
+from ridgeback.options.recording import Reading, Treatment, treatment_options
+from ridgeback.options.shared import format_option, unique
+from ridgeback.options.system import Choice, choosing
 
 if TYPE_CHECKING:
-    from compare.motion import Setting
-    from compare.results import Report
+    from ridgeback.compare.motion.motion import Setting
+    from ridgeback.compare.report.results import Report
 
 DEFAULT_NAME = "ridgeback-report.html"
 
@@ -153,8 +153,8 @@ def refuse(given: Mapping[str, object], why: str) -> None:
 
 def of_motion(motion: Motion, scope: Scope, shown: str, progress: Progress) -> Report:
     """The report on a simulated motion."""
-    from compare.report import ORDER as USUAL
-    from compare.report import TARGET, assemble_system
+    from ridgeback.compare.report.system_report import ORDER as USUAL
+    from ridgeback.compare.report.system_report import TARGET, assemble_system
 
     return assemble_system(
         setting_of(motion),
@@ -170,8 +170,8 @@ def of_motion(motion: Motion, scope: Scope, shown: str, progress: Progress) -> R
 
 def setting_of(motion: Motion) -> Setting:
     """The motion asked for; without a system the paper's, with whatever was said changed."""
-    from compare.motion import setting
-    from compare.report import paper_case
+    from ridgeback.compare.motion.motion import setting
+    from ridgeback.compare.report.system_report import paper_case
 
     if motion.choice.made:
         return setting(motion.choice.oscillator(), initial=motion.initial, duration=motion.duration, rate=motion.rate)
@@ -187,7 +187,7 @@ def setting_of(motion: Motion) -> Setting:
 
 def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progress: Progress) -> Report:
     """The report on a recording, with an oscillator's exact backbone over it when one is named."""
-    from compare.recording_report import assemble_recording
+    from ridgeback.compare.report.recording_report import assemble_recording
 
     refuse({"--initial": motion.initial, "--duration": motion.duration}, "belongs to a simulation, not to a recording")
     studied = {"--order": scope.order, "--orders": scope.orders, "--amplitudes": scope.amplitudes}
@@ -223,7 +223,7 @@ def as_typed(arguments: Sequence[str]) -> str:
 
 def publish(report: Report, output: str, style: str) -> None:
     """Write the page, say where it is and what it found, and own up to what is missing."""
-    from reports.page import render, size_warning
+    from ridgeback.reports.page import render, size_warning
 
     page = render(report)
     write_text(output, page)

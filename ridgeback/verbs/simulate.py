@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ridgeback.arguments import PAIR, POSITIVE
-from ridgeback.choice import Choice, choosing
-from ridgeback.options import format_option, output_option
-from ridgeback.output import json_text, write_text
-from ridgeback.tables import csv_text
-from ridgeback.verb import Verb
+from ridgeback.console.output import json_text, write_text
+from ridgeback.console.tables import csv_text
+from ridgeback.console.verb import Verb
+from ridgeback.options.arguments import PAIR, POSITIVE
+from ridgeback.options.shared import format_option, output_option
+from ridgeback.options.system import Choice, choosing
 
 if TYPE_CHECKING:
-    from numeric.trajectory import Trajectory
-    from symbolic.oscillator import Oscillator
+    from ridgeback.numeric.motion.trajectory import Trajectory
+    from ridgeback.symbolic.systems.oscillator import Oscillator
 
 COLUMNS = ("time_s", "u", "velocity")
 
@@ -77,17 +77,17 @@ def trajectory(
     if digits is not None and method.lower() != "taylor":
         raise click.UsageError(f"--digits belongs to --method taylor; {method} works in double precision")
     if method.lower() == "heyoka":
-        from compare.heyoka_reference import integrate_heyoka
+        from ridgeback.compare.binding.heyoka import integrate_heyoka
 
         return integrate_heyoka(oscillator, initial, duration=duration, rate=rate)
-    from compare.bind import bind
+    from ridgeback.compare.binding.bind import bind
 
     dynamics = bind(oscillator)
     if method.lower() == "taylor":
-        from numeric.taylor import integrate_taylor
+        from ridgeback.numeric.motion.taylor import integrate_taylor
 
         return integrate_taylor(dynamics, initial, duration=duration, rate=rate, digits=digits or 30)
-    from numeric.trajectory import METHODS, integrate
+    from ridgeback.numeric.motion.trajectory import METHODS, integrate
 
     if method not in METHODS:
         raise click.UsageError(f"unknown method {method!r}; use one of {', '.join(METHODS)}, taylor or heyoka")

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ridgeback.arguments import GRID, ORDERS
-from ridgeback.choice import Choice, choosing
-from ridgeback.estimator_table import estimator_options, estimators_verb
-from ridgeback.failure import PartialError
-from ridgeback.options import format_option, output_option
-from ridgeback.output import json_text, write_text
-from ridgeback.tables import Row, aligned, csv_text
-from ridgeback.verb import Verb
+from ridgeback.answers.estimator_table import estimator_options, estimators_verb
+from ridgeback.console.failure import PartialError
+from ridgeback.console.output import json_text, write_text
+from ridgeback.console.tables import Row, aligned, csv_text
+from ridgeback.console.verb import Verb
+from ridgeback.options.arguments import GRID, ORDERS
+from ridgeback.options.shared import format_option, output_option
+from ridgeback.options.system import Choice, choosing
 
 if TYPE_CHECKING:
-    from compare.results import Study
-    from symbolic.oscillator import Oscillator
+    from ridgeback.compare.results import Study
+    from ridgeback.symbolic.systems.oscillator import Oscillator
 
 
 @click.command("study", cls=Verb, short_help="Error of expansions over order and amplitude.")
@@ -82,7 +82,7 @@ def command(
     if certified:
         write_text(output, proved(choice.oscillator(), orders, amplitudes, style))
         return
-    from compare.study import study
+    from ridgeback.compare.study.study import study
 
     oscillator = choice.oscillator()
     result = study(oscillator, orders, amplitudes, method=method)
@@ -95,8 +95,8 @@ def command(
 
 def proved(oscillator: Oscillator, orders: tuple[int, ...], amplitudes: tuple[float, ...], style: str) -> str:
     """The series and its resummations with proved errors; ``error_radius`` bounds what each error may still be off."""
-    from compare.certified import certified_rows
-    from compare.derivation import undamped
+    from ridgeback.compare.study.certified import certified_rows
+    from ridgeback.symbolic.flow.ordering import undamped
 
     rows = certified_rows(undamped(oscillator), orders, amplitudes)
     columns = list(rows[0])

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ridgeback.choice import Choice
-from ridgeback.options import format_option, output_option
-from ridgeback.output import json_text, write_text
-from ridgeback.tables import aligned, csv_text
-from ridgeback.verb import Verb
+from ridgeback.console.output import json_text, write_text
+from ridgeback.console.tables import aligned, csv_text
+from ridgeback.console.verb import Verb
+from ridgeback.options.shared import format_option, output_option
+from ridgeback.options.system import Choice
 
 if TYPE_CHECKING:
-    from symbolic.oscillator import Oscillator
+    from ridgeback.symbolic.systems.oscillator import Oscillator
 
 COLUMNS = ("name", "kind", "equation", "parameters")
 
@@ -29,7 +29,7 @@ def command(system: str | None, style: str, output: str) -> None:
     ridgeback systems
     ridgeback systems pendulum --format json
     """
-    from symbolic.systems import catalogue
+    from ridgeback.symbolic.systems.catalogue import catalogue
 
     listed = catalogue() if system is None else (Choice(system, None, None, ()).oscillator(),)
     records = [record(oscillator) for oscillator in listed]

@@ -1,4 +1,7 @@
-"""Generated numeric code: one coefficient form, one file per target language."""
+"""Source code from a series, a slow flow or a resummation: one coefficient form, one file per target language.
+
+Knows finished formulas; text from users reaches the source only through a whitelist of characters.
+"""
 
 from __future__ import annotations
 
@@ -6,14 +9,14 @@ from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
-from symbolic.codegen import c99, python
-from symbolic.codegen.build import expansion_form, slow_flow_form
-from symbolic.codegen.form import Form
-from symbolic.codegen.resummations import resummation_form
-from symbolic.errors import InputError
-from symbolic.expansion import Expansion
-from symbolic.resummation import Resummation
-from symbolic.slow_flow import SlowFlow
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.codegen import c99, python
+from ridgeback.symbolic.codegen.build import expansion_form, slow_flow_form
+from ridgeback.symbolic.codegen.form import Form
+from ridgeback.symbolic.codegen.resummations import resummation_form
+from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.flow.slow_flow import SlowFlow
+from ridgeback.symbolic.resummation.resummation import Resummation
 
 # A further language is a function from the form to its text, and a line here.
 WRITERS: dict[str, Callable[[Form], str]] = {
@@ -41,8 +44,8 @@ def generate(
     range of a resummation.  Raises InputError for a language without a writer, for a coefficient that has no double,
     and for a resummation that is no quotient of polynomials.
 
-    >>> from symbolic.lindstedt import lindstedt
-    >>> from symbolic.systems import find
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
     >>> print(generate(lindstedt(find("pendulum"), 4)).split("\n\n\n")[2])
     def omega0(A, k=1.0):
         ...

@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 from sympy import Expr, Integer
 
-from symbolic.amplitude import MEANINGS
-from symbolic.codegen.form import Argument, Form, Function, K, Powers, derivative, function, nearest_double
-from symbolic.codegen.naming import argument_name, variable_name
-from symbolic.errors import InputError
-from symbolic.ordering import UNITS
-from symbolic.rendering import as_sympy
-from symbolic.slow_flow import rows
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.rendering import as_sympy
+from ridgeback.symbolic.codegen.form import Argument, Form, Function, K, Powers, derivative, function, nearest_double
+from ridgeback.symbolic.codegen.naming import argument_name, variable_name
+from ridgeback.symbolic.expansion.amplitude import MEANINGS
+from ridgeback.symbolic.flow.ordering import UNITS
+from ridgeback.symbolic.flow.slow_flow import rows
 
 if TYPE_CHECKING:
-    from symbolic.expansion import Expansion
-    from symbolic.resummation import Resummation
-    from symbolic.slow_flow import SlowFlow
+    from ridgeback.symbolic.expansion.expansion import Expansion
+    from ridgeback.symbolic.flow.slow_flow import SlowFlow
+    from ridgeback.symbolic.resummation.resummation import Resummation
 
 SCALING = "The coefficients hold in units where k = 1: another k rescales time, and all parameters with it."
 
@@ -121,8 +121,8 @@ def slow_flow_form(flow: SlowFlow, *, equation: str = "", limit: float | None = 
 def order_fact(flow: SlowFlow) -> str:
     """Which terms are kept.
 
-    >>> from symbolic.multiple_scales import multiple_scales
-    >>> from symbolic.systems import find
+    >>> from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+    >>> from ridgeback.symbolic.systems.catalogue import find
     >>> order_fact(multiple_scales(find("pendulum"), 4))
     'Order: terms a^p mu^q with p + 2 q up to 4.'
     """

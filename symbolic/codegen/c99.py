@@ -8,8 +8,8 @@ from textwrap import wrap
 from sympy import Expr
 from sympy.printing.c import C99CodePrinter
 
-from symbolic.codegen.comments import comment_text
-from symbolic.codegen.form import Constant, Form, Function
+from ridgeback.symbolic.codegen.comments import comment_text
+from ridgeback.symbolic.codegen.form import Constant, Form, Function
 
 WIDTH = 110
 

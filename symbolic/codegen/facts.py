@@ -5,16 +5,16 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Final
 
-from symbolic.accuracy import settled_limits
-from symbolic.codegen.rounding import upwards
-from symbolic.errors import InputError
-from symbolic.expansion import Expansion
-from symbolic.mapping import CutPlane
-from symbolic.nome import NomeForm
-from symbolic.oscillator import Oscillator
-from symbolic.pade import RationalForm
-from symbolic.readings import readings
-from symbolic.resummation import Resummation
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.certificates.at_amplitudes import readings
+from ridgeback.symbolic.codegen.rounding import upwards
+from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.resummation.elliptic_nome import NomeForm
+from ridgeback.symbolic.resummation.mapping import CutPlane
+from ridgeback.symbolic.resummation.pade import RationalForm
+from ridgeback.symbolic.resummation.resummation import Resummation
+from ridgeback.symbolic.singularities.limits import settled_limits
+from ridgeback.symbolic.systems.oscillator import Oscillator
 
 SHARES: Final = (Fraction(1, 4), Fraction(1, 2), Fraction(3, 4))
 """Where in the range the error is certified."""
@@ -27,8 +27,8 @@ def reach_of(oscillator: Oscillator, series: Expansion, formula: Expansion | Res
 
     None when the series does not show it.
 
-    >>> from symbolic.lindstedt import lindstedt
-    >>> from symbolic.systems import find
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
     >>> series = lindstedt(find("duffing"), 8)
     >>> float(reach_of(find("duffing"), series, series))
     1.0
@@ -48,8 +48,8 @@ def before_pole(reach: Fraction, formula: Expansion | Resummation) -> Fraction:
 def certified_facts(oscillator: Oscillator, formula: Expansion | Resummation, reach: Fraction) -> tuple[str, ...]:
     """The certified error of a formula at a few amplitudes, in a line; nothing where there is no enclosure.
 
-    >>> from symbolic.lindstedt import lindstedt
-    >>> from symbolic.systems import find
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
     >>> certified_facts(find("pendulum"), lindstedt(find("pendulum"), 8), Fraction(3))[0]
     'Certified relative error against the exact frequency: below 9.1e-09 at A = 0.75, 1.3e-05 at 1.5, 0.0013 at 2.25.'
     """

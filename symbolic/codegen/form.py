@@ -14,8 +14,8 @@ from fractions import Fraction
 from sympy import Add, Expr, Integer, Mul, Pow, Rational, Symbol, cos
 from sympy.codegen.ast import Assignment
 
-from symbolic.codegen.rounding import rounding_note, roundings
-from symbolic.errors import InputError
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.codegen.rounding import rounding_note, roundings
 
 K = Symbol("k")
 Powers = tuple[int, ...]

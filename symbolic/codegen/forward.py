@@ -18,8 +18,8 @@ from typing import Any, Final
 from flint import arb, fmpq
 from sympy import Add, Expr, Mul, Pow, Rational, Symbol, cos
 
-from symbolic.balls import ball
-from symbolic.errors import InputError
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.balls import ball
 
 U: Final = fmpq(1, 2**53)
 COSINE: Final = 2

@@ -7,8 +7,8 @@ from textwrap import wrap
 from sympy import Expr
 from sympy.printing.pycode import PythonCodePrinter
 
-from symbolic.codegen.comments import comment_text
-from symbolic.codegen.form import Constant, Form, Function
+from ridgeback.symbolic.codegen.comments import comment_text
+from ridgeback.symbolic.codegen.form import Constant, Form, Function
 
 WIDTH = 110
 PLAIN = (

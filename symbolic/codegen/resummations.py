@@ -10,20 +10,27 @@ from typing import Final
 from flint import arb, ctx
 from sympy import Expr, Integer, Mul, Pow, Rational, Symbol, cos, sqrt
 
-from symbolic.balls import ball
-from symbolic.codegen.build import OMEGA0, SCALING, common_facts, frequency_argument, limit_fact, variable_meaning
-from symbolic.codegen.form import Argument, Constant, Form, Function, K, Powers, Steps, constants_of, product
-from symbolic.codegen.forward import relative_bound
-from symbolic.codegen.naming import variable_name
-from symbolic.codegen.rounding import upwards
-from symbolic.enclosure import rounded_down
-from symbolic.errors import InputError
-from symbolic.mapping import CutPlane, Euler, Identity, Mapping, Pair
-from symbolic.nome import DuffingMeans, NomeForm, PendulumMeans, theta_3
-from symbolic.pade import RationalForm
-from symbolic.rational_function import Coefficients
-from symbolic.rendering import as_sympy
-from symbolic.resummation import Resummation
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.balls import ball
+from ridgeback.symbolic.arithmetic.rational_function import Coefficients
+from ridgeback.symbolic.arithmetic.rendering import as_sympy
+from ridgeback.symbolic.codegen.build import (
+    OMEGA0,
+    SCALING,
+    common_facts,
+    frequency_argument,
+    limit_fact,
+    variable_meaning,
+)
+from ridgeback.symbolic.codegen.form import Argument, Constant, Form, Function, K, Powers, Steps, constants_of, product
+from ridgeback.symbolic.codegen.forward import relative_bound
+from ridgeback.symbolic.codegen.naming import variable_name
+from ridgeback.symbolic.codegen.rounding import upwards
+from ridgeback.symbolic.enclosure.enclosure import rounded_down
+from ridgeback.symbolic.resummation.elliptic_nome import DuffingMeans, NomeForm, PendulumMeans, theta_3
+from ridgeback.symbolic.resummation.mapping import CutPlane, Euler, Identity, Mapping, Pair
+from ridgeback.symbolic.resummation.pade import RationalForm
+from ridgeback.symbolic.resummation.resummation import Resummation
 
 BITS: Final = 128
 
@@ -157,7 +164,7 @@ def _over(above: Expr, below: Expr) -> Expr:
 
 
 def _nome(formula: NomeForm, A: Symbol, writer: Writer) -> Expr:
-    """k a/theta_3(q)^2 by the steps of ``symbolic.nome``."""
+    """k a/theta_3(q)^2 by the steps of ``ridgeback.symbolic.resummation.elliptic_nome``."""
     if formula.steps < 1:
         raise InputError("the nome without a Landen step loses digits by cancellation; take one step or more")
     steps = writer.steps

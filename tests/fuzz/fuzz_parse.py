@@ -49,9 +49,9 @@ def main():
     import atheris
 
     with atheris.instrument_imports(include=["symbolic"]):
-        from symbolic.errors import InputError
-        from symbolic.oscillator import Oscillator
-        from symbolic.parse import parse_equation, parse_expression, parse_number, to_text
+        from ridgeback.common.errors import InputError
+        from ridgeback.symbolic.grammar.parse import parse_equation, parse_expression, parse_number, to_text
+        from ridgeback.symbolic.systems.oscillator import Oscillator
 
     def attempt(read, text):
         try:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from compare.results import Report
-from reports.page import render
+from ridgeback.compare.report.results import Report
+from ridgeback.reports.page import render
 from tests.reports import synthetic
 
 

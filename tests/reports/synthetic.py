@@ -15,12 +15,12 @@ from scipy.integrate import solve_ivp
 from scipy.signal import stft
 from scipy.special import ellipk
 
-from compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
-from compare.noise_results import NoiseCell, NoiseStudy
-from compare.results import (
+from ridgeback.compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
+from ridgeback.compare.noise.results import NoiseCell, NoiseStudy
+from ridgeback.compare.report.results import Card, Report
+from ridgeback.compare.results import (
     Amplitudes,
     BudgetRow,
-    Card,
     Case,
     Certified,
     CertifiedRow,
@@ -34,7 +34,6 @@ from compare.results import (
     Range,
     Reconstruction,
     RecordingComparison,
-    Report,
     Score,
     Standing,
     Statement,

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from compare.results import Report
-from reports.page import render
+from ridgeback.compare.report.results import Report
+from ridgeback.reports.page import render
 from tests.reports import synthetic
 from tests.reports.chromium import NAMES, Browser, binary
 

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image
 
-from reports import cells
-from reports.raster import grey, plane_uri, png, shrink
+from ridgeback.reports.drawing import cells
+from ridgeback.reports.drawing.raster import grey, plane_uri, png, shrink
 from tests.reports.synthetic import make_ranges, make_study
 
 sizes = st.tuples(st.integers(1, 7), st.integers(1, 9))
@@ -122,7 +122,7 @@ def test_cell_edges_are_half_way_between_centres() -> None:
 
 def test_the_order_needed_is_the_smallest_that_holds() -> None:
     """Against a search of the error grid itself, at every amplitude between the jumps of the stair."""
-    from reports.study_figures import _stairs
+    from ridgeback.reports.figures.study import _stairs
 
     study = make_study()
     error = np.abs(study.relative_error)

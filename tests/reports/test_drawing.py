@@ -11,12 +11,13 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from compare.derivation import derivation, derive
-from compare.results import Formula, Report
-from reports.formulas import formula_latex, formula_mathml
-from reports.theme import SERIES, TOKENS, variables_css
-from symbolic.oscillator import Oscillator
-from symbolic.systems import catalogue
+from ridgeback.compare.report.results import Report
+from ridgeback.compare.results import Formula
+from ridgeback.compare.study.derivation import derivation, derive
+from ridgeback.reports.drawing.theme import SERIES, TOKENS, variables_css
+from ridgeback.reports.text.mathml import formula_latex, formula_mathml
+from ridgeback.symbolic.systems.catalogue import catalogue
+from ridgeback.symbolic.systems.oscillator import Oscillator
 from tests.reports.markup import parse
 
 

@@ -8,12 +8,12 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from compare.measurement import Survey, survey
-from numeric.recording import Recording
-from reports.canvas import Canvas
-from reports.labels import measured
-from reports.measurement_plot import PAGE, drawn, plot_file
-from reports.theme import SENTINELS, sentinel
+from ridgeback.compare.recording.survey import Survey, survey
+from ridgeback.numeric.recording.recording import Recording
+from ridgeback.reports.drawing.canvas import Canvas
+from ridgeback.reports.drawing.labels import measured
+from ridgeback.reports.drawing.theme import SENTINELS, sentinel
+from ridgeback.reports.figures.measurement import PAGE, drawn, plot_file
 
 RATE = 20.0
 T = np.arange(500) / RATE

@@ -15,8 +15,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from compare.results import Formula, Report
-from reports.page import WARN_BYTES, render, size_warning
+from ridgeback.compare.report.results import Report
+from ridgeback.compare.results import Formula
+from ridgeback.reports.page import WARN_BYTES, render, size_warning
 from tests.reports import synthetic
 from tests.reports.markup import Element, parse
 
@@ -37,7 +38,7 @@ def test_a_report_made_again_gives_the_same_bytes(full_page: str) -> None:
 
 def test_another_process_with_another_hash_seed_gives_the_same_bytes(recording_page: str) -> None:
     program = (
-        "import sys\nfrom reports.page import render\nfrom tests.reports import synthetic\n"
+        "import sys\nfrom ridgeback.reports.page import render\nfrom tests.reports import synthetic\n"
         "sys.stdout.buffer.write(render(synthetic.recording_report()).encode())"
     )
     root = Path(__file__).parents[2]

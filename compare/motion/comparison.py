@@ -1,0 +1,163 @@
+"""Everything along one integrated motion: models, expansions and estimates against the cycle frequency."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.common.errors import InputError as NumericError
+from ridgeback.common.progress import Progress, silent
+from ridgeback.compare.binding.heyoka import integrate_heyoka
+from ridgeback.compare.motion.error_budget import budget
+from ridgeback.compare.motion.error_norms import failure, score
+from ridgeback.compare.motion.estimate_curves import Outcome, estimates
+from ridgeback.compare.motion.model_curves import LOW_ORDERS, model_curves
+from ridgeback.compare.motion.motion import CHECKED, Motion, Setting, integrate_motion
+from ridgeback.compare.motion.overtones import Overtones, overtones
+from ridgeback.compare.motion.paper_statements import Evidence, statements
+from ridgeback.compare.motion.planes import spectrogram_image, wigner_image
+from ridgeback.compare.motion.reconstruction import reconstruct
+from ridgeback.compare.results import Amplitudes, BudgetRow, Curve, DecayComparison, Image, Score
+from ridgeback.compare.study.derivation import Exact, derive
+from ridgeback.compare.wording import scientific
+
+HIGH_ORDER = 20
+TOP_MULTIPLE = 8
+"""Highest multiple of the fundamental that the spectrograms show."""
+
+
+def compare_decay(
+    chosen: Setting,
+    *,
+    exact: Exact | None = None,
+    orders: Iterable[int] = (*LOW_ORDERS, HIGH_ORDER),
+    progress: Progress = silent,
+) -> DecayComparison:
+    """Integrate, model, estimate and compare; ``progress`` is called with a fraction from 0 to 1 and a label.
+
+    ``exact`` saves deriving the expansion again; it must reach the highest of ``orders``.  Raises InputError for a
+    motion that cannot be integrated or has too few cycles.  An estimate that fails becomes a score with its reason.
+    """
+    wanted = sorted(set(orders))
+    progress(0.0, "integrating the motion twice")
+    motion = integrate_motion(chosen)
+    derived = derive(chosen.oscillator, max(wanted)) if exact is None else exact
+    models = model_curves(motion, derived, orders=wanted)
+    outcomes = estimates(motion, _within(progress, 0.2, 0.45))
+    progress(0.45, "harmonics")
+    tones = overtones(motion, outcomes)
+    rows = budget(motion, models, outcomes, _within(progress, 0.55, 0.85))
+    progress(0.85, "time-frequency planes and findings")
+    return assemble(motion, models, outcomes, tones, rows)
+
+
+def _within(progress: Progress, low: float, high: float) -> Callable[[str], None]:
+    """Spread the labels of one stage over a part of the whole: half of what is left at each."""
+    reached = low
+
+    def step(label: str) -> None:
+        nonlocal reached
+        progress(reached, label)
+        reached += 0.15 * (high - reached)
+
+    return step
+
+
+def assemble(
+    motion: Motion,
+    models: tuple[Curve, ...],
+    outcomes: tuple[Outcome, ...],
+    tones: Overtones,
+    rows: tuple[BudgetRow, ...],
+) -> DecayComparison:
+    """Put the parts together: scores, pictures and statements are derived from them here."""
+    curves = (*models, *(o.curve for o in outcomes if o.curve is not None))
+    scores = _scores(motion, models, outcomes)
+    made = reconstruct(motion)
+    evidence = Evidence(motion, {c.name: c for c in curves}, {s.method: s for s in scores}, made, tones)
+    in_u, in_velocity, plane = _images(motion, curves)
+    return DecayComparison(
+        case=motion.setting.case(),
+        time=motion.time,
+        u=motion.trajectory.u,
+        velocity=motion.trajectory.velocity,
+        integrators=_integrators(motion),
+        disagreement=motion.disagreement,
+        amplitudes=_amplitudes(motion),
+        reference=motion.reference_curve(),
+        interior=(motion.zone.lower, motion.zone.upper),
+        curves=curves,
+        scores=scores,
+        budget=rows,
+        reconstruction=made,
+        spectrogram_u=in_u,
+        spectrogram_velocity=in_velocity,
+        wigner_u=plane,
+        harmonics=tones.curves,
+        statements=statements(evidence),
+    )
+
+
+def _scores(motion: Motion, models: tuple[Curve, ...], outcomes: tuple[Outcome, ...]) -> tuple[Score, ...]:
+    scores = [score(curve, motion.reference, motion.zone) for curve in models]
+    for outcome in outcomes:
+        curve, recipe = outcome.curve, outcome.recipe
+        if curve is None:
+            scores.append(failure(recipe.name, recipe.label, outcome.failed))
+        else:
+            scores.append(score(curve, motion.reference, motion.zone))
+    return tuple(scores)
+
+
+def _integrators(motion: Motion) -> tuple[str, ...]:
+    run = motion.trajectory
+    first = f"{run.method}, rtol {run.rtol:g}, {run.evaluations} evaluations"
+    return first, motion.precise.method, *_third(motion)
+
+
+def _third(motion: Motion) -> tuple[str, ...]:
+    """heyoka's solution beside the Taylor one, where that library is installed and takes the force."""
+    case = motion.setting
+    try:
+        run = integrate_heyoka(case.oscillator, case.initial, duration=case.duration, rate=case.rate / CHECKED)
+    except (OSError, InputError, NumericError):
+        return ()
+    shared = min(run.u.size, motion.precise.u.size)
+    apart = float(np.abs(run.u[:shared] - motion.precise.u[:shared]).max())
+    return (f"{run.method} differs from the Taylor solution by at most {scientific(apart)}",)
+
+
+def _amplitudes(motion: Motion) -> Amplitudes:
+    turnings = motion.trajectory.turnings
+    note = "Definition peak: the positive turning point of the undamped motion with the energy of that instant."
+    if not motion.has_backbone:
+        note = "Envelope of the turning points: there is no potential, so no amplitude by energy."
+    return Amplitudes(
+        time=motion.time,
+        energy=motion.energy_peak,
+        averaged=None if motion.averaged is None else motion.averaged.peak,
+        turning_time=turnings.time,
+        turning_value=turnings.value,
+        note=note,
+    )
+
+
+def _images(motion: Motion, curves: tuple[Curve, ...]) -> tuple[Image, Image, Image]:
+    run = motion.trajectory
+    fastest, slowest = float(motion.known_omega.max()), float(motion.known_omega.min())
+    top, period = TOP_MULTIPLE * fastest, 2 * np.pi / slowest
+    overlay, unit = tuple(c for c in curves if c.name == "wigner"), motion.setting.time_unit
+    return (
+        spectrogram_image(run.u, run.rate, period=period, top=top, name="Spectrogram of u", unit=unit),
+        spectrogram_image(run.velocity, run.rate, period=period, top=top, name="Spectrogram of u'", unit=unit),
+        wigner_image(
+            run.u,
+            run.rate,
+            top=3.4 * fastest,
+            name="Wigner distribution of u",
+            overlays=(motion.reference_curve(), *overlay),
+            note="Between two components lies their cross term, which oscillates along time.",
+        ),
+    )

@@ -1,0 +1,127 @@
+"""Error budget: each curve's distance from the reference, split into parts that are measured separately.
+
+    model:     omega / ref - 1  =  (omega / exact(A) - 1)  +  (exact(A) / ref - 1)  +  product of both
+                                    truncation                 averaging
+
+with ``exact(A)`` the undamped oscillator's frequency at the very amplitude that the model used.  An estimate's part
+is the estimator's own bias: its error on a synthetic motion with the same harmonics, whose omega0(t) is known.
+What the parts leave is the closure; it should be small beside the total, and is printed so that it can be judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from ridgeback.compare.motion.error_norms import relative_error, rms
+from ridgeback.compare.motion.estimate_curves import Outcome, attempt
+from ridgeback.compare.motion.motion import Motion
+from ridgeback.compare.motion.reconstruction import KnownMotion, known_motion
+from ridgeback.compare.results import BudgetRow, Curve
+from ridgeback.numeric.arrays import Array
+
+
+def budget(
+    motion: Motion, curves: Iterable[Curve], outcomes: Iterable[Outcome], progress: Callable[[str], None]
+) -> tuple[BudgetRow, ...]:
+    """One row per model, expansion and successful estimate."""
+    rows = [_model_row(motion, curve) for curve in curves if curve.kind != "estimate"]
+    known = known_motion(motion)
+    rows += [_estimate_row(motion, outcome, known, progress) for outcome in outcomes if outcome.curve is not None]
+    return tuple(row for row in rows if row is not None)
+
+
+def _interior(motion: Motion, curve: Curve, error: Array) -> Array:
+    return np.where(motion.zone.interior(curve.time), error, np.nan)
+
+
+def reference_error(motion: Motion) -> float:
+    """Relative numerical error of the reference, rms over the interior."""
+    return _relative_rms(motion, motion.cycle.interpolation_error_at)
+
+
+def definition_spread(motion: Motion) -> float:
+    """Relative spread between readings of omega0(t) from different events, rms over the interior."""
+    return _relative_rms(motion, motion.cycle.spread_at)
+
+
+def _relative_rms(motion: Motion, error: Callable[[Array], Array]) -> float:
+    inside = motion.time[motion.zone.interior(motion.time)]
+    return rms(error(inside) / motion.cycle.at(inside)) or 0.0
+
+
+def _model_row(motion: Motion, curve: Curve) -> BudgetRow | None:
+    total = _interior(motion, curve, relative_error(curve, motion.reference))
+    whole = rms(total)
+    if whole is None:
+        return None
+    exact = _exact_for(motion, curve)
+    truncation = _interior(motion, curve, curve.omega / exact - 1)
+    averaging = _interior(motion, curve, exact / motion.reference(curve.time) - 1)
+    return BudgetRow(
+        method=curve.name,
+        label=curve.label,
+        truncation=rms(truncation),
+        averaging=rms(averaging),
+        estimator=None,
+        reference=reference_error(motion),
+        definition=definition_spread(motion),
+        total=whole,
+        closure=rms(total - truncation - averaging) or 0.0,
+        note="" if motion.has_backbone else "Averaging: the transient's distance from the limit cycle.",
+    )
+
+
+def _exact_for(motion: Motion, curve: Curve) -> Array:
+    """Return the exact frequency at the amplitude that this curve was evaluated at."""
+    if not motion.has_backbone:
+        return np.full(curve.time.size, float(motion.known_omega[-1]))
+    if motion.averaged is not None and curve.name.startswith(("averaged-action", "multiple-scales")):
+        return motion.averaged.omega[: curve.time.size]
+    return motion.exact_at_energy[: curve.time.size]
+
+
+def _estimate_row(
+    motion: Motion, outcome: Outcome, known: KnownMotion | None, progress: Callable[[str], None]
+) -> BudgetRow | None:
+    curve = outcome.curve
+    if curve is None:
+        return None
+    total = _interior(motion, curve, relative_error(curve, motion.reference))
+    whole = rms(total)
+    if whole is None:
+        return None
+    progress(f"bias of {curve.label}")
+    own = None if known is None else estimator_error(motion, outcome, known)
+    part = None if own is None else _interior(motion, curve, own)
+    return BudgetRow(
+        method=curve.name,
+        label=curve.label,
+        truncation=None,
+        averaging=None,
+        estimator=None if part is None else rms(part),
+        reference=reference_error(motion),
+        definition=definition_spread(motion),
+        total=whole,
+        closure=whole if part is None else (rms(total - part) or 0.0),
+        note=_estimate_note(whole, definition_spread(motion), known is not None),
+    )
+
+
+def _estimate_note(total: float, spread: float, known: bool) -> str:
+    """Say when the distance is below what omega0(t) of a decay is defined to, and when the bias is not known."""
+    below = "Closer to the crossings' reading than the turning points' reading is." * (total < spread)
+    missing = "No synthetic motion with known frequency for this oscillator." * (not known)
+    return f"{below} {missing}".strip()
+
+
+def estimator_error(motion: Motion, outcome: Outcome, known: KnownMotion) -> Array | None:
+    """Relative error of the same estimate on the known motion, at the curve's times; None where it fails there."""
+    recipe, curve = outcome.recipe.bare, outcome.curve
+    again = attempt(recipe, known.velocity if recipe.velocity else known.signal, motion.trajectory.rate).curve
+    if again is None or curve is None:
+        return None
+    error = again.omega / np.interp(again.time, motion.time, known.omega) - 1
+    error = np.where(again.valid, error, np.nan)
+    return np.interp(curve.time, again.time, error)

@@ -1,0 +1,102 @@
+"""Curves omega0(t) estimated from the sampled signal alone, one per method; a method that fails keeps its reason."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.motion.motion import Motion
+from ridgeback.compare.results import Curve
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.tracking.track import Track
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """One estimate: its name, which signal it sees, and the options of ridgeback.numeric.estimators.estimate."""
+
+    name: str
+    label: str
+    method: str
+    velocity: bool = False
+    options: Mapping[str, object] | None = None
+
+    @property
+    def bare(self) -> Recipe:
+        """The same values without an estimate of their bias, which costs more than they do, unless it is taken off."""
+        options = dict(self.options or {})
+        return self if options.get("remove_bias") else replace(self, options={**options, "bias": False})
+
+
+RECIPES = (
+    Recipe("wigner", "Wigner peak of u", "wigner", options={"bias": False}),
+    Recipe("wigner-velocity", "Wigner peak of u'", "wigner", velocity=True, options={"bias": False}),
+    Recipe("pseudo-wigner", "pseudo-Wigner peak of u", "pseudo-wigner"),
+    Recipe("pseudo-wigner-corrected", "pseudo-Wigner, bias removed", "pseudo-wigner", options={"remove_bias": True}),
+    Recipe("smoothed-pseudo-wigner", "smoothed pseudo-Wigner", "smoothed-pseudo-wigner"),
+    Recipe("spectrogram", "spectrogram peak of u", "spectrogram"),
+    Recipe("hilbert", "Hilbert phase of u", "hilbert"),
+    Recipe("harmonic-least-squares", "harmonic least squares on u", "harmonic-least-squares"),
+    Recipe("zero-crossing", "zero crossings of u", "zero-crossing"),
+)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a recipe gave: a curve, or the reason why there is none."""
+
+    recipe: Recipe
+    track: Track | None
+    failed: str = ""
+
+    @property
+    def curve(self) -> Curve | None:
+        """The track as a curve under the recipe's name."""
+        return None if self.track is None else curve_of(self.track, self.recipe.name, self.recipe.label)
+
+
+def signal_of(motion: Motion, recipe: Recipe) -> Array:
+    """The samples that a recipe sees."""
+    return motion.trajectory.velocity if recipe.velocity else motion.trajectory.u
+
+
+def run(recipe: Recipe, x: Array, rate: float, start: float = 0.0) -> Track:
+    """Run one recipe on samples; InputError from the estimator passes through."""
+    options = dict(recipe.options or {})
+    return estimate(x, rate, method=recipe.method, start=start, **options)  # type: ignore[arg-type]
+
+
+def attempt(recipe: Recipe, x: Array, rate: float) -> Outcome:
+    """Run one recipe; a refusal (InputError) becomes an Outcome with its text."""
+    try:
+        return Outcome(recipe, run(recipe, x, rate))
+    except InputError as error:
+        return Outcome(recipe, None, str(error))
+
+
+def estimates(motion: Motion, progress: Callable[[str], None]) -> tuple[Outcome, ...]:
+    """Run every recipe on the sampled motion."""
+    outcomes = []
+    for recipe in RECIPES:
+        progress(recipe.label)
+        outcomes.append(attempt(recipe, signal_of(motion, recipe), motion.trajectory.rate))
+    return tuple(outcomes)
+
+
+def curve_of(track: Track, name: str, label: str) -> Curve:
+    """Turn a track into a curve, its settings kept."""
+    return Curve(
+        name=name,
+        label=label,
+        kind="estimate",
+        time=track.time,
+        omega=track.omega,
+        valid=track.valid & np.isfinite(track.omega),
+        standard_deviation=track.standard_deviation,
+        bias=track.bias,
+        settings=dict(track.settings),
+    )

@@ -1,0 +1,131 @@
+"""Curves omega0(t) from theory: the paper's model, expansions at the amplitude of (21), averaged action, slow flow.
+
+Each model maps an amplitude along the motion to a frequency; none looks at the reference.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from ridgeback.compare.motion.motion import Motion
+from ridgeback.compare.results import Curve
+from ridgeback.compare.study.derivation import Exact
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.orbits.paper_model import series_frequency
+from ridgeback.numeric.orbits.waveform import orbit_harmonics
+from ridgeback.symbolic.flow.slow_flow import SlowFlow
+
+SERIES_TERMS = (3, 20)
+"""Terms of (14) kept: the three that the paper prints, and enough for moderate angles."""
+LOW_ORDERS = (2, 4)
+"""The low-order perturbation expansions of Fig. 5."""
+
+
+def model_curves(motion: Motion, exact: Exact, *, orders: Sequence[int]) -> tuple[Curve, ...]:
+    """All models and expansions of this oscillator along this motion.
+
+    ``orders`` are the orders of the expansion that are drawn (at most that of ``exact``).
+    """
+    if exact.expansion.variable == "eps":
+        return tuple(_limit_cycle_curves(motion, exact, orders))
+    return tuple(_conservative_curves(motion, exact, orders))
+
+
+def _conservative_curves(motion: Motion, exact: Exact, orders: Sequence[int]) -> Iterator[Curve]:
+    peak = motion.energy_peak
+    yield _model(motion, "closed-form", _exact_label(motion), motion.exact_at_energy)
+    if motion.setting.is_pendulum:
+        k = motion.dynamics.natural_frequency
+        for terms in SERIES_TERMS:
+            label = f"(14)+(21), {terms} terms"
+            yield _model(motion, f"series-{terms}", label, series_frequency(peak, k=k, terms=terms))
+    if motion.averaged is not None:
+        note = "J(t) = J₀ exp(−2μt); no integration of the equation."
+        yield _model(motion, "averaged-action", "averaged action", motion.averaged.omega, note)
+    yield _linear(motion)
+    for order in orders:
+        yield _expansion(motion, exact, order, peak)
+    if exact.flow is not None and motion.averaged is not None:
+        yield slow_flow_curve(motion, exact.flow)
+
+
+def _exact_label(motion: Motion) -> str:
+    if motion.setting.is_pendulum:
+        return "(14)+(21), closed form"
+    return "exact backbone at V(A) = E(t)"
+
+
+def _model(motion: Motion, name: str, label: str, omega: Array, note: str = "") -> Curve:
+    return Curve(name, label, "model", motion.time, omega, np.isfinite(omega), note=note)
+
+
+# omega_c = sqrt(k^2 - mu^2), eq. (3)
+def _linear(motion: Motion) -> Curve:
+    k, mu = motion.dynamics.natural_frequency, motion.dynamics.damping
+    omega = np.full(motion.time.size, np.sqrt(max(k * k - mu * mu, 0.0)))
+    return _model(motion, "linear", "linear, eq. (3)", omega)
+
+
+def _expansion(motion: Motion, exact: Exact, order: int, x: Array) -> Curve:
+    omega = np.asarray(exact.expansion.truncated(order)(x), dtype=float)
+    return Curve(
+        f"lindstedt-{order}",
+        f"expansion, order {order}",
+        "expansion",
+        motion.time,
+        omega,
+        np.isfinite(omega),
+        note="Lindstedt-Poincaré in the peak amplitude, at A(t) from the energy.",
+        settings={"order": order},
+    )
+
+
+def _limit_cycle_curves(motion: Motion, exact: Exact, orders: Sequence[int]) -> Iterator[Curve]:
+    name = motion.setting.oscillator.small or "eps"
+    eps = motion.setting.case().parameters[name]
+    for order in orders:
+        omega = np.full(motion.time.size, float(exact.expansion.truncated(order)(eps)))
+        yield Curve(
+            f"lindstedt-{order}",
+            f"limit cycle, order {order}",
+            "expansion",
+            motion.time,
+            omega,
+            np.isfinite(omega),
+            note="Frequency of the limit cycle itself; it says nothing about the transient.",
+            settings={"order": order},
+        )
+    yield _linear(motion)
+
+
+def slow_flow_curve(motion: Motion, flow: SlowFlow) -> Curve:
+    """Multiple scales: a(t) integrated from the slow flow, then phi'(a, mu).
+
+    The start is the averaged motion's own: the first harmonic of the undamped orbit with its action.
+    """
+    if motion.averaged is None:
+        raise ValueError("the slow flow of a motion without a potential has no starting amplitude")
+    small = [float(value) for value in flow.values(motion.setting.oscillator.parameters)]
+    start = float(orbit_harmonics(motion.dynamics, motion.averaged.peak[:1], count=1).cosine[1, 0])
+    solution = solve_ivp(
+        lambda _, a: a * flow.damping_at(a, *small),
+        (float(motion.time[0]), float(motion.time[-1])),
+        [start],
+        t_eval=motion.time,
+        rtol=1e-10,
+        atol=1e-12 * start,
+    )
+    omega = np.asarray(flow.frequency_at(solution.y[0], *small), dtype=float)
+    return Curve(
+        f"multiple-scales-{flow.order}",
+        f"multiple scales, order {flow.order}",
+        "expansion",
+        motion.time[: omega.size],
+        omega,
+        np.isfinite(omega),
+        note="Slow flow in the fundamental amplitude, integrated; no energy and no trajectory enter.",
+        settings={"order": flow.order, **({"weight": flow.weight} if len(flow.weights) == 1 else {})},
+    )

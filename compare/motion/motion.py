@@ -1,0 +1,247 @@
+"""One integrated motion with all that its comparison needs: reference frequency, amplitudes, known phase.
+
+Everything here is computed once and shared by models, estimates, budget and findings.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import sympy
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.binding.bind import bind
+from ridgeback.compare.motion.error_norms import Zones, zones
+from ridgeback.compare.results import Case, Curve
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.motion.cycle_frequency import CycleFrequency, cycle_frequency
+from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.numeric.motion.taylor import integrate_taylor
+from ridgeback.numeric.motion.trajectory import Trajectory, integrate
+from ridgeback.numeric.orbits.averaging import AveragedDecay, averaged_decay
+from ridgeback.numeric.orbits.energy import amplitude_from_energy, energy_of
+from ridgeback.numeric.orbits.period import exact_frequency
+from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+
+CYCLES = 40.0
+SAMPLES_PER_CYCLE = 32.0
+"""Defaults of the paper's case: 20 s of 2 Hz (small amplitude), at 64 Hz."""
+DIGITS = 25
+CHECKED = 8
+"""The second integration is compared at every eighth sample: its accuracy does not depend on where it is read."""
+MIN_CYCLES = 4
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What to run: an oscillator with its numbers, the initial state, how long and how finely."""
+
+    oscillator: Oscillator
+    initial: tuple[float, float]
+    duration: float
+    rate: float
+    time_unit: str = ""
+
+    @property
+    def is_pendulum(self) -> bool:
+        """Whether the paper's own formulas (10)-(14) and (21) apply: restoring force k^2 sin(u)."""
+        restoring = self.oscillator.substituted_force.subs(V, 0)
+        return bool(sympy.expand(restoring / self.oscillator.stiffness - sympy.sin(U)) == 0)
+
+    def case(self) -> Case:
+        """Return the description that travels with the results."""
+        o = self.oscillator
+        return Case(
+            system=o.name,
+            title=o.title,
+            equation=o.equation,
+            equation_latex=o.equation_latex,
+            symbol=o.symbol,
+            unit=o.unit,
+            time_unit=self.time_unit,
+            reference=o.reference,
+            parameters={name: float(value) for name, value in o.parameters.items() if value is not None},
+            initial=self.initial,
+            duration=self.duration,
+            rate=self.rate,
+        )
+
+
+def setting(
+    oscillator: Oscillator,
+    *,
+    initial: tuple[float, float] | None = None,
+    duration: float | None = None,
+    rate: float | None = None,
+    time_unit: str = "",
+) -> Setting:
+    """Fill in what is not given: the oscillator's own initial state, forty natural periods, 32 samples in each.
+
+    Raises InputError for a duration or rate that is not a positive number.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> setting(find("linear")).rate.__round__(3)
+    5.093
+    """
+    k = float(oscillator.natural_frequency.evalf(30))
+    chosen = Setting(
+        oscillator=oscillator,
+        initial=oscillator.initial if initial is None else (float(initial[0]), float(initial[1])),
+        duration=CYCLES * 2 * np.pi / k if duration is None else float(duration),
+        rate=SAMPLES_PER_CYCLE * k / (2 * np.pi) if rate is None else float(rate),
+        time_unit=time_unit,
+    )
+    for name, value in (("duration", chosen.duration), ("rate", chosen.rate)):
+        if not (np.isfinite(value) and value > 0):
+            raise InputError(f"{name} {value:g} is not a positive number; use e.g. {name}=20")
+    return chosen
+
+
+@dataclass(frozen=True)
+class Motion:
+    """An integrated motion; arrays are on the samples of ``trajectory`` unless they carry their own times."""
+
+    setting: Setting
+    dynamics: Dynamics
+    trajectory: Trajectory
+    precise: Trajectory
+    disagreement: float
+    """Largest difference of u between the two integrations over the samples they share."""
+    cycle: CycleFrequency
+    averaged: AveragedDecay | None
+    energy_peak: Array
+    """A(t) by eq. (20)-(21), or the envelope of the turning points for a limit cycle."""
+
+    @property
+    def time(self) -> Array:
+        """Sample times."""
+        return self.trajectory.time
+
+    @cached_property
+    def zone(self) -> Zones:
+        """Start, interior and end."""
+        return zones(float(self.time[0]), float(self.time[-1]))
+
+    @property
+    def has_backbone(self) -> bool:
+        """Whether there is a potential, and with it a frequency for each amplitude."""
+        return self.dynamics.restoring is not None
+
+    @cached_property
+    def _reference_on_samples(self) -> Array:
+        return self.cycle.at(self.time)
+
+    def reference(self, time: Array) -> Array:
+        """Return the cycle frequency at any time, NaN outside the span of the located events."""
+        if np.array_equal(time, self.time):
+            return self._reference_on_samples
+        return self.cycle.at(time)
+
+    @cached_property
+    def exact_at_energy(self) -> Array:
+        """Exact omega0 at A(t) of the energy: closed form, or quadrature where there is none."""
+        return exact_omega(self.dynamics, self.energy_peak)
+
+    @cached_property
+    def known_omega(self) -> Array:
+        """A smooth omega(t) over all samples: the averaged action, or the reference with its ends held."""
+        if self.averaged is not None:
+            return self.averaged.omega
+        omega = self._reference_on_samples
+        inside = np.isfinite(omega)
+        return np.interp(self.time, self.time[inside], omega[inside])
+
+    @cached_property
+    def rising(self) -> Array:
+        """Times of the rising zero crossings: one per cycle."""
+        crossings = self.trajectory.crossings
+        return np.asarray(crossings.time[crossings.rising])
+
+    def reference_curve(self) -> Curve:
+        """The reference on the samples."""
+        omega = self.reference(self.time)
+        return Curve(
+            name="reference",
+            label="cycle frequency",
+            kind="reference",
+            time=self.time,
+            omega=omega,
+            valid=np.isfinite(omega),
+            standard_deviation=self.cycle.uncertainty_at(self.time),
+            note="From the event-located zero crossings of the integrated solution, curvature within a cycle removed.",
+        )
+
+
+def exact_omega(dynamics: Dynamics, peaks: Array) -> Array:
+    """Exact omega0 at peak amplitudes, by closed form or quadrature.
+
+    >>> from ridgeback.numeric.motion.dynamics import linear
+    >>> exact_omega(linear(k=2.0), np.array([1.0]))
+    array([2.])
+    """
+    if dynamics.closed_form is not None:
+        return np.asarray(dynamics.closed_form(peaks))
+    return np.asarray(exact_frequency(dynamics, peaks).omega)
+
+
+def integrate_motion(chosen: Setting, *, digits: int = DIGITS) -> Motion:
+    """Integrate by DOP853 and by Taylor series, and compute what the comparison shares.
+
+    Raises InputError where the motion leaves the well, and where it has too few cycles to compare anything.
+    """
+    dynamics = bind(chosen.oscillator)
+    _check_underdamped(dynamics)
+    duration, rate = chosen.duration, chosen.rate
+    trajectory = integrate(dynamics, chosen.initial, duration=duration, rate=rate)
+    _check_cycles(chosen, trajectory)
+    precise = integrate_taylor(dynamics, chosen.initial, duration=duration, rate=rate / CHECKED, digits=digits)
+    averaged = None
+    if dynamics.restoring is not None:
+        averaged = averaged_decay(dynamics, chosen.initial, trajectory.time)
+    return Motion(
+        setting=chosen,
+        dynamics=dynamics,
+        trajectory=trajectory,
+        precise=precise,
+        disagreement=_disagreement(trajectory, precise),
+        cycle=cycle_frequency(trajectory, dynamics=dynamics),
+        averaged=averaged,
+        energy_peak=_energy_peak(dynamics, trajectory),
+    )
+
+
+def _disagreement(trajectory: Trajectory, precise: Trajectory) -> float:
+    shared = trajectory.u[::CHECKED][: precise.u.size]
+    return float(np.max(np.abs(shared - precise.u[: shared.size])))
+
+
+def _check_underdamped(dynamics: Dynamics) -> None:
+    if dynamics.damping >= dynamics.natural_frequency:
+        raise InputError(
+            f"{dynamics.name}: mu = {dynamics.damping:.6g} is not below k = {dynamics.natural_frequency:.6g}, so the "
+            "motion is overdamped and does not oscillate; use less damping"
+        )
+
+
+def _check_cycles(chosen: Setting, trajectory: Trajectory) -> None:
+    rising = int(np.count_nonzero(trajectory.crossings.rising))
+    if rising <= MIN_CYCLES:
+        raise InputError(
+            f"{chosen.oscillator.name}: {rising} zero crossings in a duration of {chosen.duration:g} leave fewer than "
+            f"{MIN_CYCLES} whole cycles; use a longer duration"
+        )
+    fastest = 1 / float(np.diff(trajectory.crossings.time[trajectory.crossings.rising]).min())
+    if chosen.rate <= 2 * fastest:
+        raise InputError(
+            f"rate {chosen.rate:g} aliases the fundamental, which reaches {fastest:.4g} cycles per time unit; "
+            f"use a rate above {2 * fastest:.4g}, or {SAMPLES_PER_CYCLE * fastest:.3g} to see its harmonics"
+        )
+
+
+def _energy_peak(dynamics: Dynamics, trajectory: Trajectory) -> Array:
+    if dynamics.restoring is not None:
+        return amplitude_from_energy(dynamics, energy_of(dynamics, trajectory.u, trajectory.velocity)).peak
+    turnings = trajectory.turnings
+    return np.interp(trajectory.time, turnings.time, np.abs(turnings.value))

@@ -1,0 +1,64 @@
+"""Why the full Wigner peak lies low: measured, repeated on the fundamental alone, and predicted from the curvature.
+
+If harmonics were the cause, a signal without harmonics would show no bias; if curvature is, it shows the same bias,
+and the leading formula phi''' <tau^4> / (24 <tau^2>) gives its size.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ridgeback.compare.motion.error_norms import mean, relative_error
+from ridgeback.compare.motion.estimate_curves import RECIPES, attempt
+from ridgeback.compare.motion.motion import Motion
+from ridgeback.compare.motion.reconstruction import KnownMotion
+from ridgeback.compare.results import Curve
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.orbits.paper_model import slope_of_samples
+
+
+@dataclass(frozen=True)
+class WignerCause:
+    """Mean relative error of the Wigner peak over the interior, by three routes."""
+
+    measured: float | None
+    fundamental_only: float | None
+    predicted: float
+
+
+def wigner_cause(motion: Motion, measured: Curve | None, known: KnownMotion) -> WignerCause:
+    """Compare the measured bias with that of the fundamental alone and with the curvature formula."""
+    inside = motion.zone.interior(motion.time)
+    alone = attempt(RECIPES[0], known.fundamental, motion.trajectory.rate).curve
+    return WignerCause(
+        measured=None if measured is None else _mean_inside(motion, measured),
+        fundamental_only=None if alone is None else _against(motion, alone, known.omega),
+        predicted=float(np.mean((predicted_bias(motion.time, known.omega) / known.omega)[inside])),
+    )
+
+
+def _mean_inside(motion: Motion, curve: Curve) -> float | None:
+    error = relative_error(curve, motion.reference)
+    return mean(error[motion.zone.interior(curve.time)])
+
+
+def _against(motion: Motion, curve: Curve, omega: Array) -> float | None:
+    expected = np.interp(curve.time, motion.time, omega)
+    keep = curve.valid & motion.zone.interior(curve.time)
+    return mean((curve.omega / expected - 1)[keep])
+
+
+# Without a lag window tau runs over -2 m .. 2 m, m the distance from the nearer end, so <tau^4> / <tau^2> = 0.6 (2 m)^2
+# and the bias is omega'' * 0.6 * 4 m^2 / 24 = omega'' m^2 / 10 (leading order in the curvature).
+def predicted_bias(time: Array, omega: Array) -> Array:
+    """Leading-order bias of the full Wigner peak of a chirp with frequency omega(t), rad per time unit.
+
+    >>> t = np.linspace(0.0, 20.0, 201)
+    >>> round(float(predicted_bias(t, 5.0 + 0.01 * t**2)[100]), 6)    # omega'' = 0.02, m = 10
+    0.2
+    """
+    bend = slope_of_samples(time, slope_of_samples(time, omega))
+    margin = np.minimum(time - time[0], time[-1] - time)
+    return np.asarray(bend * margin**2 / 10)

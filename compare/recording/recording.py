@@ -1,0 +1,180 @@
+"""A recording: its fundamental frequency by several estimators, the backbone and damping with bands, a fitted form.
+
+What is known of the result is what the estimators say of themselves; there is no reference to hold them against,
+so their mutual distance is reported beside each one's own uncertainty.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.binding.bind import bind
+from ridgeback.compare.motion.estimate_curves import curve_of
+from ridgeback.compare.motion.planes import spectrogram_image
+from ridgeback.compare.recording.backbone_fit import fit_backbone, formula_of
+from ridgeback.compare.results import Curve, RecordingComparison
+from ridgeback.compare.wording import relative
+from ridgeback.numeric.backbone.backbone import Backbone, backbone
+from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.orbits.period import exact_frequency
+from ridgeback.numeric.orbits.potential import peak_limit
+from ridgeback.numeric.orbits.waveform import orbit_harmonics
+from ridgeback.numeric.recording.recording import Recording, read_recording
+from ridgeback.numeric.tracking.track import Track
+from ridgeback.symbolic.systems.oscillator import Oscillator
+
+METHODS = ("harmonic-least-squares", "pseudo-wigner", "spectrogram", "zero-crossing", "wigner")
+"""Estimators compared on a recording, the first that succeeds gives the backbone."""
+_LABELS = {
+    "harmonic-least-squares": "harmonic least squares",
+    "pseudo-wigner": "pseudo-Wigner peak",
+    "spectrogram": "spectrogram peak",
+    "zero-crossing": "zero crossings",
+    "wigner": "Wigner peak",
+}
+TOP_MULTIPLE = 6
+MOST_POINTS = 4096
+"""Samples of a long recording that are kept for display."""
+
+
+def compare_recording(
+    source: str | Path | Recording,
+    *,
+    column: str | int | None = None,
+    time_column: str | int | None = None,
+    rate: float | None = None,
+    methods: Iterable[str] = METHODS,
+    oscillator: Oscillator | None = None,
+    progress: Callable[[float, str], None] = lambda _, __: None,
+) -> RecordingComparison:
+    """Estimate the frequency of a recording by several methods and make its backbone from the first that succeeds.
+
+    ``source`` is a path or a Recording already read; ``oscillator``, with its parameters in the recording's units,
+    is overlaid as theory at the measured amplitude.  Raises InputError when no method succeeds, OSError for files.
+    """
+    progress(0.0, "reading")
+    if isinstance(source, Recording):
+        recording = source
+    else:
+        recording = read_recording(source, column=column, time_column=time_column, rate=rate)
+    tracks, failed = _tracks(recording, tuple(methods), progress)
+    if not tracks:
+        raise InputError(f"{recording.source}: no estimator succeeded; " + "; ".join(failed))
+    progress(0.7, "backbone")
+    chosen = tracks[0]
+    flat = recording.clipped if recording.clipped.any() else None
+    measured = backbone(chosen, recording.values, recording.rate, start=float(recording.time[0]), exclude=flat)
+    progress(0.9, "spectrogram")
+    return _assembled(recording, tracks, measured, failed, oscillator)
+
+
+def _tracks(
+    recording: Recording, methods: tuple[str, ...], progress: Callable[[float, str], None]
+) -> tuple[list[Track], list[str]]:
+    tracks, failed = [], []
+    for i, method in enumerate(methods):
+        progress(0.05 + 0.6 * i / len(methods), _LABELS.get(method, method))
+        try:
+            start = float(recording.time[0])
+            tracks.append(estimate(recording.values, recording.rate, method=method, start=start))
+        except InputError as error:
+            failed.append(str(error))
+    return tracks, failed
+
+
+def _assembled(
+    recording: Recording, tracks: list[Track], measured: Backbone, failed: list[str], oscillator: Oscillator | None
+) -> RecordingComparison:
+    chosen = tracks[0]
+    curves = tuple(curve_of(track, track.method, _LABELS.get(track.method, track.method)) for track in tracks)
+    fit = fit_backbone(measured.curve_amplitude, measured.curve_omega, measured.curve_omega_sd)
+    step = max(1, recording.time.size // MOST_POINTS)
+    slowest, fastest = float(chosen.inside().omega.min()), float(chosen.inside().omega.max())
+    return RecordingComparison(
+        source=recording.source,
+        sha256=recording.sha256,
+        column=f"{recording.name} [{recording.units}]" if recording.units else recording.name,
+        rate=recording.rate,
+        time=recording.time[::step],
+        signal=recording.values[::step],
+        curves=curves,
+        chosen=chosen.method,
+        spectrogram=spectrogram_image(
+            recording.values,
+            recording.rate,
+            period=2 * np.pi / slowest,
+            top=TOP_MULTIPLE * fastest,
+            name=f"Spectrogram of {recording.name}",
+            overlays=curves[:1],
+            start=float(recording.time[0]),
+            unit="s",
+        ),
+        amplitude_time=measured.time,
+        amplitude=measured.amplitude,
+        backbone_amplitude=measured.curve_amplitude,
+        backbone_omega=measured.curve_omega,
+        backbone_omega_sd=measured.curve_omega_sd,
+        damping_amplitude=measured.curve_amplitude,
+        damping=measured.curve_damping,
+        damping_sd=measured.curve_damping_sd,
+        fit=None if fit is None else formula_of(fit),
+        notes=tuple(_notes(recording, curves, measured, failed)),
+        theory=() if oscillator is None else (theory_curve(oscillator, measured),),
+    )
+
+
+def _notes(recording: Recording, curves: tuple[Curve, ...], measured: Backbone, failed: list[str]) -> Iterable[str]:
+    yield from recording.notes
+    yield (
+        f"The backbone is made from {curves[0].label}: the first that succeeded, in an order of preference that puts "
+        "efficiency in noise and freedom from curvature bias first."
+    )
+    pairs = [(other.label, distance(curves[0], other)) for other in curves[1:]]
+    apart = [f"{label} {relative(value)}" for label, value in pairs if value is not None]
+    if apart:
+        yield f"Rms distance of the other tracks from it, where both are valid: {', '.join(apart)}."
+    yield from measured.notes
+    yield from failed
+
+
+def distance(first: Curve, second: Curve) -> float | None:
+    """Relative rms difference of two tracks at the times of the second where both are valid; None without any.
+
+    >>> t = np.arange(5.0)
+    >>> one = Curve("", "", "estimate", t, np.full(5, 2.0), t >= 0)
+    >>> distance(one, Curve("", "", "estimate", t, np.full(5, 2.2), t >= 0)).__round__(12)
+    0.1
+    """
+    own = first.time[first.valid]
+    keep = second.valid & (second.time >= own[0]) & (second.time <= own[-1]) if own.size else second.valid & False
+    if not keep.any():
+        return None
+    expected = np.interp(second.time[keep], own, first.omega[first.valid])
+    return float(np.sqrt(np.mean((second.omega[keep] / expected - 1) ** 2)))
+
+
+def theory_curve(oscillator: Oscillator, measured: Backbone, *, points: int = 200) -> Curve:
+    """Exact backbone of an oscillator at the measured fundamental amplitude, along the recording's time.
+
+    The exact frequency belongs to the peak amplitude; the first harmonic of the same orbit gives the fundamental one.
+    """
+    dynamics = bind(oscillator)
+    limit = peak_limit(dynamics)
+    most = 0.999 * limit if np.isfinite(limit) else 2.0 * float(measured.amplitude.max())
+    peaks = np.linspace(most / points, most, points)
+    fundamental = np.abs(orbit_harmonics(dynamics, peaks, count=1).cosine[1])
+    omega = np.interp(measured.amplitude, fundamental, exact_frequency(dynamics, peaks).omega)
+    inside = measured.amplitude <= fundamental[-1]
+    return Curve(
+        name=oscillator.name,
+        label=f"{oscillator.title}, exact backbone",
+        kind="model",
+        time=measured.time,
+        omega=omega,
+        valid=inside,
+        note="At the measured fundamental amplitude, parameters as given.",
+    )

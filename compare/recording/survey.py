@@ -1,0 +1,282 @@
+"""What ``ridgeback estimate`` measures of recordings: omega0(t), a(t), backbone and damping of each signal, and of all.
+
+The signals of a recording are its channels, runs and the stretches between its gaps.  Each is measured by itself; the
+backbones of the runs and stretches of one channel are then combined, since they are of one oscillator.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.backbone.backbone import Backbone, backbone
+from ridgeback.numeric.backbone.combined import CombinedBackbone, combine
+from ridgeback.numeric.backbone.half_cycles import HalfCycles, half_cycles
+from ridgeback.numeric.estimators.amplitude import estimate_amplitude
+from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.recording.recording import Recording
+from ridgeback.numeric.signal.decimation import every, every_flag
+from ridgeback.numeric.tracking.track import NORMAL_95, AmplitudeTrack, Track
+
+COMBINE = ("runs", "all", "none")
+Row = dict[str, float | bool]
+
+
+class Along(NamedTuple):
+    """Frequency over time with the ends of its 95 % interval, rad per time unit; NaN where nothing is claimed."""
+
+    time: Array
+    omega: Array
+    low: Array
+    high: Array
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """One signal: its track or its half cycles, and its backbone where the amplitude is clear of the noise."""
+
+    recording: Recording
+    found: Track | HalfCycles
+    backbone: Backbone | None
+    notes: tuple[str, ...]
+    size: AmplitudeTrack | None = None
+    """The amplitude of a higher harmonic."""
+
+    @property
+    def method(self) -> str:
+        """How the frequency was estimated."""
+        return self.found.method if isinstance(self.found, Track) else "half-cycles"
+
+    @property
+    def usable(self) -> bool:
+        """Whether any value is one that the estimator vouches for."""
+        return not isinstance(self.found, Track) or bool(self.found.valid.any())
+
+    def frequency(self) -> Along:
+        """Frequency where it is valid with its 95 % interval: with the bias in it, where the estimator knows that."""
+        found = self.found
+        if isinstance(found, HalfCycles):
+            reach = NORMAL_95 * found.omega_sd
+            return Along(found.time, found.omega, found.omega - reach, found.omega + reach)
+        values = np.where(found.valid, found.omega, np.nan)
+        if found.interval is not None:
+            low, high = (np.where(found.valid, end, np.nan) for end in found.interval)
+            return Along(found.time, values, low, high)
+        deviation = np.nan if found.standard_deviation is None else found.standard_deviation
+        return Along(found.time, values, values - NORMAL_95 * deviation, values + NORMAL_95 * deviation)
+
+    def rows(self) -> list[Row]:
+        """One row per time: frequency, amplitude and damping with their standard deviations, NaN where unknown."""
+        if isinstance(self.found, HalfCycles):
+            return [dict(row) for row in self.found.rows()]
+        rows: list[Row] = [dict(row) for row in self.found.rows()]
+        columns: Mapping[str, Array] = {}
+        if self.backbone is not None:
+            columns = amplitude_columns(self.backbone, self.found.time)
+        elif self.size is not None:
+            columns = size_columns(self.size, self.found.time)
+        for name, values in columns.items():
+            for row, value in zip(rows, values.tolist(), strict=True):
+                row[name] = value
+        return rows
+
+
+@dataclass(frozen=True)
+class Common:
+    """The combined backbone of the runs of a channel, or of all channels."""
+
+    channel: str
+    curve: CombinedBackbone
+
+
+@dataclass(frozen=True)
+class Survey:
+    """All that was measured; ``failed`` says which whole signals gave nothing, ``notes`` which stretches did."""
+
+    measured: tuple[Measurement, ...]
+    combined: tuple[Common, ...]
+    failed: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def amplitude_columns(curve: Backbone, time: Array) -> Mapping[str, Array]:
+    """Amplitude and damping along ``time``, linear between the backbone's points, NaN away from them."""
+    spacing = float(np.median(np.diff(curve.time)))
+    after = np.clip(np.searchsorted(curve.time, time), 1, curve.time.size - 1)
+    inside = (time >= curve.time[0]) & (time <= curve.time[-1])
+    near = inside & (curve.time[after] - curve.time[after - 1] < 1.5 * spacing)
+
+    def along(values: Array) -> Array:
+        return np.where(near, np.interp(time, curve.time, values), np.nan)
+
+    return {
+        "amplitude": along(curve.amplitude),
+        "amplitude_standard_deviation": along(curve.amplitude_sd),
+        "damping_per_s": along(curve.damping),
+        "damping_standard_deviation_per_s": along(curve.damping_sd),
+    }
+
+
+def size_columns(size: AmplitudeTrack, time: Array) -> Mapping[str, Array]:
+    """The amplitude of a harmonic along ``time``, with its 95 % interval where it claims one."""
+    columns = {"amplitude": size.amplitude}
+    if size.standard_deviation is not None:
+        columns["amplitude_standard_deviation"] = size.standard_deviation
+    if size.interval is not None:
+        columns |= {"amplitude_low_95": size.interval.low, "amplitude_high_95": size.interval.high}
+    return {name: np.interp(time, size.time, values) for name, values in columns.items()}
+
+
+def of_harmonic(recording: Recording, track: Track, multiple: int, settings: Mapping[str, object]) -> Measurement:
+    """A harmonic with its track, phase-locked to the fundamental's, and its amplitude where the data show it."""
+    notes, size = recording.notes, None
+    try:
+        band: Any = settings.get("band")
+        used = as_tracked(recording, track)
+        start = float(used.time[0])
+        size = estimate_amplitude(used.values, used.rate, harmonic=multiple, band=band, start=start)
+    except InputError as error:
+        notes = (*notes, f"No amplitude: {error}.")
+    return Measurement(recording, track, None, notes, size)
+
+
+def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **settings: object) -> Measurement:
+    """Measure one signal; ``settings`` are those of ``estimate``, ``halves`` takes half cycles.
+
+    Raises InputError where the frequency cannot be estimated; without a clear amplitude there is no backbone.
+
+    >>> t = np.arange(1280) / 32.0
+    >>> x = 2.0 * np.exp(-0.05 * t) * np.cos(2 * np.pi * 1.25 * t)
+    >>> found = measure(Recording(t, x, 32.0, "u", "mm", "run.csv", ""), method="pseudo-wigner")
+    >>> row = found.rows()[640]
+    >>> bool(abs(row["frequency_hz"] - 1.25) < 1e-3), round(row["amplitude"], 3), round(row["damping_per_s"], 4)
+    (True, 0.736, -0.05)
+    """
+    if halves:
+        return of_half_cycles(recording, settings)
+    start = float(recording.time[0])
+    track = estimate(recording.values, recording.rate, start=start, harmonic=harmonic, **settings)  # type: ignore[arg-type]
+    if harmonic > 1:
+        return of_harmonic(recording, track, harmonic, settings)
+    try:
+        used = as_tracked(recording, track)
+        curve = backbone(track, used.values, used.rate, start=float(used.time[0]), exclude=marked(used))
+    except InputError as error:
+        return Measurement(recording, track, None, (*recording.notes, f"No amplitude: {error}."))
+    return Measurement(recording, track, curve, (*recording.notes, *curve.notes))
+
+
+def as_tracked(recording: Recording, track: Track) -> Recording:
+    """The recording, decimated as the track's estimator did: the fundamental needs no more samples.
+
+    >>> t = np.arange(20_000) / 1000.0
+    >>> run = Recording(t, np.cos(30.0 * t), 1000.0, "u", "mm", "run.csv", "")
+    >>> few = as_tracked(run, estimate(run.values, run.rate))
+    >>> few.rate < 60.0, bool(np.allclose(few.values, np.cos(30.0 * few.time), atol=1e-3))
+    (True, True)
+    """
+    factor = track.settings.get("decimated_by")
+    if not isinstance(factor, int) or factor < 2:
+        return recording
+    few = every(recording.values, recording.rate, factor, start=float(recording.time[0]))
+    time = few.start + np.arange(few.x.size) / few.rate
+    clipped, filled = (every_flag(flags, factor) for flags in (recording.clipped, recording.filled))
+    return replace(recording, time=time, values=few.x, rate=few.rate, clipped=clipped, filled=filled)
+
+
+def of_half_cycles(recording: Recording, settings: Mapping[str, object]) -> Measurement:
+    """Measure one signal half cycle by half cycle; those with clipped samples stay out of the backbone."""
+    band: Any = settings.get("band")
+    start = float(recording.time[0])
+    found = half_cycles(recording.values, recording.rate, start=start, band=band)
+    hit = None if not recording.clipped.any() else overlapping(recording, found)
+    try:
+        curve = found.backbone(hit)
+    except InputError as error:
+        return Measurement(recording, found, None, (*recording.notes, f"No backbone: {error}."))
+    return Measurement(recording, found, curve, (*recording.notes, *curve.notes))
+
+
+def overlapping(recording: Recording, found: HalfCycles) -> Mask:
+    """Which half cycles hold clipped samples."""
+    before = np.concatenate([[0], np.cumsum(recording.clipped)])
+    reach = 0.5 * np.pi / found.omega
+    first = np.searchsorted(recording.time, found.time - reach)
+    last = np.searchsorted(recording.time, found.time + reach, side="right")
+    return np.asarray(before[last] > before[first])
+
+
+def marked(recording: Recording) -> Mask | None:
+    """The clipped samples, None where there are none."""
+    return recording.clipped if recording.clipped.any() else None
+
+
+def survey(
+    recordings: Sequence[Recording],
+    *,
+    combine_over: str = "runs",
+    harmonic: int = 1,
+    halves: bool = False,
+    progress: Callable[[float, str], None] = lambda _, __: None,
+    **settings: object,
+) -> Survey:
+    """Measure every signal and combine backbones: of the "runs" and stretches of a channel, of "all", or "none".
+
+    A stretch that cannot be measured is left out by name when another of its signal can; a whole signal that cannot
+    is in ``failed``.  Raises InputError when nothing can be measured at all.
+    """
+    if combine_over not in COMBINE:
+        raise InputError(f"combine {combine_over!r} is unknown; use one of {', '.join(COMBINE)}")
+    measured: list[Measurement] = []
+    refused: list[tuple[Recording, InputError]] = []
+    for i, recording in enumerate(recordings):
+        progress(i / len(recordings), f"estimating {recording.label}")
+        try:
+            measured.append(measure(recording, harmonic=harmonic, halves=halves, **settings))
+        except InputError as error:
+            refused.append((recording, error))
+    if not measured:
+        raise refused[0][1]
+    good = {signal_of(m.recording) for m in measured}
+    return Survey(
+        measured=tuple(measured),
+        combined=tuple(common(measured, combine_over)),
+        failed=tuple(f"{r.label}: {error}" for r, error in refused if signal_of(r) not in good),
+        notes=tuple(f"Left out, {r.label}: {error}." for r, error in refused if signal_of(r) in good),
+    )
+
+
+def signal_of(recording: Recording) -> tuple[str, str, str]:
+    """What all stretches of a signal have in common."""
+    return recording.source, recording.run, recording.channel
+
+
+def common(measured: Sequence[Measurement], over: str) -> Iterator[Common]:
+    """The combined backbones of groups of more than one."""
+    groups: dict[str, list[Measurement]] = {}
+    for one in measured:
+        if one.backbone is not None and over != "none":
+            groups.setdefault(one.recording.channel if over == "runs" else "all channels", []).append(one)
+    for channel, members in groups.items():
+        units = sorted({m.recording.units or "no unit" for m in members})
+        if len(units) > 1:
+            raise InputError(
+                f"backbones in {' and '.join(units)} cannot be combined; combine over runs, or name columns of one unit"
+            )
+        if len(members) > 1:
+            curves = [m.backbone for m in members if m.backbone is not None]
+            yield Common(channel, combine(curves, [m.recording.label for m in members]))
+
+
+def of_channel(found: Survey, channel: str) -> Survey:
+    """The part of a survey that is about one channel."""
+    return replace(
+        found,
+        measured=tuple(m for m in found.measured if m.recording.channel == channel),
+        combined=tuple(c for c in found.combined if c.channel in (channel, "all channels")),
+    )

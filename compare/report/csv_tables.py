@@ -1,0 +1,118 @@
+"""Results as CSV text for the download links: one header line, empty cells for nothing."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+
+from ridgeback.compare.results import BudgetRow, Curve, DecayComparison, RecordingComparison, Score, Study
+from ridgeback.numeric.arrays import Array
+
+
+def csv_text(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
+    r"""CSV with ``\n`` line ends; None and NaN become empty cells, floats keep every digit.
+
+    >>> csv_text(["a", "b"], [[0.1, None]])
+    'a,b\n0.1,\n'
+    """
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows([_cell(value) for value in row] for row in rows)
+    return out.getvalue()
+
+
+def _cell(value: object) -> object:
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        return "" if math.isnan(value) else repr(float(value))
+    return value
+
+
+def study_table(study: Study) -> str:
+    """One row per order and amplitude."""
+    rows = study.rows()
+    header = list(rows[0]) if rows else []
+    return csv_text(header, [list(row.values()) for row in rows])
+
+
+def decay_table(decay: DecayComparison) -> str:
+    """The trajectory, its amplitude and every curve, one row per sample (rad per time unit)."""
+    columns: dict[str, Sequence[object]] = {
+        "time": decay.time.tolist(),
+        "u": [_short(x, digits=12) for x in decay.u.tolist()],
+        "velocity": [_short(x, digits=12) for x in decay.velocity.tolist()],
+        "amplitude_energy": _on(decay.time, decay.amplitudes.time, decay.amplitudes.energy),
+    }
+    if decay.amplitudes.averaged is not None:
+        columns["amplitude_averaged"] = _on(decay.time, decay.amplitudes.time, decay.amplitudes.averaged)
+    return _columns_table(columns | _curve_columns(decay.time, (decay.reference, *decay.curves)))
+
+
+def harmonics_table(decay: DecayComparison) -> str:
+    """The tracks of the higher harmonics with their predictions, one row per sample."""
+    return _columns_table({"time": decay.time.tolist(), **_curve_columns(decay.time, decay.harmonics)})
+
+
+def _on(time: Array, own: Array, values: Array) -> list[object]:
+    """Return values at the sample times, NaN outside their own span."""
+    return [_short(x) for x in np.interp(time, own, values, left=np.nan, right=np.nan).tolist()]
+
+
+def _curve_columns(time: Array, curves: Sequence[Curve]) -> dict[str, Sequence[object]]:
+    """Return each curve at its own samples only: nothing is interpolated into a file."""
+    columns: dict[str, Sequence[object]] = {}
+    for curve in curves:
+        at = dict(zip(curve.time.tolist(), np.where(curve.valid, curve.omega, np.nan).tolist(), strict=True))
+        columns[f"omega_{curve.name}"] = [_short(at.get(t, math.nan)) for t in time.tolist()]
+    return columns
+
+
+def _short(value: float, *, digits: int = 7) -> str:
+    """Significant digits: a hundred times finer than the best estimate here, and half the size of the file.
+
+    >>> _short(1.0 / 3.0), _short(math.nan)
+    ('0.3333333', '')
+    """
+    return "" if math.isnan(value) else f"{value:.{digits}g}"
+
+
+def _columns_table(columns: Mapping[str, Sequence[object]]) -> str:
+    return csv_text(list(columns), zip(*columns.values(), strict=True))
+
+
+def scores_table(scores: Sequence[Score]) -> str:
+    """One row per method, failures included."""
+    header = ["method", "kind", "rms_interior", "max_interior", "mean_interior", "rms_start", "rms_end", "failed"]
+    return csv_text(header, [[getattr(score, name) for name in header] for score in scores])
+
+
+def budget_table(rows: Sequence[BudgetRow]) -> str:
+    """One row per method."""
+    header = ["method", "truncation", "averaging", "estimator", "reference", "total", "closure"]
+    return csv_text(header, [[getattr(row, name) for name in header] for row in rows])
+
+
+def curves_table(curves: Sequence[Curve]) -> str:
+    """All curves in long form: curve, time, omega, valid."""
+    header = ["curve", "time", "omega", "standard_deviation", "valid"]
+    return csv_text(header, (row for curve in curves for row in _long_rows(curve)))
+
+
+def _long_rows(curve: Curve) -> Iterable[list[object]]:
+    deviation = curve.standard_deviation
+    for i in range(curve.time.size):
+        sigma = None if deviation is None else float(deviation[i])
+        yield [curve.name, float(curve.time[i]), float(curve.omega[i]), sigma, bool(curve.valid[i])]
+
+
+def backbone_table(recording: RecordingComparison) -> str:
+    """The backbone of a recording: amplitude, frequency and its standard deviation."""
+    header = ["amplitude", "omega", "omega_standard_deviation"]
+    columns = (recording.backbone_amplitude, recording.backbone_omega, recording.backbone_omega_sd)
+    return csv_text(header, zip(*(column.tolist() for column in columns), strict=True))

@@ -1,0 +1,90 @@
+"""What a report on a recording says first: how its frequency depends on its amplitude, and how well that is known."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ridgeback.compare.report.results import Card
+from ridgeback.compare.results import RecordingComparison
+from ridgeback.compare.wording import frequency, relative
+from ridgeback.numeric.arrays import Array
+
+
+def _ends(found: RecordingComparison) -> tuple[int, int]:
+    """Indices of the smallest and the largest amplitude of the backbone."""
+    return int(np.argmin(found.backbone_amplitude)), int(np.argmax(found.backbone_amplitude))
+
+
+def _hertz(value: float) -> str:
+    return frequency(value, "s")
+
+
+def _signed(value: float) -> str:
+    return f"{value:+.4f}".replace("-", "−")
+
+
+def _sense(found: RecordingComparison) -> str:
+    """Hardening, softening, or neither within two standard deviations."""
+    low, high = _ends(found)
+    change = found.backbone_omega[high] - found.backbone_omega[low]
+    if abs(change) <= 2 * np.hypot(found.backbone_omega_sd[high], found.backbone_omega_sd[low]):
+        return "constant"
+    return "hardening" if change > 0 else "softening"
+
+
+def recording_title(found: RecordingComparison) -> str:
+    """State the frequency at the largest and the smallest amplitude."""
+    low, high = _ends(found)
+    text = (
+        f"{_hertz(found.backbone_omega[high])} at amplitude {found.backbone_amplitude[high]:.3g}, "
+        f"{_hertz(found.backbone_omega[low])} at {found.backbone_amplitude[low]:.3g}"
+    )
+    sense = _sense(found)
+    return f"{text}: {sense}" if sense != "constant" else f"{text}: no dependence beyond the uncertainty"
+
+
+def recording_sentences(found: RecordingComparison) -> tuple[str, ...]:
+    """Say in plain words what was estimated, how the estimators compare, and what the damping is."""
+    return tuple(_sentences(found))
+
+
+def _sentences(found: RecordingComparison) -> Iterator[str]:
+    low, high = _ends(found)
+    yield (
+        f"As the amplitude of the fundamental goes from {found.backbone_amplitude[high]:.3g} to "
+        f"{found.backbone_amplitude[low]:.3g}, the frequency goes from {_hertz(found.backbone_omega[high])} to "
+        f"{_hertz(found.backbone_omega[low])}."
+    )
+    yield f"The backbone's relative standard deviation is {relative(_middle(_relative_sd(found)))} in the median."
+    yield (
+        f"The amplitude changes at a′/a = {_signed(found.damping[high])} per second at the largest amplitude and "
+        f"{_signed(found.damping[low])} at the smallest."
+    )
+    yield from found.notes
+
+
+def _relative_sd(found: RecordingComparison) -> Array:
+    return np.asarray(found.backbone_omega_sd / found.backbone_omega)
+
+
+def _middle(values: Array) -> float:
+    return float(np.median(values))
+
+
+def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
+    """Frequency range, damping, uncertainty."""
+    low, high = _ends(found)
+    span = f"{_hertz(found.backbone_omega[high])} to {_hertz(found.backbone_omega[low])}"
+    amplitudes = f"{found.backbone_amplitude[high]:.3g} to {found.backbone_amplitude[low]:.3g}"
+    damping = float(np.median(found.damping))
+    return (
+        Card("Fundamental frequency", span, f"Amplitudes {amplitudes} (first harmonic): {_sense(found)}."),
+        Card("Damping", f"{_signed(damping)} per s", "Median of a′/a over the backbone; see the figure."),
+        Card(
+            "Uncertainty",
+            relative(_middle(_relative_sd(found))),
+            "Median relative standard deviation of the backbone's points.",
+        ),
+    )

@@ -1,0 +1,212 @@
+"""Assemble a report: everything the page shows, computed here, deterministic apart from the times it took."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
+from ridgeback.compare.binding.bind import bind
+from ridgeback.compare.motion.comparison import HIGH_ORDER, compare_decay
+from ridgeback.compare.motion.model_curves import LOW_ORDERS
+from ridgeback.compare.motion.motion import Setting, setting
+from ridgeback.compare.report import csv_tables as tables
+from ridgeback.compare.report.noise_part import TRIALS, noise_of_motion
+from ridgeback.compare.report.provenance import provenance
+from ridgeback.compare.report.results import Report
+from ridgeback.compare.report.stages import Stages
+from ridgeback.compare.report.standings import standings
+from ridgeback.compare.report.summary import cards, decay_sentences, study_sentences, study_title
+from ridgeback.compare.results import DecayComparison, Range, Study, Timing
+from ridgeback.compare.study.certified import certified
+from ridgeback.compare.study.derivation import Exact, derivation, derive
+from ridgeback.compare.study.study import ranges, study
+from ridgeback.compare.study.timing import timings
+from ridgeback.compare.wording import symbol
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.orbits.potential import peak_limit
+from ridgeback.symbolic.flow.ordering import undamped
+from ridgeback.symbolic.singularities.limits import limits
+from ridgeback.symbolic.systems.catalogue import find
+from ridgeback.symbolic.systems.oscillator import Oscillator
+
+ORDERS = (2, 4, 6, 8, 10, 12, 16, 20, 30, 40)
+CYCLE_ORDERS = (2, 4, 6, 8, 12, 16, 20, 30, 48)
+"""Orders in eps for limit cycles, whose series cost more per order."""
+AMPLITUDES = 49
+CYCLE_STRENGTHS = np.linspace(0.2, 2.6, 13)
+ORDER, TARGET = 8, 1e-3
+
+# The paper's case: k = 4 pi to the last digit of a double, mu = 0.01, theta(0) = 0.95 pi at rest, 20 s.
+PAPER_PARAMETERS = {"k": "12.566370614359172", "mu": "0.01"}
+
+
+def paper_case() -> Setting:
+    """Return the paper's damped pendulum: k = 4 pi, mu = 0.01, theta(0) = 0.95 pi at rest, 0 .. 20 s at 64 Hz.
+
+    >>> paper_case().duration, paper_case().is_pendulum
+    (20.0, True)
+    """
+    oscillator = find("damped-pendulum").with_parameters(PAPER_PARAMETERS)
+    return setting(oscillator, initial=(0.95 * np.pi, 0.0), duration=20.0, rate=64.0, time_unit="s")
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a report on an oscillator computes."""
+
+    setting: Setting
+    order: int
+    orders: tuple[int, ...]
+    amplitudes: Array
+    target: float
+    trials: int
+
+    def settings(self) -> Mapping[str, object]:
+        """Everything that determines the result, for the settings hash."""
+        o, case = self.setting.oscillator, self.setting
+        return {
+            "system": o.name,
+            "equation": o.equation,
+            **{f"parameter {name}": str(value) for name, value in o.parameters.items()},
+            "initial": f"{case.initial[0]!r}, {case.initial[1]!r}",
+            "duration": case.duration,
+            "rate": case.rate,
+            "order": self.order,
+            "orders": ", ".join(map(str, self.orders)),
+            "amplitudes": f"{self.amplitudes.size} from {self.amplitudes[0]:.6g} to {self.amplitudes[-1]:.6g}",
+            "target": self.target,
+            "trials": self.trials,
+        }
+
+
+def assemble_system(
+    chosen: Setting | Oscillator,
+    *,
+    order: int = ORDER,
+    orders: Sequence[int] | None = None,
+    amplitudes: Sequence[float] | Array | None = None,
+    target: float = TARGET,
+    trials: int = TRIALS,
+    command: str = "",
+    progress: Progress = silent,
+) -> Report:
+    """Derive, study, integrate, compare and time one oscillator, and say what was found.
+
+    ``order`` is the expansion that the title and the formulas are about; ``orders`` and ``amplitudes`` span the
+    study, ``target`` is the relative error of its ranges; ``trials`` is the number of noisy records a point of the
+    noise study (0: none).  Raises InputError as the parts do.
+    """
+    case = setting(chosen) if isinstance(chosen, Oscillator) else chosen
+    stages = Stages(progress)
+    with stages.stage("deriving", 0.0, 0.05):
+        plan, exact = _plan(case, order, orders, amplitudes, target, trials)
+    with stages.stage("accuracy-order study", 0.05, 0.15):
+        result = study(case.oscillator, plan.orders, plan.amplitudes)
+    with stages.stage("along the motion", 0.15, 0.5) as inner:
+        decay = compare_decay(case, exact=exact, orders=_drawn(exact, order), progress=inner)
+    with stages.stage("every estimator", 0.5, 0.7) as inner:
+        ranked = standings(decay, progress=inner)
+    with stages.stage("estimators in noise", 0.7, 0.97) as inner:
+        noisy = noise_of_motion(case, trials, inner) if trials else None
+    with stages.stage("evaluation time", 0.97, 1.0):
+        times = _timings(exact, plan)
+    progress(1.0, "done")
+    made = _system_report(plan, exact, result, decay, times, command, stages.seconds)
+    return replace(made, standings=ranked, noise=noisy)
+
+
+def _plan(
+    case: Setting,
+    order: int,
+    orders: Sequence[int] | None,
+    amplitudes: Sequence[float] | Array | None,
+    target: float,
+    trials: int,
+) -> tuple[Plan, Exact]:
+    if not 0 < target < 1:
+        raise InputError(f"target {target} is not a relative error between 0 and 1; use e.g. 0.001")
+    cycle = case.oscillator.kind == "limit-cycle"
+    wanted = tuple(sorted({*(orders or (CYCLE_ORDERS if cycle else ORDERS)), order}))
+    exact = derive(case.oscillator, max(HIGH_ORDER, *wanted), flow_order=min(max(order, 2), 8))
+    grid = np.asarray(amplitudes, dtype=float) if amplitudes is not None else _amplitudes(case, exact)
+    return Plan(case, order, wanted, np.sort(grid), target, trials), exact
+
+
+def _amplitudes(case: Setting, exact: Exact) -> Array:
+    """Up to 98 % of the separatrix; without one, beyond the radius of convergence or the initial amplitude."""
+    if exact.expansion.variable == "eps":
+        return CYCLE_STRENGTHS
+    separatrix = peak_limit(bind(undamped(case.oscillator)))
+    if np.isfinite(separatrix):
+        return np.linspace(0.02, 0.98, AMPLITUDES) * separatrix
+    radius = limits(exact.expansion).radius
+    top = 1.5 * (max(abs(case.initial[0]), 0.1) if radius is None else radius)
+    return np.linspace(0.02, 1.0, AMPLITUDES) * top
+
+
+def _drawn(exact: Exact, order: int) -> tuple[int, ...]:
+    """Orders drawn along the motion: the paper's low ones, the chosen one, and a high one."""
+    return tuple(sorted({*LOW_ORDERS, min(order, exact.expansion.order), HIGH_ORDER}))
+
+
+def _timings(exact: Exact, plan: Plan) -> tuple[Timing, ...]:
+    expansion = exact.expansion.truncated(plan.order)
+    dynamics = bind(undamped(plan.setting.oscillator))
+    return timings(expansion, dynamics, upper=float(plan.amplitudes[-1]), pendulum=plan.setting.is_pendulum)
+
+
+def _system_report(
+    plan: Plan,
+    exact: Exact,
+    result: Study,
+    decay: DecayComparison,
+    times: tuple[Timing, ...],
+    command: str,
+    seconds: Mapping[str, float],
+) -> Report:
+    found = ranges(result, plan.target)
+    finding = next(item for item in found if item.order == plan.order)
+    shown = Exact(exact.oscillator, exact.expansion.truncated(plan.order), exact.flow)
+    return Report(
+        title=study_title(result, finding),
+        lead=_lead(plan.setting),
+        summary=(*study_sentences(result, found), *decay_sentences(decay)),
+        cards=cards(result, finding, times),
+        derivation=derivation(shown),
+        study=result,
+        ranges=_shown_ranges(result, plan.target),
+        decay=decay,
+        recording=None,
+        timings=times,
+        provenance=provenance(plan.settings(), command=command, seconds=seconds),
+        certified=certified(undamped(plan.setting.oscillator), plan.order, float(plan.amplitudes[-1])),
+        csv=_system_csv(result, decay),
+        finding=finding,
+    )
+
+
+def _shown_ranges(result: Study, target: float) -> tuple[Range, ...]:
+    """Ranges at the target asked for and at the three of the order map."""
+    return tuple(item for level in sorted({1e-2, 1e-3, 1e-6, target}, reverse=True) for item in ranges(result, level))
+
+
+def _lead(case: Setting) -> str:
+    o = case.oscillator
+    values = ", ".join(f"{symbol(name)} = {float(v):.6g}" for name, v in o.parameters.items() if v is not None)
+    given = f" with {values}" if values else ""
+    reference = f"  {o.reference}." if o.reference else ""
+    return f"{o.title}{given}.{reference}".replace("..", ".")
+
+
+def _system_csv(result: Study, decay: DecayComparison) -> dict[str, str]:
+    return {
+        "study.csv": tables.study_table(result),
+        "decay.csv": tables.decay_table(decay),
+        "scores.csv": tables.scores_table(decay.scores),
+        "budget.csv": tables.budget_table(decay.budget),
+        "harmonics.csv": tables.harmonics_table(decay),
+    }

@@ -1,0 +1,95 @@
+"""The truncated series and its resummations with errors that are proved, at a few amplitudes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.results import Certified, CertifiedRow
+from ridgeback.numeric.arrays import Array
+from ridgeback.symbolic.certificates.accuracy import Accuracy, Ball, accuracy
+from ridgeback.symbolic.enclosure.enclosure import enclose, separatrix
+from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.systems.oscillator import Oscillator
+
+SHARES = (0.25, 0.5, 0.7, 0.9, 0.95)
+"""Amplitudes as shares of the separatrix, or of the largest amplitude studied where there is none."""
+
+
+def certified(oscillator: Oscillator, order: int, largest: float) -> Certified | None:
+    """Return proved errors of every formula of this order, or None where omega0 has no enclosure.
+
+    That is so for limit cycles and damped oscillators, and for parameters without a value.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> table = certified(find("pendulum"), 8, 3.0)
+    >>> [f"{error:.0e}" for error in table.rows[0].errors]
+    ['1e-08', '2e-05', '9e-04', '3e-02', '9e-02']
+    """
+    try:
+        amplitudes = _amplitudes(oscillator, largest)
+        found = accuracy(oscillator, order, [Fraction(a) for a in amplitudes])
+    except InputError:
+        return None  # said on the page by the section's absence; the study has its own reference
+    if not any(row.errors and row.errors[0] is not None for row in found):
+        return None
+    return Certified(order=order, amplitudes=amplitudes, rows=tuple(_row(item) for item in found))
+
+
+def certified_rows(
+    oscillator: Oscillator, orders: Sequence[int], amplitudes: Sequence[float]
+) -> list[dict[str, float | int | str | None]]:
+    """Return one row per order, formula and amplitude: the keys of a study's rows, and the radius of the proof.
+
+    ``omega`` and ``relative_error`` are None where the formula does not hold.  Raises InputError where omega0 has no
+    enclosure: limit cycles, damping, symbolic parameters, amplitudes at or beyond the separatrix.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> rows = certified_rows(find("pendulum"), [4], [1.0])
+    >>> rows[0]["method"], f"{rows[0]['relative_error']:.4e}"
+    ('truncated series', '3.5469e-05')
+    """
+    exact = [Fraction(a) for a in amplitudes]
+    reference = [enclose(oscillator, a).omega for a in exact]
+    return [
+        _cell(order, item, ball, float(amplitude), omega)
+        for order in orders
+        for item in accuracy(oscillator, order, exact)
+        for ball, amplitude, omega in zip(item.errors, exact, reference, strict=True)
+    ]
+
+
+def _cell(
+    order: int, item: Accuracy, ball: Ball | None, amplitude: float, omega: Ball
+) -> dict[str, float | int | str | None]:
+    return {
+        "order": order,
+        "amplitude": amplitude,
+        "method": _name(item),
+        "omega": None if ball is None else float(((1 + ball) * omega).mid()),
+        "omega_reference": float(omega.mid()),
+        "relative_error": None if ball is None else float(ball.mid()),
+        "error_radius": None if ball is None else float(ball.rad()),
+    }
+
+
+def _name(item: Accuracy) -> str:
+    return "truncated series" if isinstance(item.formula, Expansion) else item.formula.method
+
+
+def _amplitudes(oscillator: Oscillator, largest: float) -> Array:
+    limit = separatrix(oscillator).peak
+    top = largest if limit is None else float(limit)
+    found = np.array([float(f"{share * top:.3g}") for share in SHARES])
+    found.flags.writeable = False
+    return found
+
+
+def _row(item: Accuracy) -> CertifiedRow:
+    """Floats for print: the middle of each ball, and the largest distance of any ball from its middle."""
+    errors = tuple(None if ball is None else float(ball.mid()) for ball in item.errors)
+    radii = [float(ball.rad()) for ball in item.errors if ball is not None]
+    return CertifiedRow(_name(item), errors, max(radii, default=0.0))

@@ -1,0 +1,194 @@
+"""Accuracy-order study: the error of truncated expansions over order and amplitude.
+
+Each expansion is derived once, to the highest order asked for, and truncated; the reference is exact
+(``study.reference``).  A range of use ends at the *first* violation of the target: beyond it an error may
+cross zero and look small by accident.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.binding.bind import bind
+from ridgeback.compare.results import Range, Study
+from ridgeback.compare.study.reference import Exact, conservative_reference, enclosed_reference, limit_cycle_reference
+from ridgeback.compare.study.truncations import METHODS, Method
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.numeric.orbits.potential import peak_limit
+from ridgeback.symbolic.enclosure.enclosure import separatrix
+from ridgeback.symbolic.flow.ordering import undamped
+from ridgeback.symbolic.systems.oscillator import Oscillator, V, Value
+
+MAX_CELLS = 200_000
+MAX_ORBITS = 100
+"""Limit cycles: each value of eps costs one shooting, about half a second."""
+MAX_ENCLOSED = 2000
+"""Forces with u': each amplitude costs one certified enclosure, some hundredths of a second."""
+
+
+@dataclass(frozen=True)
+class Need:
+    """Smallest studied order that serves an amplitude; None when none does."""
+
+    amplitude: float
+    order: int | None
+
+
+def study(
+    oscillator: Oscillator,
+    orders: Sequence[int],
+    amplitudes: ArrayLike,
+    *,
+    method: str = "lindstedt",
+    values: Mapping[str, Value] | None = None,
+) -> Study:
+    """Error of ``omega0`` against the exact frequency over a grid of orders and amplitudes (peak, or eps).
+
+    ``orders`` are powers of the variable kept; ``amplitudes`` are peak amplitudes of a conservative oscillator, or
+    values of eps for a limit cycle.  Any damping is left out: it is the undamped backbone that is studied.
+    Raises InputError for orders below 0, amplitudes that are not positive or reach the separatrix, an unknown
+    method, and a grid that is too large.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> result = study(find("pendulum"), (2, 4), [0.5, 1.0])
+    >>> result.relative_error.shape, bool(abs(result.relative_error[1, 1]) < 1e-4)
+    ((2, 2), True)
+    """
+    bound = undamped(oscillator.with_parameters(values) if values else oscillator)
+    kept, grid = _checked_orders(orders), _checked_amplitudes(amplitudes)
+    _check_size(len(kept), grid.size, limit_cycle=bound.kind == "limit-cycle")
+    truncate = _method(method)
+    limit, exact = _reference(bound, grid)
+    series = truncate(bound, kept, grid)
+    return Study(
+        system=bound.name,
+        title=bound.title,
+        method=method,
+        variable=series.variable,
+        amplitude_definition=series.amplitude,
+        amplitude_unit=bound.unit if series.variable == "A" else "",
+        orders=kept,
+        amplitudes=_frozen(grid),
+        omega=_frozen(series.omega),
+        reference=_frozen(exact.omega),
+        reference_error=_frozen(exact.relative_error),
+        reference_name=exact.name,
+        relative_error=_frozen(series.omega / exact.omega - 1),
+        limit=limit,
+        convergence_radius=series.radius,
+        convergence_uncertainty=series.uncertainty,
+        convergence_note=series.note,
+        scale=series.scale,
+    )
+
+
+def ranges(result: Study, target: float) -> tuple[Range, ...]:
+    """How far each order may be used: the largest studied amplitude before the first violation of ``target``.
+
+    Amplitudes are taken in rising order.  Raises InputError for a target that is not positive.
+    """
+    if not target > 0:
+        raise InputError(f"target {target} is not positive; give a relative error such as 0.001")
+    rising = np.argsort(result.amplitudes)
+    within = _within(result, target)[:, rising]
+    grid = result.amplitudes[rising]
+    return tuple(
+        Range(order, target, float(grid[count - 1]) if count else None)
+        for order, count in zip(result.orders, np.cumprod(within, axis=1).sum(axis=1), strict=True)
+    )
+
+
+def order_needed(result: Study, target: float) -> tuple[Need, ...]:
+    """Smallest studied order whose target holds at each amplitude *and at every smaller studied one*.
+
+    The condition on the smaller amplitudes is the first-violation rule of :func:`ranges`: an error that passes
+    through zero at one amplitude does not count as accuracy there.
+    """
+    reach = {item.order: item.up_to for item in ranges(result, target)}
+    return tuple(Need(float(a), _smallest(reach, float(a))) for a in result.amplitudes)
+
+
+def _smallest(reach: Mapping[int, float | None], amplitude: float) -> int | None:
+    serving = [order for order, up_to in reach.items() if up_to is not None and amplitude <= up_to]
+    return min(serving, default=None)
+
+
+def _within(result: Study, target: float) -> Array:
+    return np.asarray(np.abs(result.relative_error) <= target)
+
+
+def _checked_orders(orders: Sequence[int]) -> tuple[int, ...]:
+    if len(orders) == 0:
+        raise InputError("no orders given; give at least one, such as 2,4,8")
+    for order in orders:
+        if isinstance(order, bool) or not isinstance(order, int | np.integer) or order < 0:
+            raise InputError(f"order {order} is not a whole number from 0 up; use orders such as 2,4,8")
+    return tuple(sorted({int(order) for order in orders}))
+
+
+def _checked_amplitudes(amplitudes: ArrayLike) -> Array:
+    grid = np.atleast_1d(np.asarray(amplitudes, dtype=np.float64))
+    if grid.ndim != 1 or grid.size == 0:
+        raise InputError(f"amplitudes of shape {grid.shape} are not a list of numbers; use e.g. 0.1:3.0:30")
+    wrong = grid[~(np.isfinite(grid) & (grid > 0))]
+    if wrong.size:
+        raise InputError(f"amplitude {wrong[0]:g} is not a positive number; use amplitudes above 0")
+    return np.unique(grid)
+
+
+def _check_size(orders: int, amplitudes: int, *, limit_cycle: bool) -> None:
+    if orders * amplitudes > MAX_CELLS:
+        raise InputError(f"{orders} orders x {amplitudes} amplitudes exceed {MAX_CELLS} cells; use fewer of either")
+    if limit_cycle and amplitudes > MAX_ORBITS:
+        raise InputError(f"{amplitudes} values of eps exceed {MAX_ORBITS} orbits to be found; use at most {MAX_ORBITS}")
+
+
+def _method(method: str) -> Method:
+    if method not in METHODS:
+        raise InputError(f"method {method!r} is not known to the study; use {' or '.join(METHODS)}")
+    return METHODS[method]
+
+
+def _reference(oscillator: Oscillator, grid: Array) -> tuple[float | None, Exact]:
+    if oscillator.kind == "limit-cycle":
+        return None, limit_cycle_reference(oscillator, grid)
+    dynamics = bind(oscillator)
+    if dynamics.restoring is None and oscillator.substituted_force.has(V):
+        return _enclosed(oscillator, grid)
+    limit = peak_limit(dynamics)
+    _check_inside(dynamics, grid, limit)
+    return (limit if math.isfinite(limit) else None), conservative_reference(dynamics, grid)
+
+
+def _enclosed(oscillator: Oscillator, grid: Array) -> tuple[float | None, Exact]:
+    """The reference where u' is in the force, by certified enclosures."""
+    if grid.size > MAX_ENCLOSED:
+        raise InputError(f"{grid.size} amplitudes exceed {MAX_ENCLOSED} enclosures; use at most {MAX_ENCLOSED}")
+    exact = enclosed_reference(oscillator, grid)
+    try:
+        limit = separatrix(oscillator).peak
+    except InputError:  # balls need not decide how far the well goes; every amplitude here has its enclosure
+        limit = None
+    return (None if limit is None else float(limit)), exact
+
+
+def _check_inside(dynamics: Dynamics, grid: Array, limit: float) -> None:
+    beyond = grid[grid >= limit]
+    if beyond.size:
+        raise InputError(
+            f"amplitude {beyond[0]:.12g} is at or beyond the separatrix of {dynamics.name} at {limit:.12g}; "
+            f"use amplitudes below {limit:.6g}"
+        )
+
+
+def _frozen(values: Array) -> Array:
+    copy = np.array(values, dtype=np.float64)
+    copy.flags.writeable = False
+    return copy

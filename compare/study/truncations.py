@@ -1,0 +1,86 @@
+"""The series that a study truncates, by method, all evaluated on the same motions.
+
+A study's amplitudes are peak amplitudes.  Lindstedt-Poincaré and the energy integral expand in them directly;
+multiple scales expands in the fundamental amplitude, so it is evaluated at the first harmonic of the very orbit that
+has this peak: the methods are compared on one motion, not at equal numbers that mean different things.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.binding.bind import bind
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.orbits.waveform import orbit_harmonics
+from ridgeback.symbolic.expansion.energy_integral import energy_integral
+from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.singularities.limits import limits
+from ridgeback.symbolic.systems.oscillator import Oscillator
+
+
+@dataclass(frozen=True)
+class Truncations:
+    """omega0 by order on a grid, ``omega[order, amplitude]``, and what is known of the whole series."""
+
+    omega: Array
+    variable: str
+    amplitude: str
+    scale: float
+    radius: float | None
+    uncertainty: float | None
+    note: str
+
+
+Method = Callable[[Oscillator, Sequence[int], Array], Truncations]
+
+
+def by_lindstedt(oscillator: Oscillator, orders: Sequence[int], grid: Array) -> Truncations:
+    """Lindstedt-Poincaré in the peak amplitude, or in eps for a limit cycle."""
+    return _of_expansion(lindstedt(oscillator, max(orders)), orders, grid)
+
+
+def by_energy_integral(oscillator: Oscillator, orders: Sequence[int], grid: Array) -> Truncations:
+    """The energy integral in the peak amplitude."""
+    return _of_expansion(energy_integral(oscillator, max(orders)), orders, grid)
+
+
+def _of_expansion(expansion: Expansion, orders: Sequence[int], grid: Array) -> Truncations:
+    found = limits(expansion)
+    return Truncations(
+        omega=np.stack([np.asarray(expansion.truncated(order)(grid), dtype=float) for order in orders]),
+        variable=expansion.variable,
+        amplitude=expansion.amplitude,
+        scale=float(expansion.scale),
+        radius=found.radius,
+        uncertainty=found.uncertainty,
+        note=found.sentence(),
+    )
+
+
+def by_multiple_scales(oscillator: Oscillator, orders: Sequence[int], grid: Array) -> Truncations:
+    """Multiple scales without damping, at the fundamental amplitude of the orbit with each peak.
+
+    Raises InputError for a limit cycle, whose slow flow holds for every amplitude and not for the cycle alone.
+    """
+    if oscillator.kind == "limit-cycle":
+        raise InputError(f"{oscillator.name} is a limit cycle; study it with the method lindstedt, in eps")
+    flow = multiple_scales(oscillator, max(orders))
+    fundamental = orbit_harmonics(bind(oscillator), grid, count=1).cosine[1]
+    powers = {term.powers[0]: float(term.coefficient) for term in flow.frequency if not any(term.powers[1:])}
+    coefficients = np.array([powers.get(n, 0.0) for n in range(max(orders) + 1)])
+    values = [np.polynomial.polynomial.polyval(fundamental, coefficients[: order + 1]) for order in orders]
+    note = "Multiple scales in the fundamental amplitude, evaluated at that of the orbit with each peak amplitude."
+    return Truncations(np.stack(values), "A", "peak", float(flow.scale), None, None, note)
+
+
+METHODS: Mapping[str, Method] = {
+    "lindstedt": by_lindstedt,
+    "energy-integral": by_energy_integral,
+    "multiple-scales": by_multiple_scales,
+}

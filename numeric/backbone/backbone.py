@@ -1,0 +1,133 @@
+"""The backbone of a recording: fundamental frequency and damping against fundamental amplitude, with uncertainty."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.backbone.curve import Backbone, Crowding, Points, assemble
+from ridgeback.numeric.estimators.higher_harmonics import carrier
+from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
+from ridgeback.numeric.signal.samples import TWO_PI, checked_rate, checked_real_samples
+from ridgeback.numeric.signal.windows import half_width
+from ridgeback.numeric.tracking.track import Track
+
+__all__ = ["Backbone", "backbone"]
+
+WINDOW_CYCLES = 4.0
+POINTS_PER_CYCLE = 4.0
+CLEAR = 5.0
+"""A point is used where the amplitude exceeds its own standard deviation this many times."""
+
+
+def backbone(
+    track: Track,
+    x: ArrayLike,
+    rate: float,
+    *,
+    start: float | None = None,
+    window_seconds: float | None = None,
+    exclude: Mask | None = None,
+) -> Backbone:
+    """Measure amplitude and damping along a frequency track and set omega0 against amplitude.
+
+    The amplitude and its logarithmic slope come from local harmonic least squares over ``window_seconds`` (default
+    four cycles), started from the track; omega comes from the track itself.  ``start`` is the time of the first sample
+    (default: as the track noted it).  Points whose window holds a sample of ``exclude`` (clipped ones) are left out.
+    Raises InputError when fewer than four points are clear of the noise.
+
+    >>> from ridgeback.numeric.estimators.estimate import estimate
+    >>> t = np.arange(1280) / 32.0
+    >>> x = 2.0 * np.exp(-0.05 * t) * np.cos(2 * np.pi * 1.25 * t) + 0.7
+    >>> curve = backbone(estimate(x, 32.0), x, 32.0)
+    >>> bool(np.abs(curve.curve_damping + 0.05).max() < 1e-4), bool(np.abs(curve.omega - 2.5 * np.pi).max() < 1e-3)
+    (True, True)
+    """
+    samples, rate = checked_real_samples(x, what="backbone", at_least=16), checked_rate(rate)
+    first = track.start if start is None else start
+    offset = float(samples.mean())
+    base = carrier(track, samples.size, rate, first)
+    cycle = TWO_PI / float(np.median(base.omega[base.valid]))
+    seconds = WINDOW_CYCLES * cycle if window_seconds is None else window_seconds
+    half = half_width(seconds, rate, name="window_seconds", longest=samples.size)
+    real = samples - offset
+    shape = Shape(choose_multiples(real, rate, base.omega, half=half))
+    centres = np.arange(0, samples.size, max(1, round(cycle * rate / POINTS_PER_CYCLE)))
+    fit = harmonic_fit(real, rate, base.omega, half=half, shape=shape, start_time=first, centres=centres)
+    seen = fit.settled if track.settings.get("one_sided_borders") else fit.valid & base.valid[centres]
+    clean = ~touched(samples.size, centres, half, exclude)
+    usable = seen & clean & (fit.amplitude > CLEAR * fit.amplitude_sd)
+    check_enough(usable, clean)
+    omega = base.omega[centres]
+    total = total_deviation(track)
+    omega_sd = fit.standard_deviation if total is None else np.interp(fit.time, track.time, total)
+    points = Points(fit.time, fit.amplitude, fit.amplitude_sd, omega, omega_sd, fit.growth, fit.growth_sd).at(usable)
+    spacing = float(np.median(np.diff(fit.time)))
+    window = max(1.0, fit.window_seconds / spacing)
+    crowding = Crowding(amplitude=window, omega=max(window, resolution(track, cycle) / spacing))
+    settings = {"track": track.method, "window_seconds": fit.window_seconds, "harmonics": (1, *shape.multiples)}
+    notes = [f"The mean of the samples, {offset:.4g}, was removed.", *left_out_notes(usable, clean)]
+    return assemble(points, crowding=crowding, offset=offset, settings=settings, notes=notes)
+
+
+def check_enough(usable: Mask, clean: Mask) -> None:
+    """Refuse a backbone of fewer than four points."""
+    if np.count_nonzero(usable) < 4:
+        raise InputError(
+            f"backbone: {np.count_nonzero(usable)} points are clear of the noise"
+            f"{'' if clean.all() else ' and of clipped samples'}; give a longer or less noisy record"
+        )
+
+
+def resolution(track: Track, cycle: float) -> float:
+    """The time over which the values of a track share their error: its window, or a knot's reach of a global model."""
+    known = track.settings.get("lag_seconds"), track.settings.get("cycles_per_knot")
+    window, knots = (float(value) if isinstance(value, (int, float)) else 0.0 for value in known)
+    return max(window, knots * cycle)
+
+
+def total_deviation(track: Track) -> Array | None:
+    """Standard deviation of a track's values with what is known of their bias; None where the track knows nothing.
+
+    A bias that is still in the values counts whole, one that was taken off with its own deviation.
+
+    >>> flat = np.full(3, 6.0)
+    >>> track = Track(np.arange(3.0), flat, flat > 0, "example", 0.3 + 0 * flat, 0.4 + 0 * flat)
+    >>> total_deviation(track).round(12).tolist()
+    [0.5, 0.5, 0.5]
+    """
+    if track.standard_deviation is None:
+        return None
+    removed = bool(track.settings.get("bias_removed"))
+    left = np.zeros_like(track.omega) if track.bias is None or removed else track.bias
+    unsure = np.zeros_like(track.omega) if track.bias_deviation is None else track.bias_deviation
+    return np.asarray(np.sqrt(track.standard_deviation**2 + left**2 + unsure**2))
+
+
+def touched(size: int, centres: NDArray[np.intp], half: int, exclude: Mask | None) -> Mask:
+    """Which of the windows of harmonic least squares round ``centres`` hold an excluded sample.
+
+    >>> touched(9, np.array([1, 4, 7]), 1, np.arange(9) == 6).tolist()
+    [False, False, True]
+    """
+    if exclude is None:
+        return np.zeros(centres.size, dtype=np.bool_)
+    before = np.concatenate([[0], np.cumsum(exclude)])
+    begins = np.clip(centres - half, 0, size - 2 * half - 1)
+    return np.asarray(before[begins + 2 * half + 1] > before[begins])
+
+
+def left_out_notes(usable: Mask, clean: Mask) -> list[str]:
+    """How many points were left out, and why."""
+    notes, unclear = [], int(np.count_nonzero(clean & ~usable))
+    if unclear:
+        notes.append(
+            f"{unclear} of {usable.size} points lie near a border or are not {CLEAR:g} times above noise; left out."
+        )
+    if not clean.all():
+        notes.append(
+            f"{np.count_nonzero(~clean)} of {usable.size} points have clipped samples in their window; left out."
+        )
+    return notes

@@ -1,0 +1,194 @@
+"""The curve of a backbone: frequency and damping in bins of amplitude, each mean with its standard deviation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+from numpy.polynomial import Polynomial
+from numpy.typing import NDArray
+
+from ridgeback.numeric.arrays import Array, Mask, freeze
+from ridgeback.numeric.signal.samples import TWO_PI
+
+MOST_BINS = 24
+
+
+@dataclass(frozen=True)
+class Backbone:
+    """omega0 and a'/a against the amplitude a; ``definition`` says which amplitude, "fundamental" or "peak".
+
+    Along time: ``time, amplitude, omega, damping`` (a'/a per time unit, negative in a decay) with one-sigma ``_sd``,
+    that of omega with the track's bias in it.
+    The curve: ``curve_amplitude`` rising, ``curve_omega``, ``curve_damping`` with ``_sd``: means over bins of
+    amplitude, all weighted by the precision of omega, with the deviation that the estimates state, that of the scatter
+    in the bin where it is larger, and the amplitude's own.  ``offset`` is the mean that was removed; amplitudes are in
+    the signal's unit.
+    """
+
+    time: Array
+    amplitude: Array
+    amplitude_sd: Array
+    omega: Array
+    omega_sd: Array
+    damping: Array
+    damping_sd: Array
+    curve_amplitude: Array
+    curve_omega: Array
+    curve_omega_sd: Array
+    curve_damping: Array
+    curve_damping_sd: Array
+    offset: float
+    definition: str = "fundamental"
+    settings: Mapping[str, object] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+    def rows(self) -> list[dict[str, float]]:
+        """One row per point of the curve: amplitude, omega, frequency and damping with their standard deviations."""
+        columns = {
+            "amplitude": self.curve_amplitude,
+            "omega_rad_s": self.curve_omega,
+            "frequency_hz": self.curve_omega / TWO_PI,
+            "omega_standard_deviation_rad_s": self.curve_omega_sd,
+            "damping_per_s": self.curve_damping,
+            "damping_standard_deviation_per_s": self.curve_damping_sd,
+        }
+        return [{name: float(column[i]) for name, column in columns.items()} for i in range(self.curve_omega.size)]
+
+
+@dataclass(frozen=True)
+class Points:
+    """Amplitude, frequency and damping along time with their standard deviations, before they are binned."""
+
+    time: Array
+    amplitude: Array
+    amplitude_sd: Array
+    omega: Array
+    omega_sd: Array
+    damping: Array
+    damping_sd: Array
+
+    def at(self, keep: Mask) -> Points:
+        """Some of the points."""
+        return Points(**{item.name: getattr(self, item.name)[keep] for item in fields(self)})
+
+
+@dataclass(frozen=True)
+class Crowding:
+    """How many neighbouring points share one window, of the amplitude (and damping) and of the frequency.
+
+    ``omega_ends`` and ``damping_ends`` above 0 say that errors of neighbours cancel in a mean of n, to this number of
+    n independent ones.
+    """
+
+    amplitude: float
+    omega: float
+    omega_ends: float = 0.0
+    damping_ends: float = 0.0
+
+
+def assemble(
+    points: Points,
+    *,
+    crowding: Crowding,
+    offset: float,
+    settings: Mapping[str, object],
+    notes: Sequence[str],
+    definition: str = "fundamental",
+    fewest: int = 1,
+) -> Backbone:
+    """Put points into a Backbone and bin them over amplitude, at least ``fewest`` in a bin.
+
+    The bands hold the amplitude's own error too, times the slope of the curve.
+    """
+    a, w, s = points.amplitude, points.omega, points.omega_sd
+    weights = 1.0 / np.maximum(s, 1e-9 * w.max()) ** 2
+    of = bins(a, fewest)
+
+    def means(values: Array, deviations: Array, crowd: float, ends: float = 0.0) -> Array:
+        found = [pooled(a[i], values[i], deviations[i], weights[i], crowd, ends=ends) for i in of]
+        return np.array(found).T
+
+    centre, unsure = means(a, points.amplitude_sd, crowding.amplitude)
+    omega, omega_sd = means(w, s, crowding.omega, crowding.omega_ends)
+    damping, damping_sd = means(points.damping, points.damping_sd, crowding.amplitude, crowding.damping_ends)
+    omega_sd = np.hypot(omega_sd, unsure * slope_at(centre, a, w, s))
+    damping_sd = np.hypot(damping_sd, unsure * slope_at(centre, a, points.damping, points.damping_sd))
+    return Backbone(
+        **{item.name: getattr(points, item.name) for item in fields(points)},
+        curve_amplitude=centre,
+        curve_omega=omega,
+        curve_omega_sd=omega_sd,
+        curve_damping=damping,
+        curve_damping_sd=damping_sd,
+        offset=offset,
+        definition=definition,
+        settings=settings,
+        notes=tuple(notes),
+    )
+
+
+def slope_at(centre: Array, a: Array, values: Array, deviations: Array) -> Array:
+    """The slope against amplitude of a cubic through all points, weighted by their precision.
+
+    >>> a = np.linspace(1.0, 2.0, 9)
+    >>> slope_at(np.array([1.0, 2.0]), a, 8.0 - 0.3 * a**2, np.ones(9)).round(9).tolist()
+    [-0.6, -1.2]
+    """
+    weights = 1.0 / np.maximum(deviations, 1e-9 * float(np.abs(values).max(initial=1e-300)))
+    curve = Polynomial.fit(a, values, min(3, a.size - 1), w=weights)
+    return np.asarray(curve.deriv()(centre), dtype=np.float64)
+
+
+def bins(a: Array, fewest: int) -> list[NDArray[np.intp]]:
+    """Indices of the points in up to MOST_BINS equal bins of amplitude, rising."""
+    edges = np.linspace(a.min(), a.max(), min(MOST_BINS, max(2, a.size // 4)) + 1)
+    bin_of = np.clip(np.digitize(a, edges) - 1, 0, edges.size - 2)
+    return merged([np.flatnonzero(bin_of == b) for b in np.unique(bin_of)], fewest)
+
+
+def merged(bins: list[NDArray[np.intp]], fewest: int) -> list[NDArray[np.intp]]:
+    """Join each bin with too few points to the next, the last to the one before.
+
+    >>> [part.tolist() for part in merged([np.array([0, 1]), np.array([2]), np.array([3, 4]), np.array([5])], 2)]
+    [[0, 1], [2, 3, 4, 5]]
+    """
+    found: list[NDArray[np.intp]] = []
+    open_bin = np.zeros(0, dtype=np.intp)
+    for part in bins:
+        open_bin = np.concatenate([open_bin, part])
+        if open_bin.size >= fewest:
+            found.append(open_bin)
+            open_bin = open_bin[:0]
+    if open_bin.size and found:
+        return [*found[:-1], np.concatenate([found[-1], open_bin])]
+    return found or [open_bin]
+
+
+# A straight line within the bin, so that the backbone's own slope is not taken for scatter; as in Birge's ratio
+# (Phys. Rev. 40 (1932) 207), the scatter counts where it is more than the estimates' own deviations allow.
+def pooled(
+    a: Array, values: Array, deviations: Array, weights: Array, crowding: float, *, ends: float = 0.0
+) -> tuple[float, float]:
+    """Weighted mean and its standard deviation, when ``crowding`` neighbouring values share one window.
+
+    What the deviations state, and what the scatter about a line in the amplitude ``a`` shows beyond that.  With
+    ``ends`` the errors that are stated cancel among neighbours, to that number of n independent ones.
+
+    >>> pooled(np.arange(4.0), 2.0 + 0.5 * np.arange(4.0), np.full(4, 0.1), np.ones(4), 2.0)
+    (2.75, 0.07071067811865477)
+    """
+    share, n = weights / weights.sum(), values.size
+    mean, centre = float((share * values).sum()), float((share * a).sum())
+    width = float((share * (a - centre) ** 2).sum())
+    lined = n > 2 and width > 0.0
+    slope = float((share * (a - centre) * (values - mean)).sum()) / width if lined else 0.0
+    freedom = max(1, n - (2 if lined else 1))
+    scatter = float((share * (values - mean - slope * (a - centre)) ** 2).sum()) * n / freedom
+    excess = max(0.0, scatter - float((share * deviations**2).sum()))
+    stated = float((share**2 * deviations**2).sum()) * (min(1.0, ends / n) if ends else min(crowding, n))
+    return mean, float(np.sqrt(stated + float((share**2).sum()) * excess * min(crowding, n)))

@@ -1,0 +1,217 @@
+"""Frequency, amplitude and damping half cycle by half cycle, from zero crossings and turning points alone.
+
+With crossings t_i and the turning points p_i between them, at s_i,
+
+    omega_i = pi / (t_(i+1) - t_i),     a_i = |p_i|,     a'/a = ln(|p_(i+1)| / |p_(i-1)|) / (s_(i+1) - s_(i-1)),
+
+the peak finding and fitting of free decays (Jin, Chen, Brake and Song, J. Vib. Acoust. 142 (2020) 051111).  The damping
+compares turning points on the same side, so that an asymmetry cancels; the frequency of a single half cycle does not
+cancel it, and alternates.  A turning point is that of a quartic fitted to the middle of its lobe.  Zero is the local
+mean that harmonic least squares finds: the mean of all samples would be off, by the first cycles of a decay, and
+crossings and turning points are all the more wrong the smaller the oscillation has become.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from numpy.polynomial import Polynomial
+from numpy.typing import ArrayLike
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array, Mask, freeze
+from ridgeback.numeric.backbone.backbone import CLEAR
+from ridgeback.numeric.backbone.curve import Backbone, Crowding, Points, assemble
+from ridgeback.numeric.estimators.zero_crossing import crossing_samples, interpolate
+from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
+from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.tracking.request import Request, prepared
+
+MIDDLE = 0.6
+"""Share of a half cycle to which the quartic is fitted: cos lies within 1e-4 of one there."""
+DEGREE = 4
+FEWEST = 6
+
+
+@dataclass(frozen=True)
+class HalfCycles:
+    """One value per half cycle, at the middle between its crossings; ``side`` is 1 above zero, -1 below.
+
+    ``amplitude`` has the definition ``peak``; ``damping`` is a'/a, NaN in the first and the last half cycle.
+    """
+
+    time: Array
+    omega: Array
+    omega_sd: Array
+    amplitude: Array
+    amplitude_sd: Array
+    damping: Array
+    damping_sd: Array
+    side: Array
+    offset: float
+    noise: float
+    settings: Mapping[str, object] = field(default_factory=dict)
+    definition: str = "peak"
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+    def rows(self) -> list[dict[str, float]]:
+        """One row per half cycle."""
+        columns = {
+            "time_s": self.time,
+            "omega_rad_s": self.omega,
+            "frequency_hz": self.omega / TWO_PI,
+            "omega_standard_deviation_rad_s": self.omega_sd,
+            "amplitude": self.amplitude,
+            "amplitude_standard_deviation": self.amplitude_sd,
+            "damping_per_s": self.damping,
+            "damping_standard_deviation_per_s": self.damping_sd,
+            "side": self.side,
+        }
+        return [{name: float(column[i]) for name, column in columns.items()} for i in range(self.time.size)]
+
+    def backbone(self, exclude: Mask | None = None) -> Backbone:
+        """Frequency and damping against peak amplitude, binned; ``exclude`` marks half cycles to leave out.
+
+        Raises InputError when fewer than four half cycles are clear of the noise.
+        """
+        usable = np.isfinite(self.damping) & (self.amplitude > CLEAR * self.amplitude_sd)
+        usable &= np.ones_like(usable) if exclude is None else ~exclude
+        if np.count_nonzero(usable) < 4:
+            raise InputError(
+                f"backbone: {np.count_nonzero(usable)} half cycles are clear of the noise and of clipped samples; "
+                "give a longer or less noisy record"
+            )
+        points = Points(
+            self.time,
+            self.amplitude,
+            self.amplitude_sd,
+            self.omega,
+            self.omega_sd,
+            self.damping,
+            self.damping_sd,
+        ).at(usable)
+        notes = [
+            f"The mean of the samples, {self.offset:.4g}, was removed.",
+            f"{usable.size - np.count_nonzero(usable)} of {usable.size} half cycles are not used: without a neighbour "
+            f"on both sides, not {CLEAR:g} times above noise, or clipped.",
+        ]
+        settings = {"track": "half-cycles", **self.settings}
+        return assemble(
+            points,
+            # Neighbours share a crossing, whose error cancels in their mean; so do turning points, two at either end.
+            crowding=Crowding(amplitude=1.0, omega=1.0, omega_ends=1.0, damping_ends=2.0),
+            offset=self.offset,
+            settings=settings,
+            notes=notes,
+            definition=self.definition,
+            fewest=FEWEST,
+        )
+
+
+def half_cycles(
+    x: ArrayLike, rate: float, *, start: float = 0.0, band: tuple[float, float] | None = None
+) -> HalfCycles:
+    """Frequency, amplitude and damping of each half cycle of a real signal; its mean is removed.
+
+    Standard deviations are those that white noise of the measured level causes.  Raises InputError with fewer than
+    four crossings, and as :func:`ridgeback.numeric.estimators.estimate.estimate` does for signals that cannot be used.
+
+    >>> t = np.arange(1280) / 32.0
+    >>> found = half_cycles(np.exp(-0.05 * t) * np.cos(2 * np.pi * 1.25 * t), 32.0)
+    >>> inner = slice(1, -1)
+    >>> bool(np.abs(found.damping[inner] + 0.05).max() < 1e-4), bool(np.abs(found.omega / np.pi - 2.5).max() < 2e-3)
+    (True, True)
+    """
+    request = prepared(
+        x, rate, band=band, start=start, lag_seconds=None, smoothing_seconds=None, lag_window="blackman",
+        harmonics=None, order=6, bias=False,
+    )  # fmt: skip
+    level = local_level(request)
+    x, noise = request.x - level.offset, level.noise
+    hysteresis = dead_zone(level)
+    crossings = interpolate(x, crossing_samples(x, hysteresis))
+    if crossings.at.size < 4:
+        raise InputError(f"signal has {crossings.at.size} zero crossings; half cycles need 4 (give a longer record)")
+    error = noise / crossings.slope / rate
+    period = np.diff(crossings.at) / rate
+    omega = np.pi / period
+    found = np.array([turning_point(x, first, last) for first, last in pairwise(crossings.at.tolist())])
+    at, peak, spread = found[:, 0] / rate, found[:, 1], noise * found[:, 2]
+    damping, damping_sd = decrements(at, peak, spread)
+    return HalfCycles(
+        time=request.start + 0.5 * (crossings.at[:-1] + crossings.at[1:]) / rate,
+        omega=omega,
+        omega_sd=omega / period * np.hypot(error[:-1], error[1:]),
+        amplitude=np.abs(peak),
+        amplitude_sd=spread,
+        damping=damping,
+        damping_sd=damping_sd,
+        side=np.where(crossings.rising[:-1], 1.0, -1.0),
+        offset=request.offset,
+        noise=noise,
+        settings=request.settings(noise=noise, hysteresis=hysteresis),
+    )
+
+
+@dataclass(frozen=True)
+class LocalLevel:
+    """Local mean per sample, the smallest amplitude, and the noise, by harmonic least squares."""
+
+    offset: Array
+    smallest: float
+    noise: float
+
+
+def local_level(request: Request) -> LocalLevel:
+    """Fit half-overlapping windows along the corridor's guide."""
+    half, guide = request.half, request.corridor.guide
+    shape = Shape(choose_multiples(request.x, request.rate, guide, half=half))
+    centres = np.arange(half, request.x.size - half, max(1, half))
+    fit = harmonic_fit(request.x, request.rate, guide, half=half, shape=shape, centres=centres)
+    good = fit.settled if fit.settled.any() else np.ones_like(fit.settled)
+    offset = np.interp(np.arange(request.x.size) / request.rate, fit.time[good], fit.offset[good])
+    return LocalLevel(offset, float(np.abs(fit.amplitude[good]).min()), float(np.median(fit.noise[good])))
+
+
+def dead_zone(level: LocalLevel) -> float:
+    """Half width of the zone round zero in which noise crosses more than once."""
+    return min(max(3.0 * level.noise, 0.02 * level.smallest), 0.5 * level.smallest)
+
+
+def turning_point(x: Array, first: float, last: float) -> tuple[float, float, float]:
+    """Place, value and standard deviation per unit of noise of the extreme between two crossings, in samples.
+
+    >>> place, value, _ = turning_point(np.sin(0.1 * np.arange(40)), 0.0, 10 * np.pi)
+    >>> bool(abs(place - 5 * np.pi) < 1e-3), bool(abs(value - 1.0) < 1e-4)
+    (True, True)
+    """
+    middle, half = 0.5 * (first + last), 0.5 * (last - first)
+    reach = max(MIDDLE * half, 0.5 * FEWEST)
+    index = np.arange(max(0, int(np.ceil(middle - reach))), min(x.size - 1, int(np.floor(middle + reach))) + 1)
+    s = (index - middle) / half
+    matrix = np.vander(s, min(DEGREE, index.size - 1) + 1, increasing=True)
+    inverse = np.linalg.pinv(matrix.T @ matrix)
+    curve = Polynomial(inverse @ matrix.T @ x[index])
+    candidates = np.concatenate([curve.deriv().roots(), s[[np.argmax(np.abs(x[index]))]]])
+    real = candidates.real[(np.abs(candidates.imag) < 1e-9) & (np.abs(candidates.real) <= np.abs(s).max())]
+    top = float(real[np.argmax(np.abs(curve(real)))])
+    row = top ** np.arange(matrix.shape[1])
+    return middle + half * top, float(curve(top)), float(np.sqrt(row @ inverse @ row))
+
+
+def decrements(at: Array, peak: Array, deviation: Array) -> tuple[Array, Array]:
+    """a'/a of each half cycle from the turning points before and after it, with its standard deviation.
+
+    NaN where noise alone leaves no turning point, or two of them at one time.
+    """
+    damping, spread = np.full(peak.size, np.nan), np.full(peak.size, np.nan)
+    size = np.where(np.abs(peak) > np.finfo(float).tiny, np.abs(peak), np.nan)
+    between = np.where(at[2:] > at[:-2], at[2:] - at[:-2], np.nan)
+    damping[1:-1] = np.log(size[2:] / size[:-2]) / between
+    spread[1:-1] = np.hypot(deviation[2:] / size[2:], deviation[:-2] / size[:-2]) / between
+    return damping, spread

@@ -1,0 +1,58 @@
+"""The spectrogram, by scipy.signal.ShortTimeFFT."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import fft
+from scipy.signal import ShortTimeFFT
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.distributions.distribution import Distribution
+from ridgeback.numeric.signal.samples import TWO_PI, checked_budget, checked_rate, checked_real_samples
+from ridgeback.numeric.signal.windows import half_width, window
+
+
+def spectrogram(
+    x: ArrayLike,
+    rate: float,
+    *,
+    window_seconds: float,
+    window_name: str = "hann",
+    hop: int = 1,
+    n_fft: int | None = None,
+    start: float = 0.0,
+    remove_mean: bool = True,
+    memory: int = 1_000_000_000,
+) -> Distribution:
+    """Return |S(omega, t)|^2, ``values[bins, ceil(N / hop)]``, with S the short-time DFT of the real signal ``x``.
+
+    S(omega_k, t_n) = sum over j of x[n + j] w[j] exp(-i omega_k j / rate), j = -half .. half, w symmetric about n and
+    divided by its sum / 2, so that a cosine of amplitude A has a ridge of A^2.  One-sided bins
+    omega_k = 2 pi rate k / n_fft from 0 to the Nyquist frequency, time t_n = start + n / rate at each column's centre.
+    Within half a window of the border the record is extended by zeros and the level falls.
+    Raises InputError for complex or non-finite input, rate <= 0, and a window longer than the signal.
+
+    >>> tone = 3.0 * np.cos(2 * np.pi * 4.0 * np.arange(256) / 32.0)
+    >>> plane = spectrogram(tone, 32.0, window_seconds=2.0, n_fft=256)
+    >>> round(float(plane.values[32, 128]), 2), float(plane.frequency_hz[32])
+    (9.0, 4.0)
+    """
+    samples, rate = checked_real_samples(x, what="the one-sided spectrogram", at_least=3), checked_rate(rate)
+    if hop < 1:
+        raise InputError(f"hop {hop} is below one sample; use 1 or more")
+    if remove_mean:
+        samples = samples - samples.mean()
+    half = half_width(window_seconds, rate, name="window_seconds", longest=samples.size)
+    w = window(window_name, half)
+    n_fft = fft.next_fast_len(2 * w.size, real=True) if n_fft is None else n_fft
+    if n_fft < w.size:
+        raise InputError(f"n_fft {n_fft} is below the window of {w.size} samples; use at least {w.size}")
+    frames = -(-samples.size // hop)
+    remedy = "use a larger hop"
+    checked_budget(24 * frames * (n_fft // 2 + 1), memory, f"spectrogram of {frames} columns", remedy)
+    transform = ShortTimeFFT(2.0 * w / w.sum(), hop=hop, fs=rate, fft_mode="onesided", mfft=n_fft)
+    values = np.abs(transform.stft(samples, p0=0, p1=frames)) ** 2
+    settings = {"rate": rate, "n_fft": n_fft, "hop": hop, "window": window_name, "window_seconds": 2 * half / rate}
+    time = start + np.arange(frames) * hop / rate
+    return Distribution(values, TWO_PI * transform.f, time, "spectrogram", settings)

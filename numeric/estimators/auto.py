@@ -1,0 +1,117 @@
+"""Which method, over which window: chosen by the error that each should have on a model of the signal at hand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.estimators.global_harmonics import spline_error
+from ridgeback.numeric.estimators.window_choice import Window, best_window, expected_error, lengths
+from ridgeback.numeric.harmonics.local_fit import Shape
+from ridgeback.numeric.harmonics.noise import Level, peak_deviation
+from ridgeback.numeric.harmonics.spline_fit import SplineModel
+from ridgeback.numeric.signal.windows import window
+from ridgeback.numeric.tracking.curvature_bias import curvature_bias
+from ridgeback.numeric.tracking.request import Request
+
+SCOPES = ("local", "global")
+AS_GOOD = 0.25
+"""Expected errors that differ by less than this share count as equal; the first of the candidates is taken then."""
+NOTHING = 1e-9
+"""A relative error that is none."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A method with its request, the relative rms error expected of it, and its name in words."""
+
+    method: str
+    request: Request
+    expected: float
+    words: str
+
+
+def for_least_squares(request: Request, scope: str | None) -> Request:
+    """Settle the scope of harmonic least squares, and the window and the degree where it is local.
+
+    Without a scope: local where a window was asked for, else global, else local again where no global model settles.
+    """
+    if scope not in (None, *SCOPES):
+        raise InputError(f"scope {scope!r} is unknown; use one of {', '.join(SCOPES)}")
+    if scope == "global" or (scope is None and not request.lag_given):
+        try:
+            return replace(request, scope="global", known_models=request.models)
+        except InputError as error:
+            if scope == "global":
+                raise
+            return replace(request, why=f"local, over {request.lag_seconds:.4g}: {error}")
+    return request if request.lag_given else in_best_window(request)
+
+
+def in_best_window(request: Request) -> Request:
+    """The request over the window that has the least expected error; unchanged where the signal has no model."""
+    try:
+        models = request.models
+    except InputError:
+        return request
+    found = best_window(models.best, request.cycle, models.best.multiples, request.margin)
+    return request if found is None else over(request, found)
+
+
+def over(request: Request, found: Window) -> Request:
+    """The request with a window and a degree of the phase in it."""
+    seconds = 2.0 * found.half / request.rate
+    return replace(request, lag_seconds=seconds, phase_degree=found.degree, known_models=request.models)
+
+
+def for_auto(request: Request) -> tuple[str, Request]:
+    """The method, and its request with the reason in it."""
+    try:
+        candidates = list(candidates_of(request))
+    except InputError as error:
+        return "pseudo-wigner", replace(request, why=f"pseudo-Wigner, because harmonic least squares cannot: {error}")
+    least = min(candidate.expected for candidate in candidates)
+    best = next(candidate for candidate in candidates if candidate.expected <= (1.0 + AS_GOOD) * least + NOTHING)
+    listed = ", ".join(f"{c.words} {c.expected:.2g}" for c in candidates)
+    why = f"{best.words}: relative rms errors expected on a model of the signal: {listed}"
+    return best.method, replace(best.request, why=why)
+
+
+def candidates_of(request: Request) -> Iterator[Candidate]:
+    """Harmonic least squares, global and local, and the pseudo-Wigner peak, each over its best window."""
+    models = request.models
+    known = replace(request, known_models=models)
+    if not request.lag_given:
+        whole = replace(known, scope="global")
+        yield Candidate(
+            "harmonic-least-squares", whole, spline_error(known), "harmonic least squares of the whole record"
+        )
+    halves = [request.half] if request.lag_given else list(lengths(models.best, request.cycle))
+    shape = Shape(models.best.multiples)
+    if request.lag_given and 2 * request.half + 1 >= 1.5 * shape.size:
+        expected = expected_error(models.best, request.half, shape.phase_degree, request.margin)
+        yield Candidate(
+            "harmonic-least-squares", known, expected, f"harmonic least squares over {request.lag_seconds:.3g}"
+        )
+    elif (local := best_window(models.best, request.cycle, models.best.multiples, request.margin)) is not None:
+        words = f"harmonic least squares over {2 * local.half / request.rate:.3g}"
+        yield Candidate("harmonic-least-squares", over(known, local), local.expected, words)
+    if halves:
+        half = min(halves, key=lambda half: peak_error(models.best, request, half))
+        peak = replace(known, lag_seconds=2.0 * half / request.rate)
+        words = f"pseudo-Wigner over {peak.lag_seconds:.3g}"
+        yield Candidate("pseudo-wigner", peak, peak_error(models.best, request, half), words)
+
+
+def peak_error(model: SplineModel, request: Request, half: int) -> float:
+    """Relative rms error that a pseudo-Wigner peak should have: its curvature bias and its noise."""
+    omega, amplitude = model.tone(1)
+    h = window(request.lag_window, half)[half:]
+    bias = curvature_bias(model.time, omega, np.linspace(0.0, 2.0 * half / request.rate, half + 1), h)
+    level = Level(np.maximum(np.abs(amplitude), 1e-3 * np.abs(amplitude).max()), model.noise)
+    noise = peak_deviation(level, request.rate, h)
+    inner = slice(request.margin, omega.size - request.margin)
+    return float(np.sqrt(np.mean(((bias**2 + noise**2) / omega**2)[inner])))

@@ -1,0 +1,74 @@
+"""The length and the order of a local fit, chosen with the bias in view: where the expected squared error is least.
+
+The derivative at the centre of a polynomial fitted to the phase in a window is a Savitzky-Golay filter.  Run over the
+phase of a model of the whole signal it shows the bias of every window length and degree; the sum of its squared
+coefficients gives the variance (2 noise^2 / a^2 per sample of a phase), which for a real tone is the Cramer-Rao bound
+of the local model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import savgol_coeffs, savgol_filter
+
+from ridgeback.numeric.harmonics.local_fit import Shape
+from ridgeback.numeric.harmonics.spline_fit import SplineModel
+
+LENGTHS = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 24.0, 32.0, 48.0, 64.0)
+"""Windows tried, in cycles."""
+DEGREES = (3, 5)
+MOST_SHARE = 0.5
+"""Of the record, that a window may take."""
+
+
+@dataclass(frozen=True)
+class Window:
+    """A window of 2 ``half`` + 1 samples, the degree of the phase in it, and the relative rms error expected of it."""
+
+    half: int
+    degree: int
+    expected: float
+
+
+def expected_error(model: SplineModel, half: int, degree: int, margin: int) -> float:
+    """Relative root mean square error of omega by local fits of the model's own signal and noise.
+
+    The mean is over all but ``margin`` samples at each end, so that windows of different lengths compare.
+
+    >>> from ridgeback.numeric.harmonics.spline_fit import chosen, harmonic_splines
+    >>> t = np.arange(640) / 32.0
+    >>> x = np.cos(2 * np.pi * (1.2 * t + 0.02 * t**2)) + 0.1 * np.random.default_rng(1).normal(size=640)
+    >>> model = chosen(harmonic_splines(x, 32.0, np.full(640, 8.0)))
+    >>> expected_error(model, 80, 3, 64) < expected_error(model, 40, 3, 64) < expected_error(model, 40, 5, 64)
+    True
+    """
+    rate = 1.0 / float(model.time[1] - model.time[0])
+    size = 2 * half + 1
+    omega, amplitude = model.tone(1)
+    bias = savgol_filter(model.phase, size, degree, deriv=1, delta=1.0 / rate) - omega
+    response = np.sqrt((savgol_coeffs(size, degree, deriv=1, delta=1.0 / rate) ** 2).sum())
+    noise = np.sqrt(2.0) * model.noise * response / np.maximum(np.abs(amplitude), 1e-3 * np.abs(amplitude).max())
+    return float(np.sqrt(np.mean(((bias**2 + noise**2) / omega**2)[margin : omega.size - margin])))
+
+
+def lengths(model: SplineModel, cycle: float) -> Iterator[int]:
+    """Half widths of the windows that fit the record, ``cycle`` its longest period."""
+    rate = 1.0 / float(model.time[1] - model.time[0])
+    for cycles in LENGTHS:
+        half = round(0.5 * cycles * cycle * rate)
+        if 2 * half + 1 <= MOST_SHARE * model.time.size:
+            yield half
+
+
+def best_window(model: SplineModel, cycle: float, multiples: tuple[int, ...], margin: int) -> Window | None:
+    """The window and degree with the least expected error; None where no window holds enough samples for its model."""
+    found = [
+        Window(half, degree, expected_error(model, half, degree, margin))
+        for half in lengths(model, cycle)
+        for degree in DEGREES
+        if 2 * half + 1 >= 1.5 * Shape(multiples, degree, degree - 1).size
+    ]
+    return min(found, key=lambda window: window.expected, default=None)

@@ -1,0 +1,274 @@
+"""Local harmonic least squares: a phase polynomial and its harmonics, fitted in a sliding window by Gauss-Newton.
+
+In a window of n samples, with s = -1 .. 1 across it,
+
+    x = a(s) cos phi + sum over h of [b_h(s) cos h phi + c_h(s) sin h phi] + d + d' s + noise,
+    phi = p_0 + p_1 s + .. + p_D s^D,      a, b_h, c_h polynomials in s,
+
+so phi is by definition the phase of the fundamental, the higher harmonics may drift against it, and omega = phi'.
+For white Gaussian noise this is maximum likelihood, and the standard deviation is the Cramer-Rao bound of this model
+with the residual variance put in (Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993, ch. 3).
+All windows have the same length; near the border they stop moving and omega is read off-centre, one-sidedly.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array, Mask, freeze
+from ridgeback.numeric.signal.samples import checked_work
+
+PHASE_DEGREE = 3
+AMPLITUDE_DEGREE = 2
+ITERATIONS = 8
+MOST_HARMONICS = 12
+BLOCK_VALUES = 2_000_000
+"""Jacobian entries that one block of windows may hold (16 MB)."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What the local model holds: the multiples beside the fundamental, and the degrees of phase and amplitudes.
+
+    >>> Shape((3, 5)).size
+    21
+    """
+
+    multiples: tuple[int, ...] = ()
+    phase_degree: int = PHASE_DEGREE
+    amplitude_degree: int = AMPLITUDE_DEGREE
+
+    @property
+    def size(self) -> int:
+        """The number of parameters."""
+        return self.phase_degree + 1 + (self.amplitude_degree + 1) * (1 + 2 * len(self.multiples)) + 2
+
+
+@dataclass(frozen=True)
+class HarmonicFit:
+    """Fundamental frequency and amplitude per window, with standard deviations from the Fisher information.
+
+    ``amplitude`` has the definition ``fundamental`` and ``growth`` is a'/a, negative in a decay.  ``noise`` is the
+    residual's standard deviation per window.  ``settled`` says that the iteration came to rest, ``valid`` that the
+    window also lies wholly inside the record, round its time.
+    """
+
+    time: Array
+    omega: Array
+    standard_deviation: Array
+    amplitude: Array
+    amplitude_sd: Array
+    growth: Array
+    growth_sd: Array
+    offset: Array
+    noise: Array
+    settled: Mask
+    valid: Mask
+    shape: Shape
+    window_seconds: float
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+
+def powers(s: Array, degree: int) -> Array:
+    """Columns s^0 .. s^degree."""
+    return s[..., None] ** np.arange(degree + 1)
+
+
+def slopes(s: Array, degree: int) -> Array:
+    """Columns of the derivatives of s^0 .. s^degree."""
+    orders = np.arange(degree + 1)
+    return np.asarray(orders * s[..., None] ** np.maximum(orders - 1, 0), dtype=np.float64)
+
+
+def linear_columns(s: Array, phase: Array, shape: Shape) -> Array:
+    """Model columns that enter linearly, for all windows: amplitude, harmonics, offset; ``(windows, n, columns)``."""
+    slow = powers(s, shape.amplitude_degree)
+    parts = [slow * np.cos(phase)[..., None]]
+    for h in shape.multiples:
+        parts += [slow * np.cos(h * phase)[..., None], slow * np.sin(h * phase)[..., None]]
+    parts.append(np.broadcast_to(powers(s, 1), (*phase.shape, 2)))
+    return np.concatenate(parts, axis=2)
+
+
+def solve(jacobian: Array, target: Array) -> tuple[Array, Array]:
+    """Least squares of every window by normal equations: coefficients and the inverse of J^T J."""
+    normal = np.swapaxes(jacobian, 1, 2) @ jacobian
+    scale = np.sqrt(np.einsum("wii->wi", normal))
+    scale = np.where(scale > 0.0, scale, 1.0)
+    equilibrated = normal / (scale[:, :, None] * scale[:, None, :])
+    # A floor far below any resolved direction keeps a column that the data leave empty from being singular.
+    inverse = np.linalg.inv(equilibrated + 1e-13 * np.eye(scale.shape[1]))
+    inverse /= scale[:, :, None] * scale[:, None, :]
+    moment = np.einsum("wnp,wn->wp", jacobian, target)
+    return np.einsum("wpq,wq->wp", inverse, moment), inverse
+
+
+def start(s: Array, x: Array, guide: Array, shape: Shape) -> tuple[Array, Array]:
+    """Phase and amplitude polynomials from a guide phase, its constant set so that the sine part vanishes."""
+    p = guide @ np.linalg.pinv(powers(s, shape.phase_degree)).T
+    phase = p @ powers(s, shape.phase_degree).T
+    columns = np.stack([np.cos(phase), np.sin(phase), np.ones_like(phase)], axis=2)
+    even, odd, _ = solve(columns, x)[0].T
+    p[:, 0] += np.arctan2(-odd, even)
+    amplitude = np.zeros((x.shape[0], shape.amplitude_degree + 1))
+    amplitude[:, 0] = np.hypot(even, odd)
+    return p, amplitude
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Coefficients of all windows: phase ``p``, amplitude ``a``, offset ``d``, covariances (per unit variance), fit."""
+
+    p: Array
+    a: Array
+    d: Array
+    p_covariance: Array
+    a_covariance: Array
+    variance: Array
+    settled: Mask
+
+
+def gauss_newton(s: Array, x: Array, guide: Array, shape: Shape) -> Solution:
+    """Fit every window ``x[window, n]`` from its guide phase; at most ITERATIONS steps, each half a radian at most."""
+    p, a = start(s, x, guide, shape)
+    phase_powers, amplitude_powers = powers(s, shape.phase_degree), powers(s, shape.amplitude_degree)
+    last = np.full(x.shape[0], np.inf)
+    for _ in range(ITERATIONS):
+        phase = p @ phase_powers.T
+        linear = linear_columns(s, phase, shape)
+        turning = -((a @ amplitude_powers.T) * np.sin(phase))[..., None] * phase_powers
+        jacobian = np.concatenate([linear, turning], axis=2)
+        coefficients, inverse = solve(jacobian, x)
+        step = coefficients[:, linear.shape[2] :]
+        last = np.abs(step @ phase_powers.T).max(axis=1)
+        p = p + step * np.minimum(1.0, 0.5 / np.maximum(last, 1e-300))[:, None]
+        a = coefficients[:, : shape.amplitude_degree + 1]
+        if last.max() < 1e-10:
+            break
+    residual = x - np.einsum("wnp,wp->wn", jacobian, coefficients)
+    freedom = max(1, x.shape[1] - shape.size)
+    begin, width = linear.shape[2], shape.amplitude_degree + 1
+    return Solution(
+        p,
+        a,
+        coefficients[:, begin - 2 : begin],
+        inverse[:, begin:, begin:],
+        inverse[:, :width, :width],
+        (residual**2).sum(axis=1) / freedom,
+        last < 1e-3,
+    )
+
+
+def quadratic_form(vector: Array, matrix: Array) -> Array:
+    """v^T M v for each window."""
+    return np.asarray(np.einsum("wp,wpq,wq->w", vector, matrix, vector), dtype=np.float64)
+
+
+def harmonic_fit(
+    x: Array,
+    rate: float,
+    guide: Array,
+    *,
+    half: int,
+    shape: Shape,
+    start_time: float = 0.0,
+    centres: NDArray[np.intp] | None = None,
+) -> HarmonicFit:
+    """Fit a window of ``2 half + 1`` samples round each of ``centres`` (default: all), from ``guide`` (N frequencies).
+
+    Raises InputError when the record is shorter than one window, the window holds too few samples for the model, or
+    the work is over the budget.
+
+    >>> t = np.arange(320) / 32.0
+    >>> x = 2.0 * np.cos(2 * np.pi * (1.0 * t + 0.02 * t**2)) + 0.3
+    >>> fit = harmonic_fit(x, 32.0, np.full(320, 2 * np.pi * 1.2), half=48, shape=Shape())
+    >>> bool(np.abs(fit.omega / (2 * np.pi) - 1.0 - 0.04 * t).max() < 1e-9), round(float(fit.amplitude[160]), 9)
+    (True, 2.0)
+    """
+    length = 2 * half + 1
+    if x.size < length:
+        raise InputError(f"signal has {x.size} samples, the window of harmonic least squares needs {length}")
+    if length < shape.size + 4:
+        raise InputError(
+            f"window of {length} samples is too short for the {shape.size} parameters of the harmonics fitted; "
+            f"use at least {shape.size + 4} samples ({(shape.size + 4) / rate:.4g} time units) by a longer lag, "
+            "fewer harmonics, or another method"
+        )
+    centres = np.arange(x.size) if centres is None else centres
+    work = float(centres.size) * length * shape.size**2 * ITERATIONS
+    checked_work(work, f"harmonic least squares of {centres.size} windows of {length} samples", "shorten the window")
+    begins = np.clip(centres - half, 0, x.size - length)
+    s = np.arange(-half, half + 1) / half
+    guide_phase = cumulative_trapezoid(guide, dx=1.0 / rate, initial=0)
+    block = max(1, BLOCK_VALUES // (length * shape.size))
+    parts = []
+    for first in range(0, centres.size, block):
+        window = begins[first : first + block, None] + np.arange(length)
+        parts.append(gauss_newton(s, x[window], guide_phase[window], shape))
+    return read_off(parts, (centres - begins - half) / half, centres, rate, half, shape, start_time)
+
+
+def read_off(
+    parts: list[Solution], at: Array, centres: NDArray[np.intp], rate: float, half: int, shape: Shape, start_time: float
+) -> HarmonicFit:
+    """Frequency, amplitude and offset at ``s = at`` of each window, with their standard deviations."""
+    p, a, d = (np.concatenate([getattr(part, name) for part in parts]) for name in ("p", "a", "d"))
+    p_cov, a_cov = (
+        np.concatenate([getattr(part, name) for part in parts]) for name in ("p_covariance", "a_covariance")
+    )
+    variance = np.concatenate([part.variance for part in parts])
+    settled = np.concatenate([part.settled for part in parts])
+    phase_slope, value = slopes(at, shape.phase_degree) * (rate / half), powers(at, shape.amplitude_degree)
+    amplitude_slope = slopes(at, shape.amplitude_degree) * (rate / half)
+    amplitude = (value * a).sum(axis=1)
+    safe = np.where(amplitude == 0.0, 1.0, amplitude)
+    growth = (amplitude_slope * a).sum(axis=1) / safe
+    return HarmonicFit(
+        time=start_time + centres / rate,
+        omega=(phase_slope * p).sum(axis=1),
+        standard_deviation=np.sqrt(variance * quadratic_form(phase_slope, p_cov)),
+        amplitude=amplitude,
+        amplitude_sd=np.sqrt(variance * quadratic_form(value, a_cov)),
+        growth=growth,
+        growth_sd=np.sqrt(variance * quadratic_form(amplitude_slope - growth[:, None] * value, a_cov)) / np.abs(safe),
+        offset=(powers(at, 1) * d).sum(axis=1),
+        noise=np.sqrt(variance),
+        settled=settled,
+        valid=settled & (at == 0.0),
+        shape=shape,
+        window_seconds=2.0 * half / rate,
+    )
+
+
+def choose_multiples(x: Array, rate: float, guide: Array, *, half: int) -> tuple[int, ...]:
+    """Which harmonics to fit: each multiple in turn, kept when it lowers the Bayesian information criterion.
+
+    The criterion is summed over windows that tile the record.  Multiples stay below nine tenths of the Nyquist
+    frequency, and the model below a third of the window's samples.
+    """
+    length = 2 * half + 1
+    begins = np.unique(np.linspace(0, x.size - length, min(12, max(1, x.size // length))).astype(int))
+    window = begins[:, None] + np.arange(length)
+    guide_phase = cumulative_trapezoid(guide, dx=1.0 / rate, initial=0)[window]
+    s = np.arange(-half, half + 1) / half
+    floor = (1e-9 * np.abs(x).max()) ** 2
+
+    def criterion(shape: Shape) -> float:
+        variance = gauss_newton(s, x[window], guide_phase, shape).variance
+        return float(np.sum(length * np.log(variance + floor))) + shape.size * begins.size * math.log(length)
+
+    kept: tuple[int, ...] = ()
+    best = criterion(Shape(kept))
+    for h in range(2, min(MOST_HARMONICS, int(0.9 * math.pi * rate / guide.max())) + 1):
+        trial = Shape((*kept, h))
+        if 3 * trial.size <= length and (score := criterion(trial)) < best:
+            kept, best = trial.multiples, score
+    return kept

@@ -1,0 +1,241 @@
+"""Fit an oscillator's own equation to samples: initial state, free parameters, offset and noise level.
+
+    x(t_n) = u(t_n; u0, v0, p) + d + noise,       u'' + f(u, u'; p) = 0,
+
+by least squares, which is maximum likelihood in white Gaussian noise, with exact sensitivities
+(``model_fit.sensitivity``), from a start near enough (``model_fit.problem``).  The covariance is the inverse
+Fisher matrix, so that the deviations are the Cramer-Rao bound of this model at the fitted values.  A residual that is
+not white says that the equation is not the one that made the samples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array, freeze
+from ridgeback.numeric.harmonics.harmonic_signal import HarmonicSignal, decompose
+from ridgeback.numeric.harmonics.local_fit import choose_multiples
+from ridgeback.numeric.model_fit.family import Family
+from ridgeback.numeric.model_fit.problem import EVALUATIONS, OFFSET, Polar, Problem, inverse_normal, polar_of
+from ridgeback.numeric.model_fit.sensitivity import steps_needed
+from ridgeback.numeric.model_fit.start import matched
+from ridgeback.numeric.model_fit.whiteness import Whiteness, whiteness
+from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.numeric.signal.samples import TWO_PI, checked_rate, checked_real_samples, checked_swing, checked_work
+from ridgeback.numeric.signal.search_band import find_corridor
+from ridgeback.numeric.signal.windows import half_width
+from ridgeback.numeric.tracking.request import LAG_CYCLES
+
+SPAN = 4.0
+"""Cycles that a fit begins with when the whole record at once ends in a false minimum."""
+GROWTH = 1.5
+LOCKED = 0.1
+"""A fit that leaves over less than this share of the signal's power has found its minimum."""
+LOST = 0.5
+"""One that leaves over more than this share is no fit at all."""
+COARSE, FINE = 1e-4, 1e-10
+"""Tolerances of the solver before and in the last stage."""
+ROUNDING = 1e-9
+"""Integration error aimed at, in swings of the signal, where the noise is smaller still."""
+OPERATIONS = 5e4
+"""Work of one step with its sensitivities, in the units of numeric.signal.samples.WORK_BUDGET."""
+MISFIT = 0.01
+"""A residual that white noise would show less often than this is called a misfit."""
+
+
+@dataclass(frozen=True)
+class ModelFit:
+    """An oscillator fitted to samples; ``theta`` holds u0, v0, d and the parameters, in this order.
+
+    ``covariance`` belongs to ``theta``; row and column of the offset are 0 where it was not fitted.
+    """
+
+    family: Family
+    theta: Array
+    covariance: Array
+    noise: float
+    """Standard deviation of the residual, parameters accounted for."""
+    residual: Array
+    fitted: Array
+    white: Whiteness | None
+    """The test of the residual; None where it is nothing but rounding."""
+    steps: int
+    """Integration steps per sample."""
+    rate: float
+    start: float
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+    @property
+    def initial(self) -> tuple[float, float]:
+        """The state (u, u') at the first sample."""
+        return float(self.theta[0]), float(self.theta[1])
+
+    @property
+    def offset(self) -> float:
+        """What the samples read when the oscillator is at rest."""
+        return float(self.theta[2])
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The free parameters by name."""
+        return dict(zip(self.family.names, self.theta[3:].tolist(), strict=True))
+
+    @property
+    def dynamics(self) -> Dynamics:
+        """The oscillator with the fitted parameters."""
+        return self.family.dynamics(self.theta[3:].tolist())
+
+    @property
+    def deviations(self) -> Array:
+        """One standard deviation of each entry of ``theta``."""
+        return np.asarray(np.sqrt(np.diagonal(self.covariance)))
+
+    @property
+    def misfit(self) -> bool:
+        """Whether the residual is so far from white that the equation cannot be what made the samples."""
+        return self.white is not None and self.white.probability < MISFIT
+
+    def rows(self) -> list[dict[str, float | str]]:
+        """One row per fitted value: parameter, value, standard_deviation."""
+        labels = ("u0", "v0", "offset", *self.family.names)
+        values = zip(labels, self.theta.tolist(), self.deviations.tolist(), strict=True)
+        return [{"parameter": name, "value": value, "standard_deviation": sd} for name, value, sd in values]
+
+
+def model_fit(
+    x: ArrayLike,
+    rate: float,
+    family: Family,
+    *,
+    start: float = 0.0,
+    free_offset: bool = True,
+    band: tuple[float, float] | None = None,
+) -> ModelFit:
+    """Fit a family of oscillators to the real samples ``x``, shape ``(N,)``, in the oscillator's own unit.
+
+    ``free_offset=False`` holds the offset at 0; ``band`` limits the search for the oscillation, as in
+    ``estimate``.  Raises InputError where no oscillation is found, where the samples do not
+    determine the parameters, and where no fit locks on to the signal.
+
+    >>> from ridgeback.numeric.motion.dynamics import linear
+    >>> family = Family("linear", ("k",), np.array([5.0]), lambda u, v, p: p[0] ** 2 * u,
+    ...     lambda u, v, p: p[0] ** 2 * u, lambda u, v, p: (p[0] ** 2, 0.0, 2 * p[0] * u), lambda p: linear(p[0]))
+    >>> t = np.arange(400) / 20.0
+    >>> fit = model_fit(np.cos(7.0 * t) + 0.5, 20.0, family)
+    >>> round(fit.parameters["k"], 6), round(fit.offset, 6)
+    (7.0, 0.5)
+    """
+    samples, rate = checked_real_samples(x, what="the fit of an oscillator", at_least=16), checked_rate(rate)
+    signal = smooth_model(checked_swing(samples), rate, band=band)
+    floor = free_noise(samples, signal)
+    begin, limits = matched(family, signal, free_offset=free_offset)
+    problem = Problem(samples, rate, family, free_offset, 4.0 * float(np.ptp(samples)), 1, limits)
+    problem = stepped(problem, begin, signal, floor)
+    power = max(float(np.var(samples)) - floor**2, np.finfo(float).tiny)
+    theta, left = best_fit(problem, begin, polar_of(signal, float(begin[OFFSET])), floor**2, power)
+    if not left <= LOST * power:
+        raise InputError(
+            f"{family.name}: no fit of {', '.join(family.names)} locks on to the signal ({left / power:.0%} of its "
+            "power is left over); start nearer to the parameters, free others, or try another oscillator"
+        )
+    return finished(problem, theta, start)
+
+
+def best_fit(problem: Problem, begin: Array, goal: Polar, floor: float, power: float) -> tuple[Array, float]:
+    """Fit angle and radius, then the samples; where that ends in a false minimum, samples over growing spans.
+
+    Returns theta and the mean square that it leaves over beyond ``floor``, that of the noise.
+    """
+    n = problem.x.size
+    near = problem.contained(begin, goal)
+    polar = problem.solve(lambda theta: problem.polar_gap(theta, goal), near, tolerance=COARSE, loss="soft_l1")
+    starts: tuple[Callable[[], Array], ...] = (
+        lambda: polar,
+        lambda: grown(problem, polar, SPAN * TWO_PI / goal.w),
+        lambda: grown(problem, near, SPAN * TWO_PI / goal.w),
+    )
+    best, least = begin, np.inf
+    for start in starts:
+        theta = problem.solve(lambda theta: problem.gap(theta, n), start(), tolerance=FINE)
+        left = float(np.mean(problem.gap(theta, n)[0] ** 2)) - floor
+        if left < least:
+            best, least = theta, left
+        if least <= LOCKED * power:
+            break
+    return best, least
+
+
+def grown(problem: Problem, theta: Array, seconds: float) -> Array:
+    """Fit the samples of spans that grow from ``seconds`` towards the whole record."""
+    n = max(2 * theta.size, round(seconds * problem.rate))
+    while n < problem.x.size:
+        theta = problem.solve(partial(problem.gap, n=n), theta, tolerance=COARSE)
+        n = int(np.ceil(GROWTH * n))
+    return theta
+
+
+def stepped(problem: Problem, theta: Array, signal: HarmonicSignal, noise: float) -> Problem:
+    """Step finely enough for an integration error small against the noise, once the cost is seen to fit."""
+    size, swing = problem.x.size, float(np.ptp(problem.x))
+    cycle = TWO_PI / float(np.median(signal.omega))
+    u0, v0, _, *p = theta.tolist()
+    steps = steps_needed(
+        problem.family,
+        p,
+        (u0, v0),
+        samples=min(size, round(2.0 * cycle * problem.rate) + 2),
+        rate=problem.rate,
+        bound=problem.bound,
+        tolerance=max(ROUNDING * swing, 1e-3 * noise),
+    )
+    what = f"the fit of {problem.family.name} to {size} samples"
+    checked_work(size * steps * OPERATIONS * 3 * EVALUATIONS, what, "fit a shorter part of the record")
+    return replace(problem, steps=steps)
+
+
+def smooth_model(x: Array, rate: float, *, band: tuple[float, float] | None = None) -> HarmonicSignal:
+    """The record as slow harmonics of the strongest component, found along a spectrogram's ridge and refined once."""
+    if not np.ptp(x) > 0.0:
+        raise InputError(f"signal is constant at {x[0]:g}; there is no oscillation to fit")
+    real = x - x.mean()
+    corridor = find_corridor(real, rate, band=band)
+    lag = min(LAG_CYCLES * TWO_PI / float(np.median(corridor.guide)), 0.999 * (x.size - 1) / rate)
+    omega = np.clip(decompose(x, corridor.guide, rate).omega, corridor.low, corridor.high)
+    multiples = choose_multiples(real, rate, omega, half=half_width(lag, rate, longest=x.size))
+    return decompose(x, omega, rate, multiples=(1, *multiples))
+
+
+def free_noise(x: Array, signal: HarmonicSignal) -> float:
+    """Noise level that a free harmonic model leaves, its parameters accounted for."""
+    freedom = x.size - signal.parameters
+    return float(np.sqrt(np.sum((x - signal.values()) ** 2) / max(freedom, 0.1 * x.size)))
+
+
+def finished(problem: Problem, theta: Array, start: float) -> ModelFit:
+    """Covariance, noise and the test of the residual."""
+    n, kept = problem.x.size, problem.kept
+    gap, jacobian = problem.gap(theta, n)
+    variance = float(gap @ gap) / max(1, n - kept.size)
+    covariance = np.zeros((theta.size, theta.size))
+    covariance[np.ix_(kept, kept)] = variance * inverse_normal(jacobian[:, kept], problem.labels)
+    rounding = 100.0 * ROUNDING * float(np.ptp(problem.x))
+    return ModelFit(
+        family=problem.family,
+        theta=theta,
+        covariance=covariance,
+        noise=float(np.sqrt(variance)),
+        residual=-gap,
+        fitted=problem.x + gap,
+        white=whiteness(gap) if np.std(gap) > rounding else None,
+        steps=problem.steps,
+        rate=problem.rate,
+        start=start,
+    )

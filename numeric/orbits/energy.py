@@ -1,0 +1,139 @@
+"""Energy terms (15)-(19) along a trajectory, and the amplitude (20)-(21) that the energy allows.
+
+The amplitude of (20)-(21) takes the *instantaneous* energy.  Energy is lost where |u'| is large, twice per cycle,
+so that A(t) descends in steps about the smooth decay: a ripple of relative size mu/k that is a property of (21), not
+an error of the computation.  ``averaging`` gives the smooth decay.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array, frozen
+from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.numeric.motion.trajectory import Trajectory
+from ridgeback.numeric.orbits.potential import peak_of_potential, potential_at, restoring_of, trough
+
+_GAUSS_POINTS = 8  # exact to degree 15: beyond the dense output, a polynomial of degree 7, squared
+
+
+@dataclass(frozen=True)
+class EnergyTerms:
+    """The terms of the energy balance at the samples of a trajectory, per unit mass; 1-D arrays of one length."""
+
+    time: Array
+    kinetic: Array
+    """E_k = u'^2 / 2, eq. (16)."""
+    potential: Array
+    """E_p = V(u) - V(u(0)), eq. (17)."""
+    dissipated: Array
+    """E_d = 2 mu times the integral of u'^2 from 0, eq. (18)."""
+    mechanical: Array
+    """E_m = E_k + E_p, eq. (19)."""
+    balance: Array
+    """E_k + E_p + E_d - E_k(0): zero by eq. (15), here the error of solver and quadrature together."""
+
+
+@dataclass(frozen=True)
+class Amplitude:
+    """Both turning points of the undamped motion at some energy; ``peak`` is the paper's A(t)."""
+
+    peak: Array
+    trough: Array
+
+
+def require_linear_damping(dynamics: Dynamics) -> None:
+    """Raise InputError unless f(u, u') = V'(u) + 2 mu u', checked at a few states.
+
+    >>> from ridgeback.numeric.motion.dynamics import pendulum
+    >>> require_linear_damping(pendulum(mu=0.1))
+    """
+    restoring, k = restoring_of(dynamics), dynamics.natural_frequency
+    for u, v in ((1e-3, 1e-3 * k), (1e-3, -2e-3 * k), (-5e-3, 1e-3 * k)):
+        expected = float(restoring(u)) + 2 * dynamics.damping * v
+        if abs(dynamics.force(u, v) - expected) > 1e-9 * k * (k * abs(u) + abs(v)):
+            raise InputError(
+                f"{dynamics.name}: its damping is not 2 mu u' with mu = {dynamics.damping:g}; "
+                "use the cycle frequency of an integrated trajectory instead"
+            )
+
+
+def energy_terms(dynamics: Dynamics, trajectory: Trajectory) -> EnergyTerms:
+    """Return the terms (15)-(19) at the samples of a trajectory of this oscillator.
+
+    >>> from ridgeback.numeric.motion.dynamics import linear
+    >>> from ridgeback.numeric.motion.trajectory import integrate
+    >>> oscillator = linear(k=1.0, mu=0.1)
+    >>> terms = energy_terms(oscillator, integrate(oscillator, (1.0, 0.0), duration=10.0, rate=8.0))
+    >>> bool(np.abs(terms.balance).max() < 1e-11)
+    True
+    """
+    require_linear_damping(dynamics)
+    level = potential_at(dynamics, trajectory.u)
+    kinetic = 0.5 * trajectory.velocity**2
+    potential = level - level[0]
+    dissipated = 2 * dynamics.damping * _integral_of_square(trajectory)
+    mechanical = kinetic + potential
+    return EnergyTerms(
+        time=trajectory.time,
+        kinetic=frozen(kinetic),
+        potential=frozen(potential),
+        dissipated=frozen(dissipated),
+        mechanical=frozen(mechanical),
+        balance=frozen(mechanical + dissipated - kinetic[0]),
+    )
+
+
+def _integral_of_square(trajectory: Trajectory) -> Array:
+    """Integral of u'^2 from 0 to each sample: Gauss-Legendre between all steps and samples of the dense output."""
+    edges = np.union1d(trajectory.steps, trajectory.time)
+    edges = edges[edges <= trajectory.duration]
+    x, w = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    width = np.diff(edges)
+    points = edges[:-1, None] + 0.5 * (1 + x) * width[:, None]
+    _, velocity = trajectory.at(points.ravel())
+    pieces = 0.5 * width * (velocity.reshape(points.shape) ** 2 @ w)
+    total = np.concatenate(([0.0], np.cumsum(pieces)))
+    return np.asarray(total[np.searchsorted(edges, trajectory.time)])
+
+
+def energy_of(dynamics: Dynamics, u: ArrayLike, velocity: ArrayLike) -> Array:
+    """Return E = u'^2 / 2 + V(u), counted from the bottom of the well (u and velocity 1-D).
+
+    >>> from ridgeback.numeric.motion.dynamics import linear
+    >>> energy_of(linear(k=2.0), [1.0], [2.0])
+    array([4.])
+    """
+    v = np.atleast_1d(np.asarray(velocity, dtype=float))
+    return np.asarray(0.5 * v**2 + potential_at(dynamics, u))
+
+
+def amplitude_from_energy(dynamics: Dynamics, energy: ArrayLike) -> Amplitude:
+    """Return both turning points of the undamped motion with this energy, eq. (20): V(A) = E, in any potential.
+
+    ``energy`` counts from the bottom of the well.  Raises InputError at or above the separatrix.
+
+    >>> from ridgeback.numeric.motion.dynamics import pendulum
+    >>> round(float(amplitude_from_energy(pendulum(), [1.0 - np.cos(2.0)]).peak[0]), 14)
+    2.0
+    """
+    peak = peak_of_potential(dynamics, energy)
+    return Amplitude(peak=frozen(peak), trough=trough(dynamics, peak))
+
+
+def pendulum_amplitude(mechanical: ArrayLike, *, k: float, theta0: float) -> Array:
+    """Return A = arccos(-E_m / k^2 + cos(theta0)) as eq. (21) is printed, E_m by (19), relative to theta0.
+
+    Raises InputError where E_m would carry the pendulum over the top.
+
+    >>> round(float(pendulum_amplitude([0.0], k=2.0, theta0=1.0)[0]), 15)
+    1.0
+    """
+    cosine = -np.atleast_1d(np.asarray(mechanical, dtype=float)) / k**2 + np.cos(theta0)
+    if not np.all((cosine > -1) & (cosine <= 1 + 1e-12)):
+        raise InputError(f"energy {np.max(mechanical):.6g} is outside the pendulum's well; it would rotate")
+    return frozen(np.arccos(np.minimum(cosine, 1.0)))

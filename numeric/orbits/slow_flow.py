@@ -1,0 +1,234 @@
+"""The slow flow of a lightly damped oscillator as a table, and the motion along it by quadrature.
+
+Averaging a damping force 2 mu u' + beta |u'| u' + gamma u'^3 over an undamped orbit gives the loss of action
+
+    R = -J'/J = 2 mu + (beta <|u'|^3> + gamma <u'^4>) / (omega0 J),          phi' = sqrt(omega0(J)^2 - mu^2),
+
+(Bogoliubov and Mitropolsky 1961; the mu^2 is exact for the linear oscillator), so that time and phase at each level of
+action are integrals, t = int d ln J / R and phi = int omega d ln J / R: no differential equation is left to solve.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.orbits.orbit_table import OrbitTable
+
+LEAST_RATE = 1e-9
+"""Floor of R relative to omega: where damping is lost or turns to growth, the amplitude stays."""
+MOST_LOG = 50.0
+"""Amplitudes are kept within exp(-50) and exp(50), so that a step of a fit that goes astray has a finite cost."""
+
+
+@dataclass(frozen=True)
+class Flow:
+    """A slow flow on nodes in the order in which they are passed; ``rate`` > 0 is that at which ``level`` rises.
+
+    ``growth`` is a'/a of the fundamental amplitude; u/a = sum of cosine[m] cos(m phi) + sine[m] sin(m phi).
+    """
+
+    level: Array
+    rate: Array
+    omega: Array
+    growth: Array
+    amplitude: Array
+    cosine: Array
+    sine: Array | None = None
+
+    @cached_property
+    def slopes(self) -> Array:
+        """Derivatives of time and phase by the level, ``[2, node]``."""
+        return np.array([1 / self.rate, self.omega / self.rate])
+
+    @cached_property
+    def increments(self) -> Array:
+        """Time and phase from each node to the next, ``[2, node - 1]``."""
+        return _increments(self.slopes, self.level)
+
+    @cached_property
+    def chirp(self) -> Array:
+        """d omega / dt at the nodes."""
+        return np.asarray(self.rate * np.gradient(self.omega, self.level))
+
+    @cached_property
+    def log_amplitude(self) -> Array:
+        """ln a at the nodes."""
+        return np.asarray(np.log(self.amplitude))
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The motion at given times: phase, frequency, fundamental amplitude, and the displacement itself."""
+
+    phase: Array
+    omega: Array
+    amplitude: Array
+    u: Array
+
+
+@dataclass(frozen=True)
+class ScaledOrbits:
+    """Orbits refined to closely spaced peaks, all quantities relative to their power of the peak, in units k = 1."""
+
+    peak: Array
+    omega: Array
+    action: Array
+    cosine: Array
+    cubic: Array
+    quartic: Array
+
+    @cached_property
+    def level(self) -> Array:
+        """ln J."""
+        return np.asarray(np.log(self.action))
+
+    @cached_property
+    def bend(self) -> Array:
+        """d ln a / d ln J of the fundamental amplitude: 1/2 for the linear oscillator."""
+        return np.asarray(np.gradient(np.log(self.cosine[1]), self.level))
+
+
+def refine(table: OrbitTable, peak: Array) -> ScaledOrbits:
+    """Interpolate a table with natural frequency 1 to more peaks by splines that know the limit of small amplitude.
+
+    >>> from ridgeback.numeric.motion.dynamics import pendulum
+    >>> from ridgeback.numeric.orbits.orbit_table import orbit_table
+    >>> table = orbit_table(pendulum(), 2.0 * np.sin(np.pi / 48 * np.arange(1, 25)))
+    >>> fine = refine(table, np.array([0.0, 1.0]))
+    >>> bool(np.abs(fine.omega - [1.0, pendulum().closed_form(1.0)]).max() < 1e-9)
+    True
+    """
+    A = table.peak
+    columns = [table.omega, table.action / A**2, table.cubic / A**3, table.quartic / A**4, *(table.cosine / A)]
+    first = np.zeros(table.cosine.shape[0])
+    first[1] = 1.0
+    limit = np.array([1.0, 0.5, 4 / (3 * math.pi), 0.375, *first])
+    values = np.vstack((limit, np.array(columns).T))
+    fine = CubicSpline(np.concatenate(([0.0], A)), values)(peak).T
+    return ScaledOrbits(
+        peak,
+        fine[0],
+        fine[1] * peak**2,
+        fine[4:] * peak,
+        fine[2] * peak**3,
+        fine[3] * peak**4,
+    )
+
+
+def as_scaled(table: OrbitTable) -> ScaledOrbits:
+    """A table that is fine enough as it is."""
+    return ScaledOrbits(table.peak, table.omega, table.action, table.cosine, table.cubic, table.quartic)
+
+
+def decay_flow(orbits: ScaledOrbits, *, k: float, length: float, rates: tuple[float, float, float]) -> Flow:
+    """Return the slow flow of orbits scaled by k and a length under ``rates`` (2 mu, beta L k, gamma L^2 k^2).
+
+    >>> from ridgeback.numeric.motion.dynamics import linear
+    >>> from ridgeback.numeric.orbits.orbit_table import orbit_table
+    >>> orbits = refine(orbit_table(linear(), np.linspace(0.1, 1.0, 9)), np.geomspace(0.01, 1.0, 99))
+    >>> flow = decay_flow(orbits, k=2.0, length=1.0, rates=(0.2, 0.0, 0.0))
+    >>> np.allclose(flow.growth, -0.1), np.allclose(flow.omega, np.sqrt(4.0 - 0.01))
+    (True, True)
+    """
+    power = orbits.omega * orbits.action
+    loss = rates[0] + (rates[1] * orbits.cubic + rates[2] * orbits.quartic) / power
+    omega = k * orbits.omega
+    loss = np.maximum(loss, LEAST_RATE * omega)
+    fundamental = orbits.cosine[1]
+    down = slice(None, None, -1)
+    return Flow(
+        level=-orbits.level[down],
+        rate=loss[down],
+        omega=np.sqrt(np.maximum(omega**2 - 0.25 * rates[0] ** 2, (0.1 * k) ** 2))[down],
+        growth=-(loss * orbits.bend)[down],
+        amplitude=length * fundamental[down],
+        cosine=(orbits.cosine / fundamental)[:, down],
+    )
+
+
+def motion(flow: Flow, start: float, phase: float, time: Array, *, waveform: bool = True) -> Motion:
+    """Follow the flow from the level ``start`` and a phase at t = 0, for ``time`` of 0 or more.
+
+    A start before the first node is put there; beyond the last node the motion keeps its rate, frequency and form.
+    Without ``waveform`` u is left at 0.
+
+    >>> level = np.linspace(0.0, 5.0, 60)
+    >>> flow = Flow(level, np.full(60, 0.2), np.full(60, 3.0), np.full(60, -0.1), np.exp(-level / 2),
+    ...             np.array([[0.0], [1.0]]) + np.zeros(60))
+    >>> at = motion(flow, 0.0, 0.5, np.array([0.0, 2.0]))
+    >>> np.allclose(at.u, np.exp([0.0, -0.2]) * np.cos([0.5, 6.5])), np.allclose(at.phase, [0.5, 6.5])
+    (True, True)
+    """
+    begin = np.array([np.clip(start, flow.level[0], flow.level[-1])])
+    at = _places(flow.level, begin)
+    # counted from the node before the start: where damping is almost none, nodes are ages apart
+    first = int(at.index[0])
+    clock, turned = (np.concatenate((np.zeros(first + 1), np.cumsum(row[first:]))) for row in flow.increments)
+    began, done = (float(_hermite(at, v, s)[0]) for v, s in zip((clock, turned), flow.slopes, strict=True))
+    want = began + time
+    inside = np.minimum(want, clock[-1])
+    late = want - inside
+    place = _places(clock, inside, first)
+    omega = _hermite(place, flow.omega, flow.chirp)
+    angle = phase - done + _hermite(place, turned, flow.omega) + late * omega
+    logarithm = _hermite(place, flow.log_amplitude, flow.growth) + late * flow.growth[-1]
+    size = np.exp(np.clip(logarithm, -MOST_LOG, MOST_LOG))
+    wave = _wave(flow, place, angle) if waveform else np.zeros_like(angle)
+    return Motion(angle, omega, size, size * wave)
+
+
+# h/2 (f0 + f1) - h^2/12 (f1' - f0'): the integral of the cubic that has these values and slopes
+def _increments(values: Array, x: Array) -> Array:
+    """Integral of each row from each node to the next."""
+    h = np.diff(x)
+    slope = np.gradient(values, x, axis=1)
+    return np.asarray(h / 2 * (values[:, 1:] + values[:, :-1]) - h**2 / 12 * np.diff(slope, axis=1))
+
+
+@dataclass(frozen=True)
+class _Places:
+    """Where points lie between nodes: index of the left one, the step there, and the share of it passed."""
+
+    index: NDArray[np.intp]
+    step: Array
+    share: Array
+
+
+def _places(nodes: Array, points: Array, first: int = 0) -> _Places:
+    """Places of points among the nodes from ``first`` on."""
+    index = np.clip(np.searchsorted(nodes[first:], points) - 1, 0, nodes.size - first - 2) + first
+    step = nodes[index + 1] - nodes[index]
+    return _Places(index, step, (points - nodes[index]) / step)
+
+
+def _hermite(at: _Places, values: Array, slopes: Array) -> Array:
+    """Cubic through values and slopes of both neighbouring nodes."""
+    i, s = at.index, at.share
+    rest = 1 - s
+    ends = values[i] * (1 + 2 * s) * rest**2 + values[i + 1] * (1 + 2 * rest) * s**2
+    return np.asarray(ends + at.step * s * rest * (slopes[i] * rest - slopes[i + 1] * s))
+
+
+def _linear(at: _Places, values: Array) -> Array:
+    return np.asarray(values[at.index] * (1 - at.share) + values[at.index + 1] * at.share)
+
+
+def _wave(flow: Flow, at: _Places, phase: Array) -> Array:
+    """u/a by powers of exp(i phi); the small coefficients of the other harmonics are interpolated linearly."""
+    turn = np.exp(1j * phase)
+    power = np.ones_like(turn)
+    total = np.zeros_like(phase)
+    for m, row in enumerate(flow.cosine):
+        if row.any():
+            total += (row[0] if m == 1 else _linear(at, row)) * power.real
+        if flow.sine is not None and flow.sine[m].any():
+            total += _linear(at, flow.sine[m]) * power.imag
+        power = power * turn
+    return total

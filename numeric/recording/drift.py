@@ -1,0 +1,64 @@
+"""The slow part of a signal below its oscillation: how far it wanders, and its removal when that is wanted."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.signal import detrend as scipy_detrend
+from scipy.signal import oaconvolve
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.signal.search_band import strongest_frequency
+from ridgeback.numeric.signal.windows import window
+
+DETRENDS = ("none", "linear", "slow")
+CYCLES = 6.0
+"""Length of the Blackman low-pass in cycles: its first zero is at half the oscillation's frequency."""
+NOTABLE = 0.02
+"""Wandering, as a share of the signal's rms, from which on it is mentioned."""
+MOST_SAMPLES = 4_000_000
+"""Samples up to which the slow part is looked for: its spectrum takes 130 bytes a sample."""
+
+
+def slow_part(x: Array, rate: float) -> Array:
+    """Weighted local mean over CYCLES cycles of the strongest component; near an end, over what there is of them.
+
+    >>> t = np.arange(2000) / 20.0
+    >>> found = slow_part(np.cos(6.0 * t) + 0.01 * t, 20.0)
+    >>> bool(np.abs(found - 0.01 * t)[100:-100].max() < 1e-3)
+    True
+    """
+    half = round(0.5 * CYCLES * TWO_PI / strongest_frequency(x, rate) * rate)
+    w = window("blackman", min(half, (x.size - 1) // 2))
+    weights = oaconvolve(np.ones(x.size), w, mode="same")
+    return np.asarray(oaconvolve(x, w, mode="same") / weights, dtype=np.float64)
+
+
+def wandering(x: Array, rate: float) -> float:
+    """How far the slow part moves between the ends, where it sees whole windows, as a share of the signal's rms.
+
+    0 where the record is too short to tell, NaN where it is longer than MOST_SAMPLES.
+    """
+    if x.size > MOST_SAMPLES:
+        return math.nan
+    half = round(0.5 * CYCLES * TWO_PI / strongest_frequency(x, rate) * rate)
+    if x.size < 4 * half:
+        return 0.0
+    inside = slow_part(x, rate)[half:-half]
+    return float(np.ptp(inside)) / float(np.std(x))
+
+
+def detrended(x: Array, rate: float, how: str) -> Array:
+    """The signal without its straight line ("linear", scipy's) or its slow part ("slow"); "none" leaves it.
+
+    >>> detrended(np.arange(5.0), 1.0, "linear").round(9).tolist()
+    [0.0, 0.0, 0.0, 0.0, 0.0]
+    """
+    if how not in DETRENDS:
+        raise InputError(f"detrend {how!r} is unknown; use one of {', '.join(DETRENDS)}")
+    if how == "linear":
+        return np.asarray(scipy_detrend(x, type="linear"), dtype=np.float64)
+    return x - slow_part(x, rate) if how == "slow" else x

@@ -1,0 +1,105 @@
+"""Where a recording has no gap: the stretches between missing values, missing times and skipped ones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.files.columns import Columns
+
+GAP_STEPS = 1.5
+"""A step longer than so many usual ones is a gap."""
+Rows = NDArray[np.intp]
+
+
+@dataclass(frozen=True)
+class Gap:
+    """A place without samples: the times before and after it, and about how many are missing."""
+
+    begin: float
+    end: float
+    missing: int
+
+
+@dataclass(frozen=True)
+class Stamped:
+    """The samples of one signal that are there, with their times; ``row`` is each one's row in the file."""
+
+    time: Array
+    values: Array
+    row: Rows
+    absent: int
+    """Rows without a value or without a time."""
+
+    @property
+    def usual(self) -> float:
+        """The median step."""
+        return float(np.median(np.diff(self.time)))
+
+    @property
+    def mean(self) -> float:
+        """The mean step."""
+        return float(self.time[-1] - self.time[0]) / (self.time.size - 1)
+
+
+# Infinity is an overflow, not a value left out: it is refused, NaN is a gap.
+def stamped(
+    time: Array, values: Array, rows: Rows, columns: Columns, names: tuple[str, str], *, fewest: int
+) -> Stamped:
+    """The rows that have both a time and a value; ``names`` are those of the two columns.
+
+    Raises InputError for infinity, times that do not rise, and too few samples.
+    """
+    clock, name = names
+    for what, numbers in ((name, values), (clock, time)):
+        wrong = np.flatnonzero(np.isinf(numbers))
+        if wrong.size:
+            at = int(wrong[0])
+            raise InputError(
+                f"{columns.source}, {columns.place(int(rows[at]))}, column {what}: {numbers[at]} is not finite; "
+                f"leave the cell empty if there is no value ({wrong.size} such values in all)"
+            )
+    there = np.isfinite(values) & np.isfinite(time)
+    if np.count_nonzero(there) < fewest:
+        lost = f", {np.count_nonzero(~there)} of them without a value" if not there.all() else ""
+        raise InputError(
+            f"{columns.source}, column {name} has {values.size} samples{lost}; at least {fewest} are needed"
+        )
+    kept = Stamped(time[there], values[there], rows[there], int(np.count_nonzero(~there)))
+    check_rising(kept, columns)
+    return kept
+
+
+def check_rising(samples: Stamped, columns: Columns) -> None:
+    """Refuse times that repeat or go back."""
+    back = np.flatnonzero(np.diff(samples.time) <= 0.0)
+    if back.size:
+        at = int(back[0]) + 1
+        what = "repeats" if samples.time[at] == samples.time[at - 1] else "is before"
+        raise InputError(
+            f"{columns.source}, {columns.place(int(samples.row[at]))}: time {samples.time[at]:.9g} {what} the one "
+            f"above ({samples.time[at - 1]:.9g}); time stamps must increase"
+        )
+
+
+def split(samples: Stamped, longest: float) -> tuple[list[Stamped], list[Gap]]:
+    """Cut the samples where a step is longer than ``longest``.
+
+    >>> rows = np.arange(5)
+    >>> parts, gaps = split(Stamped(np.array([0.0, 1, 2, 5, 6]), np.zeros(5), rows, 0), 1.5)
+    >>> [part.time.tolist() for part in parts], gaps
+    ([[0.0, 1.0, 2.0], [5.0, 6.0]], [Gap(begin=2.0, end=5.0, missing=2)])
+    """
+    steps = np.diff(samples.time)
+    cuts = np.flatnonzero(steps > longest) + 1
+    usual = samples.usual
+    gaps = [
+        Gap(float(samples.time[i - 1]), float(samples.time[i]), max(0, round(float(steps[i - 1]) / usual) - 1))
+        for i in cuts
+    ]
+    parts = zip(*(np.split(a, cuts) for a in (samples.time, samples.values, samples.row)), strict=True)
+    return [Stamped(t, x, row, 0) for t, x, row in parts], gaps

@@ -1,0 +1,167 @@
+"""Where to look for the fundamental: a corridor around the strongest component, found from the data.
+
+The corridor follows the ridge of a spectrogram some six cycles long and keeps a factor away from it on both sides,
+so that the constant, the second and the third harmonic stay outside even when omega0 itself moves by more than that.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+from scipy.ndimage import gaussian_filter1d
+from scipy.signal import decimate
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.signal.samples import TWO_PI, Floats, checked_budget
+from ridgeback.numeric.signal.windows import half_width, window
+
+MARGIN = 1.45
+"""Corridor half width as a factor: below 1.5, so that a second harmonic 1.45 times off its corridor stays out."""
+GUIDE_CYCLES = 6.0
+FEWEST_CYCLES = 3.0
+LONG = 100_000
+BLOCK_VALUES = 60_000
+"""Values that the segments of one block of columns hold, padded: half a megabyte."""
+MEMORY, MEMORY_PER_LEVEL = 1_000_000_000, 6
+THINNED = 1.25
+"""Nyquist frequency of a thinned record over the highest frequency looked for."""
+
+
+@dataclass(frozen=True)
+class Corridor:
+    """Band limits per sample (rad per time unit), the guide between them, its strongest line, and how it was found."""
+
+    low: Array
+    high: Array
+    guide: Array
+    centre: float
+    why: str
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """The lowest low and the highest high."""
+        return float(self.low.min()), float(self.high.max())
+
+
+def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | None = None) -> float:
+    """Angular frequency of the highest line of the Hann-windowed spectrum within ``band``.
+
+    By default everything above FEWEST_CYCLES per record counts: the constant and slow drift are left out.
+
+    >>> t = np.arange(320) / 32.0
+    >>> round(strongest_frequency(np.cos(2 * np.pi * 1.5 * t), rate=32.0) / (2 * np.pi), 2)
+    1.5
+    """
+    padded = 4 * x.size
+    spectrum = np.abs(fft.rfft((x - x.mean()) * np.hanning(x.size), padded)) ** 2
+    omega = TWO_PI * rate * np.arange(spectrum.size) / padded
+    low, high = band or (TWO_PI * rate * FEWEST_CYCLES / x.size, math.pi * rate)
+    within = np.where((omega >= low) & (omega <= high), spectrum, 0.0)
+    if not within.max() > 0.0:
+        raise InputError(
+            f"signal of {x.size} samples shows no oscillation between {low:.4g} and {high:.4g} rad per time unit; "
+            f"give a longer record or another band"
+        )
+    return float(omega[within.argmax()])
+
+
+def continuous_path(level: Floats, reach: int) -> NDArray[np.intp]:
+    """Row indices of the path through ``level[row, column]`` with the largest sum, moving at most ``reach`` a column.
+
+    >>> continuous_path(np.array([[9.0, 0, 0], [0, 9, 0], [0, 0, 9]]), reach=1).tolist()
+    [0, 1, 2]
+    """
+    rows, columns = level.shape
+    best, came = level[:, 0].astype(np.float64), np.zeros((rows, columns), dtype=np.int16)
+    for column in range(1, columns):
+        padded = np.pad(best, reach, constant_values=-np.inf)
+        choices = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1)
+        pick = choices.argmax(axis=1)
+        came[:, column] = pick - reach
+        best = choices[np.arange(rows), pick] + level[:, column]
+    path = np.empty(columns, dtype=np.intp)
+    path[-1] = best.argmax()
+    for column in range(columns - 1, 0, -1):
+        path[column - 1] = path[column] + came[path[column], column]
+    return path
+
+
+def guide_path(x: Array, rate: float, centre: float, low: float, high: float) -> Array:
+    """Frequency per sample along the strongest continuous path of a spectrogram between ``low`` and ``high``.
+
+    A long record with far more samples a cycle than the path needs is thinned first.
+    """
+    factor = int(math.pi * rate / (THINNED * high)) if x.size > LONG else 1
+    if factor > 1:
+        thin = guide_path(decimate(x, factor, ftype="fir"), rate / factor, centre, low, high)
+        return np.asarray(np.interp(np.arange(x.size), factor * np.arange(thin.size), thin), dtype=np.float64)
+    seconds = min(GUIDE_CYCLES * TWO_PI / centre, (x.size - 1) / rate * 0.999)
+    hop = max(1, round(0.25 * TWO_PI / centre * rate))
+    n_fft = fft.next_fast_len(max(int(8 * seconds * rate), 64), real=True)
+    ridge = Columns(half_width(seconds, rate, longest=x.size), hop, n_fft)
+    omega = TWO_PI * rate * np.arange(n_fft // 2 + 1) / n_fft
+    rows = np.flatnonzero((omega >= low) & (omega <= high))
+    if not rows.size:
+        return np.full(x.size, centre)
+    path = omega[rows][continuous_path(ridge.levels(x, slice(rows[0], rows[-1] + 1)), reach=3)]
+    smooth = gaussian_filter1d(path, GUIDE_CYCLES, mode="nearest")
+    return np.asarray(np.interp(np.arange(x.size), hop * np.arange(path.size), smooth), dtype=np.float64)
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Columns of a Hann spectrogram, every ``hop`` samples: half a window, and the length of the transform."""
+
+    half: int
+    hop: int
+    n_fft: int
+
+    def levels(self, x: Array, rows: slice) -> Floats:
+        """Logarithms of the bins ``rows`` relative to the highest of them, ``[row, column]``, a block at a time."""
+        frames, height = -(-x.size // self.hop), rows.stop - rows.start
+        checked_budget(MEMORY_PER_LEVEL * frames * height, MEMORY, f"the search for a path through {frames} columns by "
+            f"{height} bins", "give a narrower band")  # fmt: skip
+        w, padded = window("hann", self.half), np.pad(x - x.mean(), self.half)
+        segments = np.lib.stride_tricks.sliding_window_view(padded, w.size)[:: self.hop]
+        found, block = np.empty((height, frames), dtype=np.float32), max(1, BLOCK_VALUES // self.n_fft)
+        for first in range(0, frames, block):
+            spectra = fft.rfft(segments[first : first + block] * w, self.n_fft, axis=1)[:, rows]
+            values = (spectra.real**2 + spectra.imag**2).T
+            highest = np.maximum(values.max(axis=0), np.finfo(float).tiny)
+            found[:, first : first + block] = np.log(values / highest + 1e-6)
+        return found
+
+
+def checked_band(band: tuple[float, float], rate: float) -> tuple[float, float]:
+    """Return a band (low, high) in rad per time unit that lies within 0 .. Nyquist."""
+    low, high = float(band[0]), float(band[1])
+    nyquist = math.pi * rate
+    if not (math.isfinite(low) and math.isfinite(high) and 0.0 <= low < high <= nyquist * (1 + 1e-12)):
+        raise InputError(
+            f"band ({low:g}, {high:g}) rad per time unit is not usable; need 0 <= low < high <= {nyquist:.6g} (Nyquist)"
+        )
+    return low, high
+
+
+def find_corridor(x: Array, rate: float, *, band: tuple[float, float] | None = None) -> Corridor:
+    """Return the corridor of the real signal ``x``: the given band, or a factor MARGIN round the strongest component.
+
+    >>> t = np.arange(640) / 32.0
+    >>> corridor = find_corridor(np.cos(2 * np.pi * 1.5 * t), 32.0)
+    >>> [round(limit / (2 * np.pi), 1) for limit in corridor.limits]
+    [1.0, 2.2]
+    """
+    if band is not None:
+        low, high = checked_band(band, rate)
+        centre = strongest_frequency(x, rate, band=(low, high))
+        ones = np.ones(x.size)
+        return Corridor(low * ones, high * ones, guide_path(x, rate, centre, low, high), centre, "band given")
+    centre = strongest_frequency(x, rate)
+    guide = guide_path(x, rate, centre, 0.25 * centre, 4.0 * centre)
+    why = f"corridor of a factor {MARGIN} around the strongest component, near {centre / TWO_PI:.4g} cycles per unit"
+    return Corridor(guide / MARGIN, np.minimum(guide * MARGIN, math.pi * rate), guide, centre, why)

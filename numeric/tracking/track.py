@@ -1,0 +1,188 @@
+"""Tracks: a quantity of the oscillation against time with its uncertainty, its bias, and where it may be trusted.
+
+A :class:`Track` is of a frequency (the fundamental's or a harmonic's), an :class:`AmplitudeTrack` of an amplitude; both
+say the same things of their values.
+
+- ``standard_deviation``: one sigma of what white noise in the samples does to the values, and of nothing else.
+- ``bias``: the estimated systematic error *of the values as given* (true = value - bias).  When it has been removed,
+  ``settings["bias_removed"]`` is True and ``bias`` holds what was taken off.
+- ``bias_deviation``: one sigma of what is not known of the bias, be it for noise or for the model that it rests on.
+- ``interval``: the values with the bias off, plus and minus 1.96 times both deviations together.  It is None where a
+  part is missing: a method that cannot vouch for its bias claims no interval.
+- ``valid``: False in the border zones, where the estimator does not see a whole window of data.
+- ``ambiguous``: True where the quantity changes so much per cycle that its own definition leaves more room than the
+  interval, which then holds that room too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import ClassVar, NamedTuple, Self
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array, Mask, frozen, frozen_mask
+from ridgeback.numeric.signal.samples import TWO_PI
+
+NORMAL_95 = 1.959963984540054
+"""The standard normal distribution's 97.5 % point: plus and minus this many sigma hold 95 %."""
+
+
+class Interval(NamedTuple):
+    """Lower and upper end of a 95 % interval, one value per time."""
+
+    low: Array
+    high: Array
+
+    def holds(self, truth: Array) -> Mask:
+        """Tell where ``truth`` lies inside.
+
+        >>> Interval(np.zeros(2), np.ones(2)).holds(np.array([0.5, 2.0])).tolist()
+        [True, False]
+        """
+        return np.asarray((self.low <= truth) & (truth <= self.high), dtype=np.bool_)
+
+
+class Estimated:
+    """What every estimate against time says of itself; the frozen dataclasses below give the fields their order."""
+
+    QUANTITY: ClassVar[str]
+
+    time: Array
+    valid: Mask
+    method: str
+    standard_deviation: Array | None
+    bias: Array | None
+    bias_deviation: Array | None
+    ambiguous: Mask | None
+    settings: Mapping[str, object]
+
+    def __post_init__(self) -> None:
+        for name in ("time", self.QUANTITY, "standard_deviation", "bias", "bias_deviation"):
+            if (value := getattr(self, name)) is not None:
+                object.__setattr__(self, name, frozen(value))
+        for name in ("valid", "ambiguous"):
+            if (value := getattr(self, name)) is not None:
+                object.__setattr__(self, name, frozen_mask(value))
+        for name in self._columns():
+            self._check_length(name, np.size(getattr(self, name)))
+        object.__setattr__(self, "settings", MappingProxyType(dict(self.settings)))
+
+    def _columns(self) -> list[str]:
+        """Names of the fields that hold one value per time."""
+        return [name for name, value in vars(self).items() if isinstance(value, np.ndarray)]
+
+    def _check_length(self, name: str, size: int) -> None:
+        if size != np.size(self.time):
+            raise InputError(f"track {self.method}: {name} has {size} values for {np.size(self.time)} times")
+
+    @property
+    def values(self) -> Array:
+        """The estimated quantity itself."""
+        return np.asarray(getattr(self, self.QUANTITY), dtype=np.float64)
+
+    @property
+    def start(self) -> float:
+        """Time of the first sample of the signal: what the estimator noted, else the first time of the track."""
+        noted = self.settings.get("start")
+        return float(noted) if isinstance(noted, (int, float)) else float(self.time[0])
+
+    @property
+    def interval(self) -> Interval | None:
+        """The 95 % interval that includes the bias; None for a method that claims none."""
+        if self.standard_deviation is None or self.bias is None or self.bias_deviation is None:
+            return None
+        centre = self.values if self.settings.get("bias_removed") else self.values - self.bias
+        reach = NORMAL_95 * np.hypot(self.standard_deviation, self.bias_deviation)
+        return Interval(frozen(centre - reach), frozen(centre + reach))
+
+    def inside(self) -> Self:
+        """Return the valid part of the track."""
+        return self._select(self.valid)
+
+    def between(self, low: float, high: float) -> Self:
+        """Return the part with ``low <= time <= high``, valid or not."""
+        return self._select((self.time >= low) & (self.time <= high))
+
+    def _select(self, keep: Mask) -> Self:
+        return type(self)(**vars(self) | {name: getattr(self, name)[keep] for name in self._columns()})
+
+
+@dataclass(frozen=True)
+class Track(Estimated):
+    """One estimate of a frequency against time: ``omega`` in rad per time unit, and what :class:`Estimated` says of it.
+
+    >>> track = Track(np.arange(3.0), np.full(3, 6.0), np.array([False, True, True]), "example")
+    >>> track.inside().time.tolist(), track.interval is None
+    ([1.0, 2.0], True)
+    """
+
+    QUANTITY: ClassVar[str] = "omega"
+
+    time: Array
+    omega: Array
+    valid: Mask
+    method: str
+    standard_deviation: Array | None = None
+    bias: Array | None = None
+    settings: Mapping[str, object] = field(default_factory=dict)
+    bias_deviation: Array | None = None
+    ambiguous: Mask | None = None
+
+    @property
+    def frequency_hz(self) -> Array:
+        """Cycles per time unit."""
+        return self.omega / TWO_PI
+
+    def rows(self) -> list[dict[str, float | bool]]:
+        """One row per time: time_s, omega_rad_s, frequency_hz, the uncertainty columns it has, valid, ambiguous."""
+        columns = {"time_s": self.time, "omega_rad_s": self.omega, "frequency_hz": self.frequency_hz}
+        return rows_of(columns, self, "_rad_s")
+
+
+@dataclass(frozen=True)
+class AmplitudeTrack(Estimated):
+    """One estimate of an amplitude against time, in the signal's own unit; ``definition`` says which amplitude it is.
+
+    ``fundamental`` is the size of the first harmonic, ``harmonic h`` that of the h-th.
+
+    >>> track = AmplitudeTrack(np.arange(2.0), np.ones(2), np.ones(2, bool), "example", np.zeros(2), np.zeros(2))
+    >>> track.rows()[0]["amplitude"], track.interval is None
+    (1.0, True)
+    """
+
+    QUANTITY: ClassVar[str] = "amplitude"
+
+    time: Array
+    amplitude: Array
+    valid: Mask
+    method: str
+    standard_deviation: Array | None = None
+    bias: Array | None = None
+    settings: Mapping[str, object] = field(default_factory=dict)
+    bias_deviation: Array | None = None
+    ambiguous: Mask | None = None
+    definition: str = "fundamental"
+
+    def rows(self) -> list[dict[str, float | bool]]:
+        """One row per time: time_s, amplitude, the uncertainty columns it has, valid, ambiguous."""
+        return rows_of({"time_s": self.time, "amplitude": self.amplitude}, self, "")
+
+
+def rows_of(columns: dict[str, Array], track: Estimated, unit: str) -> list[dict[str, float | bool]]:
+    """Rows of ``columns``, then of what the track says of itself; ``unit`` ends the names of the latter."""
+    known = dict(columns)
+    for name in ("standard_deviation", "bias", "bias_deviation"):
+        value = getattr(track, name)
+        if value is not None:
+            known[name + unit] = value
+    if track.interval is not None:
+        known |= {"low_95" + unit: track.interval.low, "high_95" + unit: track.interval.high}
+    flags = {"valid": track.valid} if track.ambiguous is None else {"valid": track.valid, "ambiguous": track.ambiguous}
+    return [
+        {**{k: float(v[i]) for k, v in known.items()}, **{k: bool(v[i]) for k, v in flags.items()}}
+        for i in range(track.time.size)
+    ]

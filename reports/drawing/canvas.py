@@ -1,0 +1,199 @@
+"""Where a figure is drawn: panels at known places, axis titles, ticks, curves in sentinel colours.
+
+matplotlib is used through its objects alone (no pyplot, no global state); one unit is one point of the SVG.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
+from numpy.typing import NDArray
+
+from ridgeback.reports.drawing.theme import Variant, sentinel
+from ridgeback.reports.text.wording import number, power_of_ten
+
+Array = NDArray[np.float64]
+
+TOP, BOTTOM, LEFT, RIGHT, GAP = 26.0, 34.0, 46.0, 18.0, 34.0
+
+
+@dataclass(frozen=True)
+class Line:
+    """One drawn curve: its values, its label, its colour token, and the class by which it is toggled."""
+
+    x: Array
+    y: Array
+    label: str
+    token: str
+    width: float = 1.8
+    dash: str | tuple[float, tuple[float, ...]] = "-"
+    style: str = ""
+    marker: str = ""
+    order: float = 3.0
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A curve as the readout shows it."""
+
+    label: str
+    x: Array
+    y: Array
+    style: str = ""
+    token: str = "fg"
+    panel: int = 0
+
+
+@dataclass
+class Canvas:
+    """One variant of one figure while it is drawn."""
+
+    variant: Variant
+    height: float | None = None
+    figure: Figure = field(init=False)
+    panels: list[Axes] = field(default_factory=list)
+    inserts: dict[str, str] = field(default_factory=dict)
+    """Raw SVG by the id of the artist that it replaces."""
+
+    def __post_init__(self) -> None:
+        size = (self.variant.width, self.height or self.variant.height)
+        self.figure = Figure(figsize=size, dpi=72)
+        self.figure.patch.set_visible(False)
+
+    @property
+    def narrow(self) -> bool:
+        """Whether this is the drawing for small screens."""
+        return self.variant.narrow
+
+    def stack(self, shares: Sequence[float] = (1.0,), *, left: float = LEFT, gap: float = GAP) -> list[Axes]:
+        """Make panels one above the other, of heights in proportion to ``shares``."""
+        return self.grid(shares, 1, left=left, gap=gap)
+
+    def grid(
+        self, shares: Sequence[float], columns: int, *, left: float = LEFT, gap: float = GAP, right: float = RIGHT
+    ) -> list[Axes]:
+        """Make rows of panels, heights in proportion to ``shares``, ``columns`` of equal width; row by row."""
+        width, height = self.figure.get_size_inches() * 72
+        cell = (width - (left + right) * columns) / columns
+        usable = height - TOP - BOTTOM - gap * (len(shares) - 1)
+        top = height - TOP
+        for share in shares:
+            size = usable * share / sum(shares)
+            for column in range(columns):
+                x0 = left + column * (cell + left + right)
+                place = (x0 / width, (top - size) / height, cell / width, size / height)
+                self.panels.append(dress(self.figure.add_axes(place)))
+            top -= size + gap
+        return self.panels
+
+    def insert(self, axes: Axes, key: str, markup: str, *, order: float = 0.5) -> None:
+        """Place raw SVG (in SVG units) into a panel, beneath its curves."""
+        marker = axes.text(0.0, 0.0, "x", transform=axes.transAxes, zorder=order, clip_on=False)
+        marker.set_gid(f"insert-{key}")
+        self.inserts[f"insert-{key}"] = markup
+
+    def box(self, axes: Axes) -> tuple[float, float, float, float]:
+        """Return left, top, right, bottom of a panel in SVG units (y downwards)."""
+        extent = axes.get_window_extent()
+        height = float(self.figure.get_size_inches()[1] * 72)
+        return float(extent.x0), height - float(extent.y1), float(extent.x1), height - float(extent.y0)
+
+
+def dress(axes: Axes) -> Axes:
+    """Give a panel the house style: grey frame left and below, horizontal grid, short ticks."""
+    axes.patch.set_visible(False)
+    for side in ("left", "bottom"):
+        axes.spines[side].set_color(sentinel("muted"))
+    axes.tick_params(color=sentinel("muted"), labelcolor=sentinel("fg"), width=0.8, length=3.5, pad=3)
+    axes.grid(visible=True, axis="y", color=sentinel("grid"))
+    return axes
+
+
+def titles(axes: Axes, *, x: str = "", y: str = "") -> None:
+    """Write the x title under the axis and the y title horizontally above it."""
+    if x:
+        axes.set_xlabel(x, color=sentinel("fg"), labelpad=3)
+    if y:
+        offset = axes.annotate(y, (0.0, 1.0), (-LEFT + 10.0, 9.0), xycoords="axes fraction", textcoords="offset points")
+        offset.set_color(sentinel("fg"))
+
+
+def linear(axes: Axes, axis: str, low: float, high: float, *, ticks: int = 6) -> None:
+    """Set a linear axis with about so many round ticks."""
+    (axes.set_xlim if axis == "x" else axes.set_ylim)(low, high)
+    chosen = axes.xaxis if axis == "x" else axes.yaxis
+    chosen.set_major_locator(MaxNLocator(nbins=ticks, steps=[1, 2, 2.5, 5, 10]))
+    chosen.set_major_formatter(FuncFormatter(lambda value, _: number(_clean(value, high - low))))
+
+
+def _clean(value: float, span: float) -> float:
+    return 0.0 if abs(value) < 1e-9 * span else float(f"{value:.8g}")
+
+
+def decades(axes: Axes, axis: str, low: float, high: float, *, ticks: int = 6) -> None:
+    """Set a logarithmic axis from ``low`` to ``high`` with ticks at whole powers of ten."""
+    (axes.set_xscale if axis == "x" else axes.set_yscale)("log")
+    (axes.set_xlim if axis == "x" else axes.set_ylim)(low, high)
+    chosen = axes.xaxis if axis == "x" else axes.yaxis
+    chosen.set_major_locator(LogLocator(base=10.0, numticks=ticks))
+    chosen.set_minor_locator(NullLocator())
+    chosen.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(round(np.log10(value)))))
+
+
+def whole(axes: Axes, axis: str, positions: Sequence[float], names: Sequence[str], *, most: int) -> None:
+    """Put named ticks at given places, thinned to at most ``most``, the last one kept."""
+    step = max(1, -(-len(positions) // most))
+    kept = list(range(len(positions) - 1, -1, -step))[::-1]
+    chosen = axes.xaxis if axis == "x" else axes.yaxis
+    chosen.set_major_locator(FixedLocator([positions[i] for i in kept]))
+    chosen.set_major_formatter(FuncFormatter(lambda _, k: names[kept[k]] if k is not None and k < len(kept) else ""))
+    chosen.set_minor_locator(NullLocator())
+
+
+def draw(axes: Axes, line: Line) -> None:
+    """Draw one curve."""
+    (artist,) = axes.plot(
+        line.x,
+        line.y,
+        color=sentinel(line.token),
+        linewidth=line.width if not line.marker else 0.0,
+        linestyle=line.dash,
+        marker=line.marker or None,
+        markersize=3.2,
+        markeredgewidth=0.0,
+        zorder=line.order,
+    )
+    if line.style:
+        artist.set_gid(f"class:{line.style}")
+
+
+def limit_line(axes: Axes, x: float) -> None:
+    """Mark the end of a range of use: a strong vertical line with a casing of the background."""
+    for width, token in ((5.0, "bg"), (2.2, "fg")):
+        axes.axvline(x, color=sentinel(token), linewidth=width, zorder=2.5, solid_capstyle="butt")
+
+
+def shade(axes: Axes, low: float, high: float, *, hatched: bool = False) -> None:
+    """Shade a vertical zone, plainly (beyond a limit) or hatched (near a border)."""
+    if high <= low:
+        return
+    if hatched:
+        axes.axvspan(low, high, facecolor="none", edgecolor=sentinel("grid"), hatch="////", linewidth=0.0, zorder=0.4)
+    else:
+        axes.axvspan(low, high, color=sentinel("grid"), alpha=0.45, linewidth=0.0, zorder=0.3)
+
+
+def padded(values: Sequence[Array], *, share: float = 0.06) -> tuple[float, float]:
+    """Return limits around all finite values with a margin."""
+    joined = np.concatenate([np.ravel(v) for v in values] or [np.array([0.0, 1.0])])
+    joined = joined[np.isfinite(joined)]
+    if joined.size == 0:
+        return 0.0, 1.0
+    low, high = float(joined.min()), float(joined.max())
+    margin = share * (high - low) or 0.05 * abs(high) or 0.5
+    return low - margin, high + margin

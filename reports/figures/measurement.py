@@ -1,0 +1,191 @@
+"""One picture of what was measured: signal and amplitude, frequency over time, backbone and damping, with bands."""
+
+from __future__ import annotations
+
+import io
+import re
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import matplotlib.style
+import numpy as np
+from matplotlib.axes import Axes
+
+from ridgeback.compare.recording.survey import Measurement, Survey
+from ridgeback.reports.drawing.canvas import Array, Canvas, Line, draw, linear, padded, titles
+from ridgeback.reports.drawing.labels import place
+from ridgeback.reports.drawing.theme import DRAWING, SERIES, Variant, plain_colours, sentinel
+from ridgeback.reports.figures.over_time import Clock
+
+KINDS = ("svg", "png", "pdf")
+CLOCK = Clock("s")
+PAGE = Variant("wide", 9.6, 6.4)
+MOST_POINTS = 4000
+"""Samples drawn of each signal: more than a picture has columns."""
+LEFT, GAP = 52.0, 66.0
+LONGEST_NAME = 28
+"""Letters of a channel's name that fit under a panel."""
+TWO_SIDED = 1.96
+"""Standard deviations either side that hold 95 % of a normal distribution."""
+RESOLUTION = 160.0
+_NO_DATES = {
+    "svg": dict.fromkeys(("Creator", "Date", "Format", "Type")),
+    "pdf": {"Creator": None, "Producer": None, "CreationDate": None},
+    "png": {"Software": None},
+}
+
+
+@dataclass(frozen=True)
+class Band:
+    """A curve, and the lower and upper end of its 95 % interval, NaN where it claims none."""
+
+    line: Line
+    low: Array
+    high: Array
+
+
+def band_of(line: Line, deviation: Array) -> Band:
+    """A curve with its standard deviation either side, 1.96 times."""
+    return Band(line, line.y - TWO_SIDED * deviation, line.y + TWO_SIDED * deviation)
+
+
+def plot_file(found: Survey, kind: str) -> bytes:
+    """Return the picture of a survey as SVG, PNG or PDF."""
+    with (
+        matplotlib.style.context(["default", dict(DRAWING)]),
+        warnings.catch_warnings(),
+        plain_colours(),
+    ):
+        # A unit may hold a letter that the font lacks: it is drawn as a box, which is no reason to fail.
+        warnings.filterwarnings("ignore", message="Glyph .* missing from font", category=UserWarning)
+        canvas = drawn(found)
+        stream = io.BytesIO()
+        dpi = RESOLUTION if kind == "png" else 72.0
+        canvas.figure.savefig(stream, format=kind, metadata=_NO_DATES[kind], dpi=dpi)
+    data = stream.getvalue()
+    return without_classes(data) if kind == "svg" else data
+
+
+def without_classes(data: bytes) -> bytes:
+    """Ids that name classes for a page's style sheet have no meaning in a picture, and are not unique."""
+    return re.sub(rb' id="class:[^"]*"', b"", data)
+
+
+def drawn(found: Survey) -> Canvas:
+    """Draw the four panels."""
+    canvas = Canvas(PAGE)
+    canvas.figure.patch.set_visible(True)
+    canvas.figure.patch.set_facecolor(sentinel("bg"))
+    panels = canvas.grid((1.0, 1.0), 2, left=LEFT, gap=GAP)
+    shown = found.measured[: len(SERIES)]
+    cut = f", {len(shown)} of {len(found.measured)} signals" if len(shown) < len(found.measured) else ""
+    signal_panel(panels[0], shown, cut)
+    frequency_panel(panels[1], shown)
+    curve_panel(panels[2], found, "omega")
+    curve_panel(panels[3], found, "damping")
+    return canvas
+
+
+def channels(shown: Sequence[Measurement]) -> str:
+    """The channels drawn, for an axis title."""
+    names = list(dict.fromkeys(m.recording.channel for m in shown))
+    text = names[0] if len(names) == 1 else f"{names[0]} and others"
+    return clipped(text)
+
+
+def clipped(text: str) -> str:
+    """A name cut to what fits.
+
+    >>> clipped("x" * 40).count("x")
+    27
+    """
+    return text if len(text) <= LONGEST_NAME else text[: LONGEST_NAME - 1] + "…"
+
+
+def label_of(one: Measurement, shown: Sequence[Measurement]) -> str:
+    """What tells a signal from the others; nothing when it is the only one."""
+    if len(shown) == 1:
+        return ""
+    recording = one.recording
+    parts = []
+    if len({m.recording.run for m in shown}) > 1:
+        parts.append(recording.run)
+    if len({m.recording.channel for m in shown}) > 1:
+        parts.append(recording.name)
+    if len({(m.recording.run, m.recording.channel) for m in shown}) < len(shown):
+        parts.append(f"stretch {recording.stretch}")
+    return clipped(", ".join(part for part in parts if part))
+
+
+def signal_panel(axes: Axes, shown: Sequence[Measurement], more: str) -> None:
+    """The samples, and the amplitude of each on them."""
+    lines, envelopes = [], []
+    for one, token in zip(shown, SERIES, strict=False):
+        recording = one.recording
+        step = max(1, recording.time.size // MOST_POINTS)
+        lines.append(Line(recording.time[::step], recording.values[::step], "", token, width=0.6))
+        if one.backbone is not None:
+            curve = one.backbone
+            gap = np.diff(curve.time, prepend=curve.time[0]) > 1.5 * float(np.median(np.diff(curve.time)))
+            height = np.where(gap, np.nan, curve.offset + curve.amplitude)
+            label = "amplitude" if len(shown) == 1 else ""
+            envelopes.append(Line(curve.time, height, label, "s2" if len(shown) == 1 else "fg", width=1.4))
+    span(axes, lines)
+    linear(axes, "y", *padded([line.y for line in lines], share=0.14))
+    titles(axes, x=CLOCK.x_title, y=channels(shown) + more)
+    for line in [*lines, *envelopes]:
+        draw(axes, line)
+    place(axes, envelopes[:1] if len(shown) == 1 else [])
+
+
+def frequency_panel(axes: Axes, shown: Sequence[Measurement]) -> None:
+    """Frequency over time where it is valid, with its band."""
+    bands = [track_band(one, label_of(one, shown), token) for one, token in zip(shown, SERIES, strict=False)]
+    span(axes, [band.line for band in bands])
+    draw_bands(axes, bands, titled=(CLOCK.x_title, f"{CLOCK.y_title('ω₀')}, 95 % band"))
+
+
+def track_band(one: Measurement, label: str, token: str) -> Band:
+    """The frequency of one signal in display units."""
+    along = one.frequency()
+    line = Line(along.time, along.omega * CLOCK.factor, label, token, width=1.3)
+    return Band(line, along.low * CLOCK.factor, along.high * CLOCK.factor)
+
+
+def curve_panel(axes: Axes, found: Survey, what: str) -> None:
+    """Frequency or damping against amplitude: each signal, and what they have in common."""
+    shown = found.measured[: len(SERIES)]
+    factor = CLOCK.factor if what == "omega" else 1.0
+    bands = []
+    for one, token in zip(shown, SERIES, strict=False):
+        if one.backbone is not None:
+            curve = one.backbone
+            values, deviation = getattr(curve, f"curve_{what}"), getattr(curve, f"curve_{what}_sd")
+            line = Line(curve.curve_amplitude, values * factor, label_of(one, shown), token, width=1.3)
+            bands.append(band_of(line, deviation * factor))
+    for common in found.combined:
+        mean, deviation = getattr(common.curve, what), getattr(common.curve, f"{what}_sd")
+        label = "combined" if len(found.combined) == 1 else f"combined, {common.channel}"
+        line = Line(common.curve.amplitude, mean * factor, label, "fg", width=2.4)
+        bands.append(band_of(line, deviation * factor))
+    top = max((float(band.line.x[-1]) for band in bands), default=1.0)
+    linear(axes, "x", 0.0, 1.03 * top, ticks=6)
+    title = CLOCK.y_title("ω₀") if what == "omega" else "a′/a / (1/s)"
+    draw_bands(axes, bands, titled=(f"amplitude of {channels(shown)}", f"{title}, 95 % band"))
+
+
+def draw_bands(axes: Axes, bands: Sequence[Band], *, titled: tuple[str, str]) -> None:
+    """Curves over their bands."""
+    linear(axes, "y", *padded([values for band in bands for values in (band.line.y, band.low, band.high)], share=0.12))
+    titles(axes, x=titled[0], y=titled[1])
+    for band in bands:
+        axes.fill_between(band.line.x, band.low, band.high, color=sentinel(band.line.token), alpha=0.18, linewidth=0.0)
+        draw(axes, band.line)
+    place(axes, [band.line for band in bands if np.isfinite(band.line.y).any()])
+
+
+def span(axes: Axes, lines: Sequence[Line]) -> None:
+    """A time axis from the first time to the last."""
+    filled = [line.x for line in lines if line.x.size]
+    linear(axes, "x", min(float(x[0]) for x in filled), max(float(x[-1]) for x in filled), ticks=6)

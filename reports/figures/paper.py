@@ -1,0 +1,220 @@
+"""Figures 1 to 9 of the paper, drawn from our own numbers, each beside what the paper says of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from ridgeback.compare.results import Curve, DecayComparison, Statement
+from ridgeback.reports.drawing.block import Block, Readout, block
+from ridgeback.reports.drawing.canvas import Canvas, Line, draw, linear, padded, titles
+from ridgeback.reports.drawing.labels import place
+from ridgeback.reports.figures.over_time import Clock, plane_block, traces_of, tracks_block
+from ridgeback.reports.text.wording import number, relative
+
+
+@dataclass(frozen=True)
+class PaperFigure:
+    """One figure of the paper: its statement and what we draw for it."""
+
+    statement: Statement
+    blocks: tuple[Block, ...]
+
+
+def paper_figures(decay: DecayComparison) -> tuple[PaperFigure, ...]:
+    """Return the paper's figures for which the decay carries a statement, in the paper's order."""
+    ordered = sorted(decay.statements, key=lambda statement: statement.figure)
+    return tuple(PaperFigure(s, DRAWN[s.figure](decay, s) if s.figure in DRAWN else ()) for s in ordered)
+
+
+def _symbol(decay: DecayComparison) -> str:
+    return "θ" if "theta" in decay.case.symbol else "u"
+
+
+def _angle_title(decay: DecayComparison, symbol: str) -> str:
+    return f"{symbol} / {decay.case.unit}" if decay.case.unit else symbol
+
+
+def _signal_block(decay: DecayComparison, key: str, lines: list[Line], caption: str, title: str) -> Block:
+    clock = Clock(decay.case.time_unit)
+
+    def drawing(canvas: Canvas) -> None:
+        (axes,) = canvas.stack()
+        linear(axes, "x", float(decay.time[0]), float(decay.time[-1]), ticks=5 if canvas.narrow else 9)
+        linear(axes, "y", *padded([line.y for line in lines], share=0.14))
+        titles(axes, x=clock.x_title, y=_angle_title(decay, _symbol(decay)))
+        for line in lines:
+            draw(axes, line)
+        place(axes, [line for line in lines if line.label] if len(lines) > 1 else [])
+
+    readout = Readout("t", clock.time_unit, decay.case.unit, traces_of(lines), "time")
+    return block(
+        key, title=title, description=caption, caption=caption, draw=drawing, readout=readout, heights=(3.2, 3.0)
+    )
+
+
+def figure_1(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
+    """The integrated oscillation."""
+    symbol = _symbol(decay)
+    case = decay.case
+    unit = f" {case.unit}" if case.unit else ""
+    caption = (
+        f"{symbol}(t) of {case.title} with {', '.join(f'{k} = {number(v)}' for k, v in case.parameters.items())}; "
+        f"{symbol}(0) = {number(case.initial[0])}{unit}, {symbol}′(0) = {number(case.initial[1])}. "
+        f"Integrated by {decay.integrators[0] if decay.integrators else 'an unnamed integrator'}"
+        + (f"; the integrators differ by at most {number(decay.disagreement, 2)}{unit}." if decay.disagreement else ".")
+        + "".join(f" {further}." for further in decay.integrators[2:])
+    )
+    line = Line(decay.time, decay.u, f"{symbol}(t)", "s1", width=1.4)
+    return (_signal_block(decay, "paper1", [line], caption, f"Oscillation {symbol}(t)"),)
+
+
+def figure_2(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
+    """The spectrogram of the signal."""
+    symbol = _symbol(decay)
+    image = decay.spectrogram_u
+    return (_plane(decay, "paper2", image.note, title=f"Spectrogram of {symbol}", which="u"),)
+
+
+def figure_3(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
+    """The spectrogram of its derivative."""
+    symbol = _symbol(decay)
+    image = decay.spectrogram_velocity
+    return (_plane(decay, "paper3", image.note, title=f"Spectrogram of {symbol}′", which="velocity"),)
+
+
+def _plane(decay: DecayComparison, key: str, note: str, *, title: str, which: str) -> Block:
+    image = {"u": decay.spectrogram_u, "velocity": decay.spectrogram_velocity, "wigner": decay.wigner_u}[which]
+    caption = f"{image.name}, level in dB re its maximum, floor {image.floor_db:.0f} dB. {note}".replace("-", "−", 1)
+    return plane_block(key, image, Clock(decay.case.time_unit), title=title, caption=caption)
+
+
+def figure_4(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
+    """The amplitude (21) as envelope, beside the averaged action and the turning points."""
+    symbol = _symbol(decay)
+    amplitudes = decay.amplitudes
+    lines = [
+        Line(decay.time, decay.u, f"{symbol}(t)", "muted", width=0.9),
+        Line(amplitudes.time, amplitudes.energy, "A(t), eq. (21)", "s2"),
+    ]
+    if amplitudes.averaged is not None:
+        lines.append(Line(amplitudes.time, amplitudes.averaged, "A(t), averaged action", "s1", dash=(0, (6, 2))))
+    lines.append(Line(amplitudes.turning_time, amplitudes.turning_value, "turning points", "s3", marker="o"))
+    known = amplitudes.energy[np.isfinite(amplitudes.energy)]
+    ends = f"{number(float(known[0]))} to {number(float(known[-1]))} {decay.case.unit}".strip() if known.size else ""
+    caption = (
+        f"Peak amplitude A(t) from the energy, {ends}, over the oscillation; dots mark its turning points. "
+        f"{amplitudes.note}".strip()
+    )
+    return (_signal_block(decay, "paper4", lines, caption, "Amplitude A(t) as the envelope"),)
+
+
+def _named(decay: DecayComparison, statement: Statement, *, fallback: Callable[[Curve], bool]) -> list[Curve]:
+    everything = {curve.name: curve for curve in (*decay.curves, *decay.harmonics)}
+    named = [everything[name] for name in statement.curves if name in everything]
+    return named or [curve for curve in decay.curves if fallback(curve)][:4]
+
+
+def _tracks(decay: DecayComparison, statement: Statement, curves: list[Curve]) -> Block:
+    labels = {score.label: score for score in decay.scores}
+    errors = [
+        f"{curve.label} {relative(labels[curve.label].rms_interior)} rms, "
+        f"{relative(labels[curve.label].mean_interior, signed=True)} mean"
+        for curve in curves
+        if curve.label in labels and labels[curve.label].rms_interior is not None
+    ]
+    caption = f"Relative error over the interior: {'; '.join(errors)}." if errors else ""
+    return tracks_block(
+        f"paper{statement.figure}",
+        [decay.reference, *curves],
+        Clock(decay.case.time_unit),
+        title=statement.title,
+        caption=caption,
+        span=(float(decay.time[0]), float(decay.time[-1])),
+    )
+
+
+def figure_5(decay: DecayComparison, statement: Statement) -> tuple[Block, ...]:
+    """Estimated frequency, the paper's (14) and a low-order expansion."""
+    curves = _named(decay, statement, fallback=lambda curve: curve.kind in ("model", "expansion"))
+    return (_tracks(decay, statement, curves),)
+
+
+def figure_6(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
+    """The signal against its simple and its multicomponent model."""
+    symbol = _symbol(decay)
+    made = decay.reconstruction
+    lines = [
+        Line(made.time, made.signal, f"{symbol}(t)", "fg", width=2.2),
+        Line(made.time, made.single, "model (22)", "s2", width=1.2),
+    ]
+    caption = f"Model (22), one component: rms of the difference {relative(made.rms_single)} of the signal's rms"
+    if made.multicomponent is not None:
+        lines.append(Line(made.time, made.multicomponent, f"model (7), {made.components} components", "s3", width=1.2))
+        caption += f"; model (7), {made.components} components: {relative(made.rms_multicomponent)}"
+    clock = Clock(decay.case.time_unit)
+
+    def drawing(canvas: Canvas) -> None:
+        upper, lower = canvas.stack((1.5, 1.0), gap=36)
+        for axes in (upper, lower):
+            linear(axes, "x", float(made.time[0]), float(made.time[-1]), ticks=5 if canvas.narrow else 9)
+        rest = [Line(line.x, line.y - made.signal, line.label, line.token, width=1.2) for line in lines[1:]]
+        linear(upper, "y", *padded([line.y for line in lines], share=0.06), ticks=5)
+        linear(lower, "y", *padded([line.y for line in rest], share=0.3), ticks=4)
+        titles(upper, y=_angle_title(decay, _symbol(decay)))
+        titles(lower, x=clock.x_title, y=_angle_title(decay, f"model − {symbol}"))
+        for line in lines:
+            draw(upper, line)
+        for line in rest:
+            draw(lower, line)
+        place(lower, rest)
+
+    readout = Readout("t", clock.time_unit, decay.case.unit, traces_of(lines), "time")
+    return (
+        block(
+            "paper6",
+            title=f"{symbol}(t) and its models",
+            description=caption,
+            caption=f"{caption}. {made.note}".strip(),
+            draw=drawing,
+            readout=readout,
+            heights=(4.2, 4.2),
+        ),
+    )
+
+
+def figure_7(decay: DecayComparison, statement: Statement) -> tuple[Block, ...]:
+    """Frequency from the Wigner peak of the signal and of its derivative, and the Wigner plane itself."""
+    curves = _named(decay, statement, fallback=lambda curve: "wigner" in curve.name and curve.kind == "estimate")
+    plane = _plane(decay, "paper7w", decay.wigner_u.note, title=f"Wigner plane of {_symbol(decay)}", which="wigner")
+    return _tracks(decay, statement, curves), plane
+
+
+def figure_8(decay: DecayComparison, statement: Statement) -> tuple[Block, ...]:
+    """Frequency from the Wigner and the smoothed pseudo-Wigner peak."""
+    curves = _named(decay, statement, fallback=lambda curve: "wigner" in curve.name and curve.kind == "estimate")
+    return (_tracks(decay, statement, curves),)
+
+
+def figure_9(decay: DecayComparison, statement: Statement) -> tuple[Block, ...]:
+    """The harmonic against three times the fundamental."""
+    named = [curve for curve in decay.harmonics if curve.name in statement.curves]
+    return (_tracks(decay, statement, named or list(decay.harmonics)),)
+
+
+DRAWN: Mapping[int, Callable[[DecayComparison, Statement], tuple[Block, ...]]] = MappingProxyType(
+    {
+        1: figure_1,
+        2: figure_2,
+        3: figure_3,
+        4: figure_4,
+        5: figure_5,
+        6: figure_6,
+        7: figure_7,
+        8: figure_8,
+        9: figure_9,
+    }
+)

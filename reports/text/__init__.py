@@ -1,0 +1,4 @@
+"""Formulas as MathML, numbers and tables as text.
+
+Knows values, not figures.
+"""

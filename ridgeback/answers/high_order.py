@@ -1,0 +1,93 @@
+"""Very high orders from the command line: certified balls with a checkpoint, exact coefficients by many primes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ridgeback.options.budget import Watch
+from ridgeback.options.derivation import Request, refuse_weights
+
+if TYPE_CHECKING:
+    from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
+    from ridgeback.symbolic.expansion.expansion import Expansion
+    from ridgeback.symbolic.systems.oscillator import Oscillator
+
+STEEPNESS = 3.5
+"""Power of the order that the time of a march follows (expansion.cost): what is left is said by it."""
+
+
+def in_balls(oscillator: Oscillator, request: Request, digits: int, checkpoint: str | None) -> BallExpansion:
+    """Derive in balls, saying how far it is; an interrupt says how to go on.
+
+    Raises click.UsageError for options that balls do not have, InputError from the march, OSError for the checkpoint.
+    """
+    if request.method not in (None, "lindstedt"):
+        raise click.UsageError(f"--digits belongs to lindstedt, not to {request.method}; leave one of the two out")
+    refuse_weights(request, "--digits")
+    from ridgeback.symbolic.expansion.cost import Budget, predict
+    from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
+
+    cost, path = predict("balls", request.order), None if checkpoint is None else Path(checkpoint)
+    allowed = cost.within(request.budget or Budget())  # else the refusal says it
+    with Watch(f"order {request.order} in balls of {digits} digits", cost if allowed else None) as watch:
+        try:
+            return lindstedt_in_balls(
+                oscillator,
+                request.order,
+                digits=digits,
+                amplitude=request.amplitude or "peak",
+                checkpoint=path,
+                progress=lambda n, last: watch((n / last) ** STEEPNESS, f"order {n} of {last - 1}"),
+                budget=request.budget,
+            )
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(interrupted(f"before {watch.last or 'the first order'}", path)) from None
+
+
+def by_primes(oscillator: Oscillator, request: Request, workers: int, checkpoint: str | None) -> Expansion:
+    """Derive exactly modulo many primes in a pool of processes, saying how far it is; an interrupt says how to go on.
+
+    Raises click.UsageError for options that the primes do not have, InputError from the derivation, OSError.
+    """
+    if request.method not in (None, "lindstedt"):
+        raise click.UsageError(f"--workers belongs to lindstedt, not to {request.method}; leave one of the two out")
+    refuse_weights(request, "--workers")
+    from ridgeback.console.processes import processes
+    from ridgeback.symbolic.expansion.cost import Budget, predict
+    from ridgeback.symbolic.high_order.by_primes import expected_bits, law, lindstedt_by_primes
+
+    cost, path = (
+        predict(law(oscillator), request.order, workers=workers),
+        None if checkpoint is None else Path(checkpoint),
+    )
+    allowed = cost.within(request.budget or Budget())
+    last = expected_bits(oscillator, request.order)
+    with Watch(f"order {request.order} modulo many primes", cost if allowed else None) as watch:
+        try:
+            with processes(workers) as executor:
+                return lindstedt_by_primes(
+                    oscillator,
+                    request.order,
+                    amplitude=request.amplitude or "peak",
+                    executor=executor,
+                    workers=workers,
+                    progress=lambda n, done: watch(1.0 if done else min(n / last, 0.99), f"{n} bits of modulus"),
+                    checkpoint=path,
+                    budget=request.budget,
+                )
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(interrupted(f"after {watch.last or '0 bits of modulus'}", path)) from None
+
+
+def interrupted(when: str, path: Path | None) -> str:
+    """What to do after an interrupt.
+
+    >>> interrupted("before order 7 of 20", None)
+    'interrupted before order 7 of 20; nothing was kept: with --checkpoint FILE the next run could go on from here'
+    """
+    if path is None or not path.exists():
+        return f"interrupted {when}; nothing was kept: with --checkpoint FILE the next run could go on from here"
+    return f"interrupted {when}; the state is in {path}: run the same command again to go on from there"

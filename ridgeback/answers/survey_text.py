@@ -1,0 +1,147 @@
+"""What ``ridgeback estimate`` prints: tracks, half cycles and backbones of one signal or several, in three forms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from ridgeback.console.output import json_text
+from ridgeback.console.tables import aligned, csv_text, readable
+from ridgeback.options.model import MODEL_FIT
+
+if TYPE_CHECKING:
+    from ridgeback.compare.recording.survey import Common, Measurement, Survey
+    from ridgeback.numeric.recording.recording import Recording
+
+COMBINED = "combined"
+
+
+def survey_text(found: Survey, style: str, *, backbone: bool) -> str:
+    """All signals of a survey in the form asked for, tracks or backbones."""
+    if style == "json":
+        return json_text(as_json(found, backbone=backbone))
+    if style == "csv":
+        return as_csv(found, backbone=backbone)
+    parts = [one_text(one, backbone=backbone) for one in found.measured]
+    parts += [common_text(common) for common in found.combined] if backbone else []
+    notes = [*found.notes, *(f"Failed, {reason}." for reason in found.failed)]
+    return "\n".join(parts) + "".join(f"\n{note}" for note in notes) + ("\n" if notes else "")
+
+
+def rows_of(one: Measurement, *, backbone: bool) -> list[dict[str, Any]]:
+    """The rows of a signal; none where its backbone is asked for and there is none."""
+    if not backbone:
+        return [dict(row) for row in one.rows()]
+    return [dict(row) for row in one.backbone.rows()] if one.backbone is not None else []
+
+
+def as_json(found: Survey, *, backbone: bool) -> dict[str, Any]:
+    """One signal as it is, several in a list, with their combined backbones."""
+    signals = [one_json(one, backbone=backbone) for one in found.measured]
+    if len(signals) == 1 and not found.failed and not found.notes:
+        return signals[0]
+    combined = [
+        {
+            "channel": common.channel,
+            "amplitude": common.curve.definition,
+            "runs": common.curve.labels,
+            "backbone": common.curve.rows(),
+        }
+        for common in found.combined
+    ]
+    return {"signals": signals, "combined": combined, "notes": [*found.notes], "failed": [*found.failed]}
+
+
+def one_json(one: Measurement, *, backbone: bool) -> dict[str, Any]:
+    """Method, settings, notes, and the rows: the track and the backbone, or the backbone alone."""
+    whole: dict[str, Any] = {
+        "method": one.method,
+        "settings": about(one.recording, one.found.settings),
+        "recording": {"run": one.recording.run, "stretch": one.recording.stretch, **one.recording.facts},
+        "notes": [*one.notes, *misfit(one)],
+    }
+    if not backbone:
+        whole["track"] = one.rows()
+    curve = one.backbone
+    if curve is not None:
+        whole["amplitude_definition"] = curve.definition
+        whole["offset"] = curve.offset
+        whole["backbone"] = curve.rows()
+    return whole
+
+
+def misfit(one: Measurement) -> tuple[str, ...]:
+    """The sentence that a fitted oscillator is not what made the signal, where its residual says so."""
+    settings = one.found.settings
+    if one.method != MODEL_FIT or settings["residual_white"] is not False:
+        return ()
+    chance = settings["residual_probability"]
+    return (
+        f"Misfit: what the {settings['oscillator']} leaves of the signal is no white noise (probability {chance:.1g}), "
+        "so it is not the oscillator that made it; free more parameters or name another.",
+    )
+
+
+def asides(one: Measurement) -> list[str]:
+    """What a table of numbers has no room for: the notes, and why there is no interval."""
+    reason = one.found.settings.get("no_interval")
+    return [*one.notes, *([] if reason is None else [f"No interval: {reason}."])]
+
+
+def as_csv(found: Survey, *, backbone: bool) -> str:
+    """One table; with several signals each row says which, and a combined backbone is one more run."""
+    tables = [(named(one.recording), rows_of(one, backbone=backbone)) for one in found.measured]
+    if backbone:
+        tables += [
+            ({"run": COMBINED, "channel": c.channel, "stretch": ""}, [dict(r) for r in c.curve.rows()])
+            for c in found.combined
+        ]
+    rows = tables[0][1] if len(tables) == 1 else [{**name, **row} for name, lines in tables for row in lines]
+    return csv_text(list(columns_of(rows)), rows)
+
+
+def columns_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, None]:
+    """Every column that any row has, in order of appearance."""
+    found: dict[str, None] = {}
+    for row in rows:
+        found.update(dict.fromkeys(row))
+    return found
+
+
+def named(recording: Recording) -> dict[str, Any]:
+    """Which signal a row belongs to."""
+    return {
+        "run": recording.run or recording.source,
+        "channel": recording.channel,
+        "stretch": recording.stretch or "",
+    }
+
+
+def one_text(one: Measurement, *, backbone: bool) -> str:
+    """Heading, notes and table of one signal."""
+    rows = rows_of(one, backbone=backbone)
+    table = aligned(list(columns_of(rows)), rows) if rows else "no rows"
+    notes = "".join(f"\n{note}" for note in (*one.notes, *misfit(one)))
+    return f"{heading(one)}{notes}\n\n{table}\n"
+
+
+def common_text(common: Common) -> str:
+    """Heading and table of a combined backbone."""
+    rows = common.curve.rows()
+    title = f"combined backbone of {common.channel}: {'; '.join(common.curve.labels)}"
+    how = "weighted by precision and by the scatter between them, which the columns between_runs give"
+    return f"{title}\n{how}\n\n{aligned(list(rows[0]), rows)}\n"
+
+
+def about(recording: Recording, settings: Mapping[str, object]) -> dict[str, object]:
+    """The estimator's settings, and which samples of which file they were used on."""
+    return {"source": recording.source, "sha256": recording.sha256, "column": recording.name, **settings}
+
+
+def heading(one: Measurement) -> str:
+    """What was estimated, from what, and how."""
+    recording = one.recording
+    known = {name: value for name, value in one.found.settings.items() if isinstance(value, (int, float, str))}
+    settings = ", ".join(f"{name} = {readable(value)}" for name, value in known.items())
+    samples = f"{len(recording.values)} samples at {recording.rate:g} per second"
+    return f"{recording.label}: {samples}\n{one.method}: {settings}"

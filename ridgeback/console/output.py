@@ -1,0 +1,168 @@
+"""Output whole or not at all: a file appears when its text is complete, or stays as it was."""
+
+from __future__ import annotations
+
+import errno
+import json
+import math
+import os
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ridgeback.common.files import write_whole
+
+STDOUT = "-"
+
+
+class OutputPath(str):
+    """A place that was named to be written to."""
+
+    __slots__ = ()
+
+
+def output_path(text: str) -> OutputPath:
+    """A place to write to, refused before the work starts as the operating system would at its end.
+
+    >>> output_path("-")
+    '-'
+    """
+    if "\0" in text or not text:
+        raise click.BadParameter("a file name cannot be empty or hold a null character; use - for the screen")
+    check_writable(text)
+    return OutputPath(text)
+
+
+def check_writable(path: str) -> None:
+    """Raise the OSError that writing ``path`` would end in: a missing folder, a directory, no permission.
+
+    >>> check_writable("no/such/folder/out.csv")
+    Traceback (most recent call last):
+        ...
+    FileNotFoundError: [Errno 2] No such folder: 'no/such/folder'
+    """
+    if path == STDOUT:
+        return
+    target = Path(path).resolve()
+    if target.is_dir():
+        raise IsADirectoryError(errno.EISDIR, "It is a folder, not a file", path)
+    folder = target.parent
+    if not folder.is_dir():
+        raise FileNotFoundError(errno.ENOENT, "No such folder", str(Path(path).parent))
+    refused = target if target.exists() and not target.is_file() else folder
+    if not os.access(refused, os.W_OK):
+        raise PermissionError(errno.EACCES, "No permission to write", path)
+    if target.is_file() and not target.stat().st_mode & 0o222:
+        raise PermissionError(errno.EACCES, "The file is read-only; allow writing or name another", path)
+
+
+def keep_apart(written: Mapping[str, str | None], read: Iterable[str | None] = ()) -> None:
+    """Refuse two outputs in one file, and an output over a file that is read; ``written`` is by option.
+
+    Raises click.UsageError before the work starts.  Devices and pipes lose nothing and are let through.
+
+    >>> keep_apart({"-o": "out.svg", "--plot": "./out.svg"})
+    Traceback (most recent call last):
+        ...
+    click.exceptions.UsageError: --plot './out.svg' is the file of -o too; give each a name of its own
+    """
+    taken = [(path, "a file that is read") for path in read if path is not None]
+    for option, path in written.items():
+        if path is None or path == STDOUT:
+            continue
+        target = Path(path)
+        if target.exists() and not target.is_file():
+            continue
+        for other, what in taken:
+            if same_file(path, other):
+                raise click.UsageError(f"{option} '{path}' is {what} too; give each a name of its own")
+        taken.append((path, f"the file of {option}"))
+
+
+def same_file(one: str, other: str) -> bool:
+    """Whether two names are of one file, through symbolic links, hard links and other spellings.
+
+    >>> same_file("a.csv", "./a.csv"), same_file("a.csv", "b.csv")
+    (True, False)
+    """
+    try:
+        return Path(one).resolve() == Path(other).resolve() or Path(one).samefile(other)
+    except OSError:
+        return False
+
+
+def write_text(path: str, text: str) -> None:
+    """Write the whole text, or leave what was there; ``-`` prints it, devices and pipes are written to."""
+    if path == STDOUT:
+        print_text(text)
+        return
+    check_writable(path)
+    target = Path(path).resolve()
+    if target.exists() and not target.is_file():
+        target.write_text(text, encoding="utf-8")
+        return
+    write_whole(target, [text.encode()])
+
+
+def write_bytes(path: str, data: bytes) -> None:
+    """Write the whole content, or leave what was there; devices and pipes are written to."""
+    check_writable(path)
+    target = Path(path).resolve()
+    if target.exists() and not target.is_file():
+        target.write_bytes(data)
+        return
+    write_whole(target, [data])
+
+
+def print_text(text: str) -> None:
+    """Print the whole text: an unbuffered standard output may take a part of it and say so only by a number."""
+    binary = getattr(sys.stdout, "buffer", None)
+    if binary is None:
+        sys.stdout.write(text)
+        return
+    sys.stdout.flush()
+    rest = memoryview(text.encode(sys.stdout.encoding or "utf-8", "backslashreplace"))
+    while rest:
+        rest = rest[binary.write(rest) :]
+    binary.flush()
+
+
+def plain(value: Any) -> Any:
+    """The value as JSON knows it: arrays and tuples to lists, non-finite numbers to null, exact ones to text.
+
+    >>> plain({"omega": (1.5, float("nan")), "order": 3})
+    {'omega': [1.5, None], 'order': 3}
+    """
+    match value:
+        case None | bool() | str():
+            return value
+        case Mapping():
+            return {str(key): plain(item) for key, item in value.items()}
+    if hasattr(value, "tolist"):
+        return plain(value.tolist())
+    match value:
+        case int():
+            return int(value)
+        case float():
+            return float(value) if math.isfinite(value) else None
+        case Sequence() | set() | frozenset():
+            return [plain(item) for item in value]
+    return str(value)
+
+
+def json_text(value: Any) -> str:
+    """JSON with a line end; what is not a finite number is null, never NaN.
+
+    >>> print(json_text({"rows": [{"omega": float("inf")}]}), end="")
+    {
+      "rows": [
+        {
+          "omega": null
+        }
+      ]
+    }
+    """
+    return json.dumps(plain(value), indent=2, allow_nan=False) + "\n"

@@ -1,0 +1,136 @@
+"""How a verb is told which estimator to use, and with which windows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import wraps
+from typing import Any
+
+import click
+
+from ridgeback.options.arguments import BAND, POSITIVE
+from ridgeback.options.model import Model
+
+Command = Callable[..., None]
+WINDOWS = ("blackman", "gaussian", "hamming", "hann", "rectangular")
+
+
+@dataclass(frozen=True)
+class Estimator:
+    """Method and settings as they were said; ``given`` are the settings in the words of ``estimators.estimate``."""
+
+    method: str
+    band: tuple[float, float] | None
+    lag: float | None
+    remove_bias: bool
+    window: str | None = None
+    smoothing: float | None = None
+    harmonics: int | None = None
+    order: int | None = None
+    band_limited: bool = False
+    single: bool = False
+    model: Model | None = None
+
+    def given(self) -> dict[str, Any]:
+        """Keyword arguments of ``estimate``; what was not said keeps its default there."""
+        said: dict[str, Any] = {
+            "method": self.method,
+            "band": self.band,
+            "lag_seconds": self.lag,
+            "lag_window": self.window,
+            "smoothing_seconds": self.smoothing,
+            "harmonics": self.harmonics,
+            "order": self.order,
+            "band_limited": self.band_limited or None,
+            "single": self.single or None,
+            "remove_bias": self.remove_bias,
+            "family": None if self.model is None else self.model.family(self.method),
+        }
+        return {name: value for name, value in said.items() if value is not None}
+
+    def beside(self, *names: str) -> list[str]:
+        """Options that were given although only those of these settings have a meaning.
+
+        >>> Estimator("auto", None, 2.0, True).beside("band", "lag_seconds")
+        ['--remove-bias']
+        """
+        unset = {"method": "auto", "remove_bias": False}
+        given = [name for name, value in self.given().items() if name not in names and value != unset.get(name)]
+        return [SPELLED.get(name, "--" + name.replace("_", "-")) for name in given]
+
+
+SPELLED = {"lag_seconds": "--lag", "lag_window": "--window", "smoothing_seconds": "--smoothing"}
+
+
+def estimator_options(command: Command) -> Command:
+    """Give a verb the options of the estimators, as one ``estimator``."""
+
+    @wraps(command)
+    def wrapped(
+        *args: Any,
+        method: str,
+        band: tuple[float, float] | None,
+        lag: float | None,
+        remove_bias: bool,
+        window: str | None,
+        smoothing: float | None,
+        harmonics: int | None,
+        order: int | None,
+        band_limited: bool,
+        single: bool,
+        **rest: Any,
+    ) -> None:
+        estimator = Estimator(method, band, lag, remove_bias, window, smoothing, harmonics, order, band_limited, single)
+        command(*args, estimator=estimator, **rest)
+
+    for option in reversed(OPTIONS):
+        wrapped = option(wrapped)
+    return wrapped
+
+
+OPTIONS = (
+    click.option(
+        "--method", default="auto", show_default=True, metavar="NAME", help="Estimator; a wrong name lists them all."
+    ),
+    click.option(
+        "--band", type=BAND, default=None, metavar="LOW,HIGH", help="Search band in rad/s.  Default: from the data."
+    ),
+    click.option(
+        "--lag", type=POSITIVE, default=None, metavar="SECONDS", help="Length of the window.  Default: four cycles."
+    ),
+    click.option(
+        "--window",
+        type=click.Choice(WINDOWS),
+        default=None,
+        help="Lag window of the Wigner family.  Default: blackman.",
+    ),
+    click.option(
+        "--smoothing",
+        type=POSITIVE,
+        default=None,
+        metavar="SECONDS",
+        help="Time smoothing of smoothed-pseudo-wigner.  Default: one cycle.",
+    ),
+    click.option(
+        "--harmonics",
+        type=click.IntRange(1, 99),
+        default=None,
+        metavar="N",
+        help="Highest harmonic that harmonic-least-squares fits.  Default: those the data show.",
+    ),
+    click.option(
+        "--order",
+        type=click.Choice(("4", "6")),
+        callback=lambda _, __, value: None if value is None else int(value),
+        default=None,
+        help="Of the polynomial Wigner distribution.  Default: 6.",
+    ),
+    click.option(
+        "--band-limited",
+        is_flag=True,
+        help="Limit the signal to its band first (wigner, pseudo-wigner, smoothed-pseudo-wigner): faster.",
+    ),
+    click.option("--single", is_flag=True, help="Compute these three in single precision."),
+    click.option("--remove-bias", is_flag=True, help="Take the estimated bias off the values."),
+)

@@ -1,0 +1,37 @@
+"""``--plot FILE``: a picture beside the numbers, its form told by the file's ending."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import click
+
+from ridgeback.console.output import OutputPath, output_path
+from ridgeback.options.arguments import shown
+
+Decorated = TypeVar("Decorated", bound=Callable[..., Any])
+
+KINDS = ("svg", "png", "pdf")
+
+
+def picture_path(text: str) -> OutputPath:
+    """A place to draw to, with one of the endings that can be drawn.
+
+    >>> picture_path("decay.svg")
+    'decay.svg'
+    """
+    if text.rpartition(".")[2].lower() not in KINDS or "." not in text:
+        raise click.BadParameter(f"{shown(text)} does not end in .svg, .png or .pdf; name a picture file")
+    return output_path(text)
+
+
+def plot_option(command: Decorated) -> Decorated:
+    """``--plot FILE``."""
+    return click.option(
+        "--plot",
+        type=picture_path,
+        default=None,
+        metavar="FILE.svg|png|pdf",
+        help="Draw the signal, frequency, backbone and damping with their bands.",
+    )(command)

@@ -1,0 +1,137 @@
+"""How a verb is told where the samples are in a file, and what is to be done with gaps, uneven times and drift."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import wraps
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ridgeback.options.arguments import POSITIVE
+
+if TYPE_CHECKING:
+    from ridgeback.numeric.recording.recording import Recording
+
+Command = Callable[..., None]
+DETRENDS = ("none", "linear", "slow")
+
+
+@dataclass(frozen=True)
+class Treatment:
+    """What is to be done with uneven times, gaps and drift."""
+
+    resample: float | None = None
+    fill: float | None = None
+    detrend: str = "none"
+
+    def given(self) -> dict[str, Any]:
+        """What was asked for, by the names of the readers' arguments."""
+        said = {"resample": self.resample, "fill": self.fill, "detrend": self.detrend}
+        return {name: value for name, value in said.items() if value not in (None, "none")}
+
+
+@dataclass(frozen=True)
+class Reading:
+    """Where the samples and their times are in a file, and how they are to be treated."""
+
+    column: str | None = None
+    time_column: str | None = None
+    rate: float | None = None
+    run_column: str | None = None
+    treatment: Treatment = field(default_factory=Treatment)
+
+    def one(self, file: str) -> Recording:
+        """The longest stretch of the one signal; the file's own problems are named by the reader."""
+        from ridgeback.numeric.recording.recording import read_recording
+
+        where: dict[str, Any] = {"column": self.column, "time_column": self.time_column, "rate": self.rate}
+        return read_recording(file, **where, **self.treatment.given())
+
+    def all(self, files: Sequence[str]) -> tuple[Recording, ...]:
+        """Every stretch of every channel of every run."""
+        from ridgeback.numeric.recording.recording import read_recordings
+
+        return read_recordings(
+            files,
+            columns=self.column,
+            time_column=self.time_column,
+            rate=self.rate,
+            run_column=self.run_column,
+            **self.treatment.given(),
+        )
+
+
+def added(command: Command, options: Sequence[Callable[[Command], Command]]) -> Command:
+    """Give a command options, the first of them first in its help."""
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def treatment_options(command: Command) -> Command:
+    """Give a verb ``--resample``, ``--fill`` and ``--detrend``, as one ``treatment``."""
+
+    @wraps(command)
+    def wrapped(*args: Any, resample: float | None, fill: float | None, detrend: str, **rest: Any) -> None:
+        command(*args, treatment=Treatment(resample, fill, detrend), **rest)
+
+    return added(wrapped, TREATMENT_OPTIONS)
+
+
+def reading_options(command: Command) -> Command:
+    """Give a verb all options of reading, as one ``reading``."""
+
+    @treatment_options
+    @wraps(command)
+    def wrapped(
+        *args: Any,
+        column: str | None,
+        time_column: str | None,
+        rate: float | None,
+        run_column: str | None,
+        treatment: Treatment,
+        **rest: Any,
+    ) -> None:
+        command(*args, reading=Reading(column, time_column, rate, run_column, treatment), **rest)
+
+    return added(wrapped, PLACE_OPTIONS)
+
+
+PLACE_OPTIONS = (
+    click.option(
+        "--column",
+        default=None,
+        metavar="NAME[,NAME...]",
+        help='The samples: names or numbers from 1, or "all".  Needed when the file holds several signals.',
+    ),
+    click.option("--time-column", default=None, metavar="NAME", help="The times.  Default: found by its name."),
+    click.option(
+        "--rate", type=POSITIVE, default=None, metavar="R", help="Samples per second, in place of a time column."
+    ),
+    click.option("--run-column", default=None, metavar="NAME", help="The column that numbers the runs."),
+)
+TREATMENT_OPTIONS = (
+    click.option(
+        "--resample",
+        type=POSITIVE,
+        default=None,
+        metavar="R",
+        help="Interpolate uneven times to R samples per second; bring even ones to this rate.",
+    ),
+    click.option(
+        "--fill",
+        type=POSITIVE,
+        default=None,
+        metavar="SECONDS",
+        help="Interpolate between samples up to this far apart.  Default: cut where one is missing.",
+    ),
+    click.option(
+        "--detrend",
+        type=click.Choice(DETRENDS),
+        default="none",
+        show_default=True,
+        help="Take off a straight line, or the slow part (a mean over six cycles).",
+    ),
+)

@@ -1,0 +1,90 @@
+"""Numbers as balls: exact input in, rigorous ``arb`` enclosures out, one rounding at the very end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any, Final
+
+import sympy
+from flint import arb, ctx, fmpq
+
+from ridgeback.common.errors import InputError
+
+_GUARD_BITS: Final = 64
+
+
+def rational(value: Fraction | sympy.Rational) -> fmpq:
+    """Return an exact rational in FLINT's form.
+
+    >>> rational(Fraction(2, 6))
+    1/3
+    """
+    return fmpq(int(value.numerator), int(value.denominator))
+
+
+def ball(value: Any) -> arb:
+    """Return a number as a ball: exact for floats and whole numbers, rounded outwards at the working precision else.
+
+    Takes int, float, Fraction, SymPy rationals, mpmath's mpf, FLINT's numbers, and NumPy's float scalars.  Raises
+    InputError for anything else.
+
+    >>> ball(Fraction(1, 4)), ball(0.5)
+    (0.250000000000000, 0.500000000000000)
+    """
+    if isinstance(value, arb | fmpq):
+        return arb(value)
+    if isinstance(value, Fraction | sympy.Rational):
+        return arb(rational(value))
+    if hasattr(value, "_mpf_"):
+        sign, mantissa, exponent, _ = value._mpf_
+        return arb((-int(mantissa) if sign else int(mantissa), int(exponent)))
+    if isinstance(value, int | float):
+        return arb(value)
+    raise InputError(f"{value!r} is a {type(value).__name__}, not a real number; give a float, a fraction or an arb")
+
+
+def whole_power(x: arb, n: int) -> arb:
+    """Return x^n by multiplication: FLINT's own power goes by the logarithm and has no answer on balls around 0.
+
+    >>> whole_power(arb(0, 1), 2).is_finite()
+    True
+    """
+    result = arb(1)
+    for _ in range(n):
+        result = result * x
+    return result
+
+
+def natural_frequency(scale: sympy.Expr) -> arb:
+    """Return k, known exactly as the square root of a rational, as a ball.
+
+    Raises InputError when a parameter in it is still symbolic.
+
+    >>> natural_frequency(2 * sympy.sqrt(2)).str(10, radius=False)
+    '2.828427125'
+    """
+    square = sympy.expand(scale**2)
+    if not square.is_Rational:
+        raise InputError(f"the natural frequency {scale} has no number for its parameters; set them before evaluating")
+    return arb(rational(square)).sqrt()
+
+
+def evaluated(function: Callable[[arb], arb], value: Any) -> Any:
+    """Evaluate a function of balls at a float, at each element of an array, or at an mpf in its own precision.
+
+    The result has the type of the value (a float for whole numbers and fractions) and one rounding.
+
+    >>> evaluated(lambda x: x.sqrt(), 2.0) == 2.0**0.5
+    True
+    """
+    if hasattr(value, "flat") and value.ndim > 0:
+        result = value * 1.0
+        result.flat[:] = [evaluated(function, x) for x in value.flat]
+        return result
+    if not hasattr(value, "_mpf_"):
+        with ctx.workprec(53 + _GUARD_BITS):
+            return float(function(ball(value)))
+    with ctx.workprec(value.context.prec + _GUARD_BITS):
+        mantissa, exponent = function(ball(value)).mid().man_exp()
+    return type(value)(int(mantissa)) * type(value)(2) ** int(exponent)

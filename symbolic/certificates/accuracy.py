@@ -1,0 +1,146 @@
+"""How good each formula for omega0 is at an amplitude: its error against the enclosure of the exact frequency."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from typing import TypeAlias
+
+from flint import arb, ctx
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.balls import rational
+from ridgeback.symbolic.enclosure.enclosure import DEFINITIONS, Amplitude, enclose
+from ridgeback.symbolic.expansion.energy_integral import energy_integral
+from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.resummation.elliptic_nome import nome
+from ridgeback.symbolic.resummation.pade import mapped, mapping_for, pade
+from ridgeback.symbolic.resummation.resummation import Resummation
+from ridgeback.symbolic.series.spaces import Scalar
+from ridgeback.symbolic.singularities.limits import limits
+from ridgeback.symbolic.systems.oscillator import Oscillator, V
+
+Ball: TypeAlias = arb
+"""A real number enclosed: a middle and a radius."""
+FIRST_TERMS = 4
+"""Order through which an expansion must agree with the oscillator's own series."""
+
+Formula: TypeAlias = Expansion | Resummation
+
+_LONGER = 40
+"""Order of the expansion that settles the singularity when the one asked for is shorter."""
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """The relative errors of one formula, one ball per amplitude; None where it does not hold."""
+
+    formula: Formula
+    errors: tuple[arb | None, ...]
+
+
+def certified_error(oscillator: Oscillator, formula: Formula, amplitude: Amplitude, *, bits: int = 128) -> arb:
+    """Return a ball around formula/omega0 - 1 at an amplitude, in the formula's own definition of it.
+
+    The sign of the answer is proved when the ball excludes 0.  Raises InputError where the formula does not hold, for
+    another oscillator's formula, for definitions that have no enclosure, and as ``enclose`` does.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> error = certified_error(find("pendulum"), nome(find("pendulum"), 16), 1)
+    >>> bool(abs(error) < 1e-18)
+    True
+    """
+    if isinstance(formula, Expansion):
+        check_belongs(oscillator, formula)
+    elif formula.system != oscillator.name or formula.scale != oscillator.natural_frequency or formula.variable != "A":
+        raise InputError(
+            f"the {formula.method} formula of {formula.system} in {formula.variable} has no certified error against "
+            f"{oscillator.name}; derive it in the amplitude from the same parameters"
+        )
+    exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
+    with ctx.workprec(bits + 40):
+        return formula.in_balls(arb(rational(exact.amplitude))) / exact.omega - 1
+
+
+def check_belongs(oscillator: Oscillator, expansion: Expansion) -> None:
+    """Raise InputError unless the series is an amplitude series of this oscillator, judged by its first terms.
+
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> check_belongs(find("duffing"), lindstedt(find("pendulum"), 4))
+    Traceback (most recent call last):
+        ...
+    ridgeback.common.errors.InputError: the expansion of pendulum is not one of duffing-hardening; derive it from ...
+    """
+    if expansion.variable != "A" or expansion.amplitude not in DEFINITIONS:
+        raise InputError(
+            f"a certified error needs an expansion in the amplitude defined by {' or '.join(DEFINITIONS)}, not "
+            f"{expansion.amplitude} in {expansion.variable}; derive it so"
+        )
+    own = _first_terms(oscillator, expansion.amplitude)
+    differ = any(a != b for a, b in zip(own, expansion.coefficients, strict=False))
+    if differ or expansion.scale != oscillator.natural_frequency:
+        raise InputError(
+            f"the expansion of {expansion.system} is not one of {oscillator.name}; derive it from the same parameters"
+        )
+
+
+@lru_cache(maxsize=64)
+def _first_terms(oscillator: Oscillator, definition: str) -> tuple[Scalar, ...]:
+    return _series(oscillator, FIRST_TERMS, definition).coefficients
+
+
+def _series(oscillator: Oscillator, order: int, definition: str = "peak") -> Expansion:
+    """The series by the energy integral, or by Lindstedt-Poincaré where the force holds u'."""
+    derive = lindstedt if oscillator.substituted_force.has(V) else energy_integral
+    return derive(oscillator, order, amplitude=definition)
+
+
+def resummations(oscillator: Oscillator, order: int) -> tuple[Formula, ...]:
+    """Return the truncated series of a conservative oscillator and every resummation of it that exists at this order.
+
+    Left out are those that do not apply: a Padé approximant with a pole in its range, a map without a known
+    singularity, the nome of a force that has none.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> [formula.method for formula in resummations(find("duffing"), 8)]
+    ['energy-integral', 'Pade [2/2]', 'Euler transformation', 'elliptic nome after 2 Landen steps']
+    """
+    series = _series(oscillator, order)
+    found = limits(_series(oscillator, max(order, _LONGER)))
+    builders = (
+        lambda: pade(series),
+        lambda: mapped(series, mapping_for(found)),
+        lambda: nome(oscillator, order),
+    )
+    result: list[Formula] = [series]
+    for build in builders:
+        try:
+            result.append(build())
+        except InputError:
+            continue  # a refusal is an answer here: this formula does not exist for this oscillator
+    return tuple(result)
+
+
+def accuracy(oscillator: Oscillator, order: int, amplitudes: Sequence[Fraction]) -> tuple[Accuracy, ...]:
+    """Return the certified relative errors of the series and its resummations at the amplitudes.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> rows = accuracy(find("duffing"), 16, [Fraction(3)])
+    >>> [f"{float(abs(row.errors[0]).mid()):.0e}" for row in rows]
+    ['1e+05', '5e-03', '2e-01', '2e-15']
+    """
+    return tuple(
+        Accuracy(formula, tuple(_error(oscillator, formula, amplitude) for amplitude in amplitudes))
+        for formula in resummations(oscillator, order)
+    )
+
+
+def _error(oscillator: Oscillator, formula: Formula, amplitude: Fraction) -> arb | None:
+    try:
+        return certified_error(oscillator, formula, amplitude)
+    except InputError:
+        return None

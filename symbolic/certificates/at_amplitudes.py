@@ -1,0 +1,124 @@
+"""The exact frequency at given amplitudes, enclosed, and a formula held against it there with its certified error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TypeAlias
+
+from flint import arb, ctx
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.balls import rational
+from ridgeback.symbolic.certificates.accuracy import check_belongs
+from ridgeback.symbolic.enclosure.enclosure import Enclosure, enclose, rounded_up
+from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, ball_row
+from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.resummation.resummation import Resummation
+from ridgeback.symbolic.systems.oscillator import Oscillator
+
+Formula: TypeAlias = Expansion | BallExpansion | Resummation
+
+GUARD = 40
+ERROR_DIGITS = 6
+"""Digits in which an error is printed."""
+
+
+@dataclass(frozen=True)
+class Reading:
+    """omega0 at one amplitude; ``value`` is a formula's omega0 there, ``error`` is value/omega0 - 1, both in balls."""
+
+    exact: Enclosure
+    value: arb | None = None
+    error: arb | None = None
+
+    def to_dict(self, digits: int) -> dict[str, object]:
+        """The public JSON form: decimals with the radius that the truth is within.
+
+        ``formula_omega0`` is what the formula gives; ``relative_error`` is signed, and its size is certainly at most
+        ``error_bound``.
+        """
+        with ctx.workprec(self.exact.bits + GUARD):
+            ball = ball_row(self.exact.omega, digits)
+            row: dict[str, object] = {
+                "amplitude": float(self.exact.amplitude),
+                "amplitude_exact": str(self.exact.amplitude),
+                "omega0": ball["coefficient"],
+                "radius": ball["radius"],
+                "certain_digits": ball["certain_digits"],
+                "by": self.exact.method,
+            }
+            if self.value is None or self.error is None:
+                return row
+            row["formula_omega0"] = self.value.str(digits, radius=False)
+            row["relative_error"] = None if self.error.contains(0) else self.error.str(ERROR_DIGITS, radius=False)
+            row["error_bound"] = rounded_up(abs(self.error))
+            return row
+
+
+@dataclass(frozen=True)
+class Unread:
+    """An amplitude at which omega0 could not be enclosed, and why."""
+
+    amplitude: Fraction
+    why: str
+
+    def to_dict(self, digits: int) -> dict[str, object]:  # noqa: ARG002 - the signature of Reading
+        """The public JSON form: the keys of a reading with nothing in them, and the reason."""
+        return {
+            "amplitude": float(self.amplitude),
+            "amplitude_exact": str(self.amplitude),
+            "omega0": None,
+            "radius": None,
+            "refused": self.why,
+        }
+
+
+def wherever(read: Callable[[Fraction], Reading], amplitudes: Sequence[Fraction]) -> tuple[Reading | Unread, ...]:
+    """Read each amplitude; those that are refused keep their place.  Raises the first refusal when all are.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> [type(row).__name__ for row in wherever(lambda a: Reading(enclose(find("pendulum"), a)), [1, 4])]
+    ['Reading', 'Unread']
+    """
+    found: list[Reading | Unread] = []
+    refusals = []
+    for amplitude in amplitudes:
+        try:
+            found.append(read(amplitude))
+        except InputError as refusal:
+            refusals.append(refusal)
+            found.append(Unread(amplitude, str(refusal)))
+    if refusals and len(refusals) == len(found):
+        raise refusals[0]
+    return tuple(found)
+
+
+def reading(oscillator: Oscillator, formula: Formula, amplitude: Fraction, *, bits: int = 128) -> Reading:
+    """Enclose omega0 at one amplitude, and the formula with its error; raises as ``readings``."""
+    exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
+    if isinstance(formula, Expansion):
+        check_belongs(oscillator, formula)
+    if formula.variable != "A" or formula.system != oscillator.name:
+        raise InputError(f"{formula.method} of {formula.system} is no series of {oscillator.name} in its amplitude")
+    with ctx.workprec(bits + GUARD):
+        value = formula.in_balls(arb(rational(exact.amplitude)))
+        return Reading(exact, value, value / exact.omega - 1)
+
+
+def readings(
+    oscillator: Oscillator, formula: Formula, amplitudes: Sequence[Fraction], *, bits: int = 128
+) -> tuple[Reading, ...]:
+    """Enclose omega0 at each amplitude, in the formula's own definition, and the formula with its error.
+
+    Raises InputError as ``enclosure.enclose`` does (limit cycles, damping, the separatrix), for definitions without an
+    enclosure, for another oscillator's formula, and where the formula does not hold.
+
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> row = readings(find("pendulum"), lindstedt(find("pendulum"), 8), [Fraction(1)])[0].to_dict(12)
+    >>> row["omega0"], row["relative_error"]
+    ('0.937792258051', '1.71087e-7')
+    """
+    return tuple(reading(oscillator, formula, amplitude, bits=bits) for amplitude in amplitudes)

@@ -1,0 +1,169 @@
+"""Independent checks of an expansion, each done anew in exact arithmetic.
+
+A residual alone misses the last homogeneous term, so the normalisation is a check of its own; the energy integral and
+multiple scales share nothing with Lindstedt-Poincaré but the Taylor coefficients of the force.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.expansion.amplitude import measured
+from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
+from ridgeback.symbolic.expansion.energy_integral import energy_integral
+from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.flow.slow_flow import SlowFlow
+from ridgeback.symbolic.series.trigonometric import at_zero, harmonic
+from ridgeback.symbolic.systems.oscillator import Oscillator, V
+
+FLOW_ORDER = 24
+"""Multiple scales is compared through this order at most; beyond it costs more than it tells."""
+
+BALL_ORDER = 48
+"""Balls are held against exact coefficients through this order at most."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check: ``passed`` is None when it does not apply, and the statement says why."""
+
+    name: str
+    passed: bool | None
+    statement: str
+
+    def to_dict(self) -> dict[str, object]:
+        """The public JSON form."""
+        return {"check": self.name, "passed": self.passed, "statement": self.statement}
+
+
+def certify(oscillator: Oscillator, result: Expansion | SlowFlow) -> tuple[Check, ...]:
+    """Run every check that applies to the result.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> [c.name for c in certify(find("pendulum"), lindstedt(find("pendulum"), 6)) if c.passed]
+    ['residual', 'normalisation', 'energy integral', 'multiple scales']
+    """
+    if isinstance(result, SlowFlow):
+        return (_flow_residual(result), _guarded("lindstedt", lambda: _flow_against_lindstedt(oscillator, result)))
+    if result.waveform is None:
+        return (_guarded("lindstedt", lambda: _against_lindstedt(oscillator, result)),)
+    checks = [_residual(result), _normalisation(result)]
+    if result.variable == "A":
+        checks.append(_guarded("energy integral", lambda: _against_energy(oscillator, result)))
+        checks.append(_guarded("multiple scales", lambda: _against_flow(oscillator, result)))
+    return tuple(checks)
+
+
+def certify_balls(oscillator: Oscillator, balls: BallExpansion) -> tuple[Check, ...]:
+    """Hold balls against exact coefficients, by both exact routes there are, through a moderate order.
+
+    >>> from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> [c.passed for c in certify_balls(find("pendulum"), lindstedt_in_balls(find("pendulum"), 8))]
+    [True, True]
+    """
+    order = min(balls.order, BALL_ORDER)
+    checks = [("lindstedt", lambda: lindstedt(oscillator, order, amplitude=balls.amplitude))]
+    if balls.variable == "A" and balls.amplitude == "peak":
+        checks.append(("energy integral", lambda: energy_integral(oscillator, order)))
+    return tuple(_guarded(name, partial(_held, name, balls, exact)) for name, exact in checks)
+
+
+def _held(name: str, balls: BallExpansion, exact: Callable[[], Expansion]) -> Check:
+    expansion = exact()
+    wrong = balls.misses(expansion)
+    if wrong:
+        return Check(name, False, f"exact coefficients at orders {wrong} lie outside their balls")
+    return Check(name, True, f"all {expansion.order + 1} exact coefficients through this order lie in their balls")
+
+
+def _guarded(name: str, check: Callable[[], Check]) -> Check:
+    """A check that the oscillator does not allow is reported, not hidden."""
+    try:
+        return check()
+    except InputError as reason:
+        return Check(name, None, f"does not apply: {reason}")
+
+
+def _residual(expansion: Expansion) -> Check:
+    left = expansion.residual()
+    if left:
+        return Check("residual", False, f"substituted into the equation, orders {left} do not cancel")
+    text = f"u and omega0 substituted into the equation cancel identically through order {expansion.order}"
+    return Check("residual", True, text)
+
+
+def _normalisation(expansion: Expansion) -> Check:
+    """The orbit's own amplitude, measured by its definition, must be the variable itself; u'(0) = 0 or no sin tau."""
+    waveform = expansion.waveform or ()
+    if expansion.variable == "A":
+        size = measured(expansion.amplitude, waveform, expansion.coefficients)
+        sizes_right = all(value == (n == 1) for n, value in enumerate(size))
+    else:
+        sizes_right = True
+    slopes = [at_zero(p.derivative()) for p in waveform]
+    sines = [harmonic(p, 1)[1] for p in waveform]
+    phase_right = all(value == 0 for value in slopes) or all(value == 0 for value in sines)
+    what = (
+        f"the {expansion.amplitude} amplitude of u is A itself" if expansion.variable == "A" else "the phase is fixed"
+    )
+    if sizes_right and phase_right:
+        return Check("normalisation", True, f"{what}, at every order")
+    return Check("normalisation", False, f"{what} does not hold at every order")
+
+
+def _against_energy(oscillator: Oscillator, expansion: Expansion) -> Check:
+    if oscillator.normalised().bound.has(V):
+        raise InputError("the force depends on u'")
+    definition = "peak" if expansion.amplitude == "fundamental" else expansion.amplitude
+    other = energy_integral(oscillator, expansion.order, amplitude=definition)
+    return _same("energy integral", expansion.convert(definition), other, "series reversion, without oscillator theory")
+
+
+def _against_lindstedt(oscillator: Oscillator, expansion: Expansion) -> Check:
+    other = lindstedt(oscillator, expansion.order, amplitude=expansion.amplitude)
+    return _same("lindstedt", expansion, other, "Lindstedt-Poincaré")
+
+
+def _same(name: str, first: Expansion, second: Expansion, how: str) -> Check:
+    wrong = [n for n, value in enumerate(first.difference(second)) if value != 0]
+    if wrong:
+        return Check(name, False, f"{how} gives other coefficients at orders {wrong}")
+    count = min(first.order, second.order) + 1
+    return Check(name, True, f"the same {count} coefficients ({first.amplitude} amplitude) by {how}")
+
+
+def _against_flow(oscillator: Oscillator, expansion: Expansion) -> Check:
+    order = min(expansion.order, FLOW_ORDER)
+    flow = multiple_scales(oscillator, order)
+    return _agreement("multiple scales", expansion.truncated(order).convert("fundamental"), flow)
+
+
+def _flow_against_lindstedt(oscillator: Oscillator, flow: SlowFlow) -> Check:
+    if oscillator.kind == "limit-cycle":
+        raise InputError("the slow flow of a limit cycle holds for every amplitude, the expansion on the cycle only")
+    undamped = oscillator.with_parameters(dict.fromkeys(flow.small_parameters, 0))
+    return _agreement("lindstedt", lindstedt(undamped, flow.order, amplitude="fundamental"), flow)
+
+
+def _agreement(name: str, expansion: Expansion, flow: SlowFlow) -> Check:
+    """The slow flow without its small parameters against the series in the fundamental amplitude."""
+    undamped = {t.powers[0]: t.coefficient for t in flow.frequency if not any(t.powers[1:])}
+    wrong = [n for n, c in enumerate(expansion.frequency) if n <= flow.order and (undamped.get(n, 0) - c).expand() != 0]
+    if wrong:
+        return Check(name, False, f"the undamped slow flow differs at orders {wrong}")
+    order = min(expansion.order, flow.order)
+    return Check(name, True, f"in the fundamental amplitude both routes agree without damping through order {order}")
+
+
+def _flow_residual(flow: SlowFlow) -> Check:
+    left = flow.residual()
+    if left:
+        return Check("residual", False, f"substituted into the equation, grades {left} do not cancel")
+    text = f"u, phi' and a' substituted into the equation cancel identically through weighted degree {flow.order}"
+    return Check("residual", True, text)

@@ -1,0 +1,102 @@
+"""Oscillators without a linear restoring force, such as u'' + u^3 = 0: no expansion, but a certified frequency.
+
+omega0 vanishes with the amplitude, so there is no natural frequency to expand about.  The orbits close all the same
+when the lowest term of the force is odd and restores, and their frequency has an enclosure like any other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import sympy
+from flint import ctx, fmpq_poly
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.enclosure.enclosure import Amplitude, Enclosure, enclose_in
+from ridgeback.symbolic.enclosure.power_law import PowerLaw, power_law
+from ridgeback.symbolic.enclosure.well import Well, exact_polynomial
+from ridgeback.symbolic.systems.oscillator import Oscillator, V
+from ridgeback.symbolic.systems.structure import free_names
+
+__all__ = ["enclose_strong", "law_of", "law_row", "peak_law", "strong_well"]
+
+GUARD = 40
+
+
+def strong_well(oscillator: Oscillator) -> Well:
+    """The well of a polynomial force without a linear term, in the oscillator's own units.
+
+    ``oscillator`` is the one that a ``NoLinearForceError`` carries.  Raises InputError for terms in u', parameters
+    without a value, forces that are no rational polynomial, and forces that do not restore.
+    """
+    name, force = oscillator.name, sympy.expand(oscillator.substituted_force)
+    if force.has(V):
+        raise InputError(
+            f"{name}: with terms in u' and no linear restoring force there is no enclosure; leave them out"
+        )
+    if unset := free_names(force):
+        raise InputError(f"{name}: an enclosure needs numbers, and {', '.join(unset)} has none; set it, e.g. to 1")
+    potential = oscillator.substituted_potential
+    exact = None if potential is None else exact_polynomial(sympy.expand(potential))
+    if potential is None or exact is None:
+        raise InputError(
+            f"{name}: without a linear restoring force only polynomials with rational coefficients have an enclosure; "
+            f"{force} is none"
+        )
+    _check_restores(name, exact)
+    even = all(exact[j] == 0 for j in range(1, exact.degree() + 1, 2))
+    return Well(name, force, potential, inertia=sympy.S.One, scale=sympy.S.One, even=even, polynomial=exact)
+
+
+def _check_restores(name: str, potential: fmpq_poly) -> None:
+    lowest = next((n for n in range(potential.degree() + 1) if potential[n] != 0), None)
+    if lowest is None or lowest % 2 or not potential[lowest] > 0:
+        rest = "there is no force at all" if lowest is None else f"its lowest term goes like u^{lowest - 1}"
+        raise InputError(f"{name}: the force does not restore on both sides of u = 0, since {rest}; nothing oscillates")
+
+
+def law_of(oscillator: Oscillator) -> PowerLaw | None:
+    """omega0 = factor * A^growth when the force is a single power, else None; raises as ``strong_well``."""
+    exact = strong_well(oscillator).polynomial
+    return None if exact is None else power_law(exact)
+
+
+def enclose_strong(
+    oscillator: Oscillator, amplitude: Amplitude, *, definition: str = "peak", bits: int = 128
+) -> Enclosure:
+    """Enclose omega0 at an amplitude; see ``enclosure.enclose``.
+
+    Raises InputError as ``strong_well`` does, and for amplitudes at or beyond a separatrix.
+
+    >>> from ridgeback.symbolic.systems.description import from_text
+    >>> from ridgeback.symbolic.systems.oscillator import NoLinearForceError
+    >>> try:
+    ...     from_text("u'' + u**3 = 0")
+    ... except NoLinearForceError as refusal:
+    ...     print(enclose_strong(refusal.oscillator, 2, bits=64).omega.str(15))
+    [1.69442616958796 +/- 1.83e-15]
+    """
+    found = enclose_in(strong_well(oscillator), amplitude, definition=definition, bits=bits)
+    return replace(found, scale=sympy.S.Zero)
+
+
+def peak_law(law: PowerLaw) -> sympy.Expr:
+    """omega0(A) of a power law as an expression.
+
+    >>> from flint import fmpq
+    >>> peak_law(PowerLaw(fmpq(1, 4), 4))
+    sqrt(2)*sqrt(pi)*A*gamma(3/4)/(4*gamma(5/4))
+    """
+    share, c = sympy.Rational(1, law.exponent), sympy.Rational(int(law.coefficient.p), int(law.coefficient.q))
+    factor = sympy.sqrt(sympy.pi * c / 2)
+    above, below = (sympy.gamma(value, evaluate=False) for value in (sympy.Rational(1, 2) + share, 1 + share))
+    return factor * above / below * sympy.Symbol("A", real=True) ** law.growth
+
+
+def law_row(law: PowerLaw | None, digits: int) -> dict[str, object]:
+    """The power law in the public JSON form, exactly and with its factor as a decimal; nothing without one."""
+    if law is None:
+        return {}
+    with ctx.workprec(4 * digits + GUARD):
+        factor = law.factor().str(digits, radius=False)
+    return {"law": str(peak_law(law)), "factor": factor, "power": law.growth}

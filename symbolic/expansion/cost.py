@@ -1,0 +1,119 @@
+"""What a derivation will take, said before it is begun.
+
+The laws are fits to measured runs on one core of a laptop-class machine (2026): time grows like the fourth power of the
+order (orders x products x terms x digits), memory like the third, both times the number of monomials in the parameters
+left symbolic.  They are empirical, meant to be right within a factor of about three.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import partial
+
+from ridgeback.common.errors import InputError
+
+# method: (seconds, power of the order, bytes), calibrated at pendulum A^200, van der Pol eps^96; multiple scales at the
+# damped pendulum 100, two dampings 60, three 48, van der Pol 100, damped Helmholtz-Duffing with symbols 40; balls at
+# van der Pol 200 and 400; primes, whose number grows like the square of the order, at pendulum 100, van der Pol 96.
+_LAWS = {
+    "lindstedt": (3e-9, 4.0, 60.0),
+    "limit-cycle": (5e-8, 4.0, 60.0),
+    "multiple-scales": (4e-9, 4.0, 2.5),
+    "energy-integral": (1e-8, 3.0, 60.0),
+    "balls": (8e-8, 3.5, 5.0),
+    "primes": (3.6e-10, 5.0, 1.0),
+    "primes of a limit-cycle": (2e-9, 5.0, 1.0),
+}
+
+PROCESS = 0.15
+"""Gigabytes that each further process takes before it does anything."""
+
+
+@dataclass(frozen=True)
+class Budget:
+    """How much time and memory a derivation may take."""
+
+    seconds: float = 600.0
+    gigabytes: float = 4.0
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Predicted time and memory."""
+
+    seconds: float
+    gigabytes: float
+
+    def within(self, budget: Budget) -> bool:
+        """Whether both fit."""
+        return self.seconds <= budget.seconds and self.gigabytes <= budget.gigabytes
+
+
+def predict(method: str, order: int, *, parameters: int = 0, weights: tuple[int, ...] = (), workers: int = 1) -> Cost:
+    """Predict the cost of a derivation; ``weights`` are those of the small parameters, ``workers`` share the time.
+
+    >>> predict("lindstedt", 50).seconds < 1 < predict("lindstedt", 1000).seconds
+    True
+    """
+    seconds, power, size = _LAWS[method]
+    monomials = math.comb(order // 2 + parameters, parameters) * weighted_monomials(order / 2, weights)
+    memory = size * order**3 * monomials * workers / 1e9 + PROCESS * (workers - 1)
+    return Cost(seconds * order**power * monomials / workers, memory)
+
+
+def weighted_monomials(degree: float, weights: tuple[int, ...]) -> float:
+    """About how many monomials in variables of these weights there are up to a weighted degree.
+
+    The volume of the simplex, with the degree raised by half of every weight for the points on its faces.
+
+    >>> weighted_monomials(30, (2,)), weighted_monomials(20, (1, 1)), weighted_monomials(3, ())  # exactly 16, 231, 1
+    (15.5, 220.5, 1.0)
+    """
+    raised = degree + sum(weights) / 2
+    return raised ** len(weights) / (math.factorial(len(weights)) * math.prod(weights))
+
+
+def check(
+    method: str,
+    order: int,
+    budget: Budget,
+    *,
+    parameters: int = 0,
+    weights: tuple[int, ...] = (),
+    workers: int = 1,
+) -> None:
+    """Refuse a derivation that is predicted to exceed the budget.
+
+    Raises InputError with the prediction and the highest order that fits.
+
+    >>> check("lindstedt", 100_000, Budget())  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    ridgeback.common.errors.InputError: order 100000 by lindstedt would take about ... order ... fits
+    """
+    predicted = partial(predict, method, parameters=parameters, weights=weights, workers=workers)
+    cost = predicted(order)
+    if cost.within(budget):
+        return
+    low, high = 0, order
+    while high - low > 1:
+        middle = (low + high) // 2
+        fits = predicted(middle).within(budget)
+        low, high = (middle, high) if fits else (low, middle)
+    raise InputError(
+        f"order {order} by {method} would take about {duration(cost.seconds)} and {cost.gigabytes:.2g} GB, over the "
+        f"--budget of {duration(budget.seconds)} and {budget.gigabytes:.2g} GB; order {low} fits"
+    )
+
+
+def duration(seconds: float) -> str:
+    """Return a time in the unit that reads best.
+
+    >>> duration(7200)
+    '2 h'
+    """
+    for unit, size in (("years", 3.156e7), ("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2 * size or (unit == "h" and seconds >= size):
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds:.3g} s"

@@ -1,0 +1,116 @@
+r"""omega0(A) of a conservative oscillator from its energy integral: series reversion, no oscillator theory.
+
+Landau and Lifshitz, Mechanics, section 12.  With 2 V(u) = s^2, u = U(s) and E the energy,
+
+    T(E) / 2 pi = sum_n [s^(2n)] U'(s) * binom(2n, n) / 4^n * (2E)^n,
+
+in units with k = 1, and 2E = 2 V(A) for the turning point A.  It shares nothing with the perturbation methods but the
+Taylor coefficients of the force, so it certifies them.
+"""
+
+from __future__ import annotations
+
+import math
+
+import sympy
+from flint import fmpq
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic import truncated
+from ridgeback.symbolic.expansion.amplitude import check_amplitude
+from ridgeback.symbolic.expansion.cost import Budget, check
+from ridgeback.symbolic.expansion.expansion import Expansion, check_order
+from ridgeback.symbolic.series.program import Program
+from ridgeback.symbolic.series.ring import TrigRing
+from ridgeback.symbolic.series.spaces import Scalar, space_for
+from ridgeback.symbolic.series.trigonometric import constant
+from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.structure import free_names
+
+ALLOWED = ("peak", "trough", "action", "energy")
+
+
+def energy_integral(
+    oscillator: Oscillator, order: int, *, amplitude: str = "peak", budget: Budget | None = None
+) -> Expansion:
+    """Expand omega0 in the amplitude through the power ``order``.
+
+    The amplitude is that of ``expansion.amplitude``; ``fundamental`` needs the waveform, which this method does not
+    have.  Raises InputError for a bad order or definition, for forces that depend on u', and when
+    the predicted cost exceeds the budget.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> energy_integral(find("pendulum"), 4).frequency
+    (1, 0, -1/16, 0, 1/3072)
+    """
+    order = check_order(order)
+    check_amplitude(oscillator, amplitude, ALLOWED)
+    natural = oscillator.normalised()
+    force, names = natural.rational, free_names(natural.rational)
+    if force.has(V):
+        raise InputError(
+            f"{oscillator.name} has terms in u', so its energy is not conserved in this form; "
+            "use --method multiple-scales or lindstedt, or set its damping to 0"
+        )
+    check("energy-integral", order, budget or Budget(), parameters=len(names))
+    length = order + 1
+    twice_potential = _twice_potential(force, names, length)
+    root = truncated.square_root(twice_potential)  # s(u) / u
+    u_of_s = truncated.revert([fmpq(0), *root])
+    period = _period(u_of_s, length)
+    energy = _energy_of(amplitude, twice_potential, period)
+    inverse = truncated.reciprocal(truncated.compose(period, energy))
+    return Expansion(
+        system=oscillator.name,
+        method="energy-integral",
+        variable="A",
+        amplitude=amplitude,
+        order=order,
+        scale=natural.scale,
+        scaled_variable=False,
+        coefficients=tuple(inverse),
+        waveform=None,
+        amplitude_coefficients=None,
+        residual_of=None,
+        names=names,
+        constants=natural.constants,
+    )
+
+
+def _twice_potential(force: sympy.Expr, names: tuple[str, ...], length: int) -> list[Scalar]:
+    """Coefficients of 2 V(u) / u^2, from the Taylor coefficients f_n of the force: 2 f_n / (n + 1)."""
+    space = space_for(names)
+    ring = TrigRing(space)
+    fixed = {sympy.Symbol(name, real=True): [ring.parameter(name)] for name in names}
+    u = [constant(space, fmpq(0)), constant(space, fmpq(1))]
+    program = Program(force, ring, {}, U, V, fixed={**fixed, U: u})
+    taylor = [program.root.get(n).coefficients(0) for n in range(1, length + 1)]
+    return [(value[0] if value else fmpq(0)) * fmpq(2, n + 2) for n, value in enumerate(taylor)]
+
+
+def _period(u_of_s: list[Scalar], length: int) -> list[Scalar]:
+    """T / 2 pi in powers of e = 2E; only whole powers of E occur, so half as many terms as powers of s."""
+    result: list[Scalar] = [fmpq(0)] * length
+    for n in range((length - 1) // 2 + 1):
+        if 2 * n + 1 < len(u_of_s):
+            result[n] = u_of_s[2 * n + 1] * ((2 * n + 1) * fmpq(math.comb(2 * n, n), 4**n))
+    return result
+
+
+def _energy_of(amplitude: str, twice_potential: list[Scalar], period: list[Scalar]) -> list[Scalar]:
+    """2E as a series in the amplitude, by definition of the amplitude."""
+    length = len(period)
+    if amplitude == "peak":
+        return [fmpq(0), fmpq(0), *twice_potential][:length]
+    if amplitude == "trough":
+        return [fmpq(0), fmpq(0), *((-1) ** n * c for n, c in enumerate(twice_potential))][:length]
+    if amplitude == "energy":
+        return ([fmpq(0), fmpq(0), fmpq(1)] + [fmpq(0)] * length)[:length]
+    # dJ/dE = T / 2 pi, so 2J = sum t_n e^(n+1) / (n+1) =: e j(e);  X = sqrt(2J) gives X^2 = e j(e), to be reverted.
+    twice_action = [fmpq(0), *(t * fmpq(1, n + 1) for n, t in enumerate(period))][: length + 1]
+    energy = truncated.revert(twice_action)
+    squared: list[Scalar] = [fmpq(0)] * length
+    for n, value in enumerate(energy):
+        if 2 * n < length:
+            squared[2 * n] = value
+    return squared

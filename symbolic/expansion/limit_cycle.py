@@ -1,0 +1,139 @@
+r"""Lindstedt-Poincaré expansion of a limit cycle in eps: frequency and amplitude, order by order.
+
+Andersen and Geer, SIAM J. Appl. Math. 42 (1982) 678, carried it to eps^24 for the van der Pol oscillator.  Notation as
+in ``lindstedt``; u_0 = a_0 cos tau.  At order n the cosine of the right-hand side gives w_n, and the sine gives a_0
+(order 1, a polynomial equation Q(a_0) = 0: the averaged equation) or a_(n-1) (a linear one with slope Q'(a_0)).
+"""
+
+from __future__ import annotations
+
+import sympy
+from flint import fmpq, fmpq_poly
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.expansion.expansion import Expansion, first_harmonic
+from ridgeback.symbolic.expansion.recursion import March, Watch, compiled, normalise, residual, unwatched
+from ridgeback.symbolic.series.spaces import Scalar, Space, space_for
+from ridgeback.symbolic.series.trigonometric import Trig, at_zero, constant, cosine, harmonic, solve_oscillator
+from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.structure import free_names
+
+
+def limit_cycle(oscillator: Oscillator, order: int, amplitude: str) -> Expansion:
+    """Expand omega0 and the amplitude of a limit cycle in eps through the power ``order``.
+
+    Raises InputError when the equation is not u'' + k^2 u plus terms in eps, or has no rational first amplitude.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> limit_cycle(find("van-der-pol"), 2, "peak").amplitude_series
+    (2, 0, 1/96)
+    """
+    natural = oscillator.normalised()
+    march = march_cycle(oscillator, order, amplitude, space_for(()))
+    read = at_zero if amplitude == "peak" else first_harmonic
+    return Expansion(
+        system=oscillator.name,
+        method="lindstedt",
+        variable=str(oscillator.small),
+        amplitude=amplitude,
+        order=order,
+        scale=natural.scale,
+        scaled_variable=True,
+        coefficients=tuple(march.omega[: order + 1]),
+        waveform=tuple(march.u[: order + 1]),
+        amplitude_coefficients=tuple(read(p) for p in march.u[: order + 1]),
+        residual_of=lambda e: residual(e, natural.force, _graded(oscillator, march.space)),
+    )
+
+
+def march_cycle(oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: Watch = unwatched) -> March:
+    """Run the orders of a limit cycle over a given coefficient space; ``watch`` sees the march before each order.
+
+    Raises InputError as ``limit_cycle`` does.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> march_cycle(find("van-der-pol"), 2, "peak", space_for(())).omega[:3]
+    [1, 0, -1/16]
+    """
+    rest = _rest(oscillator)
+    averaged = _averaged_sine(rest, oscillator)
+    a0 = _first_amplitude(averaged, oscillator)
+    start = cosine(space).scale(a0)
+    march = March(compiled(rest, (), start, _graded(oscillator, space)), [start], space)
+    for n in range(1, order + 2):
+        watch(march, n)
+        _cycle_step(march, n, amplitude, averaged.derivative()(a0))
+    return march
+
+
+def _rest(oscillator: Oscillator) -> sympy.Expr:
+    """The force without its linear part u: all of it must carry eps."""
+    rest = sympy.expand(oscillator.normalised().force - U)
+    if (
+        oscillator.small is None
+        or free_names(rest) not in ((), (oscillator.small,))
+        or _at_zero_eps(rest, oscillator) != 0
+    ):
+        raise InputError(
+            f"{oscillator.name} is not u'' + k**2*u plus terms that carry one small parameter, with every other "
+            "parameter set; write it so, e.g. u'' - eps*(1 - u**2)*u' + u = 0, or use --method multiple-scales"
+        )
+    return rest
+
+
+def _at_zero_eps(rest: sympy.Expr, oscillator: Oscillator) -> sympy.Expr:
+    return rest.subs(sympy.Symbol(str(oscillator.small), real=True), 0)
+
+
+def _graded(oscillator: Oscillator, space: Space) -> dict[sympy.Symbol, list[Trig]]:
+    """eps as the series 0 + 1 eps."""
+    return {sympy.Symbol(str(oscillator.small), real=True): [constant(space, fmpq(0)), constant(space, fmpq(1))]}
+
+
+def _cycle_step(march: March, n: int, amplitude: str, slope: Scalar) -> None:
+    """Find a_(n-1), w_n and u_n but for its cos tau part a_n, which the next order decides."""
+    program = march.program
+    if n > 1:
+        _settle_amplitude(march, n, slope)
+    right = -program.root.get(n) - march.inertia(n, 1, n - 1)
+    particular, p, q = solve_oscillator(right)
+    if q != 0:
+        raise AssertionError(f"secular sine left at order {n}")
+    march.extend_omega(-p / harmonic(march.u[0], 1)[0])
+    march.append(normalise(particular, amplitude, size=False))
+    program.supply(U, march.u[n])
+    program.supply(V, march.velocity(n, n))
+
+
+def _settle_amplitude(march: March, n: int, slope: Scalar) -> None:
+    """Remove the secular sine of order n by the cos tau part of u_(n-1)."""
+    program, space = march.program, march.space
+    _, _, q = solve_oscillator(-program.root.get(n) - march.inertia(n, 1, n - 1))
+    change = cosine(space).scale(-q / slope)
+    program.forget(n)
+    program.correct(n - 1, change, change.derivative())
+    march.u[n - 1] = march.u[n - 1] + change
+    march.slope[n - 1] = march.slope[n - 1] + change.derivative()
+    march.curve[n - 1] = march.curve[n - 1] - change
+
+
+def _averaged_sine(rest: sympy.Expr, oscillator: Oscillator) -> fmpq_poly:
+    """Return Q(a), the secular sine of order 1 for u_0 = a cos tau: the first-order averaged equation."""
+    space = space_for(("a",))
+    start = cosine(space).scale(space.gen("a"))
+    _, _, q = solve_oscillator(-compiled(rest, (), start, _graded(oscillator, space)).root.get(1))
+    rows = {powers[1]: value for powers, value in q.to_dict().items()} if q != 0 else {}
+    return fmpq_poly([rows.get(n, fmpq(0)) for n in range(max(rows, default=-1) + 1)])
+
+
+def _first_amplitude(averaged: fmpq_poly, oscillator: Oscillator) -> fmpq:
+    """Return the smallest positive simple rational zero of Q."""
+    factors = averaged.factor()[1] if averaged.degree() > 0 else []
+    roots = [-f[0] / f[1] for f, times in factors if f.degree() == 1 and times == 1]
+    positive = sorted(r for r in roots if r > 0)
+    if not positive:
+        raise InputError(
+            f"{oscillator.name} has no limit cycle with a rational first amplitude: the averaged equation is "
+            f"{averaged} = 0 in a; rescale u so that its zero is rational, or use --method multiple-scales"
+        )
+    return positive[0]

@@ -1,0 +1,133 @@
+r"""Lindstedt-Poincaré expansions of periodic orbits, to any order.
+
+Nayfeh and Mook, Nonlinear Oscillations (1979), 2.3.  Strained time ``tau = omega t``, ' = d/dtau, units with k = 1:
+
+    omega^2 u'' + f(u, omega u') = 0,      u = sum X^n u_n(tau),      omega^2 = sum X^n w_n
+
+At order n:  u_n'' + u_n = -[rest]_n - sum_(0<j<n) w_j u''_(n-j), and the right-hand side may hold no multiple of
+cos tau or sin tau (solvability).
+
+* Conservative: X = A, u_0 = 0, u_1 = cos tau.  cos: w_(n-1) follows.  sin: must vanish by itself, or there is damping.
+* Limit cycle: X = eps, u_0 = a_0 cos tau.  cos: w_n follows.  sin: a_0 follows at order 1 from a polynomial
+  equation, then a_(n-1) from a linear one.
+
+The homogeneous part of u_n is fixed by the amplitude definition: ``peak`` (u'(0) = 0, and u(0) = A) or
+``fundamental`` (first harmonic A cos tau).
+"""
+
+from __future__ import annotations
+
+from flint import fmpq
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.expansion.amplitude import DEFINITIONS, check_amplitude
+from ridgeback.symbolic.expansion.cost import Budget, check
+from ridgeback.symbolic.expansion.expansion import Expansion, check_order
+from ridgeback.symbolic.expansion.limit_cycle import limit_cycle
+from ridgeback.symbolic.expansion.recursion import March, Watch, compiled, normalise, residual, unwatched
+from ridgeback.symbolic.series.spaces import Space, is_zero, space_for
+from ridgeback.symbolic.series.trigonometric import constant, cosine, solve_oscillator
+from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.structure import free_names
+
+DIRECT = ("peak", "fundamental")
+"""Definitions that fix the homogeneous solution order by order; the others are reached by conversion."""
+
+
+def lindstedt(
+    oscillator: Oscillator, order: int, *, amplitude: str = "peak", budget: Budget | None = None
+) -> Expansion:
+    """Expand omega0 in the amplitude (conservative) or in eps (limit cycle), through the power ``order``.
+
+    Raises InputError for a bad order or definition, for an oscillator without a family of periodic orbits, and, before
+    any work, when the predicted cost exceeds the budget.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> lindstedt(find("van-der-pol"), 4).frequency
+    (1, 0, -1/16, 0, 17/3072)
+    """
+    order = check_order(order)
+    check_amplitude(oscillator, amplitude, DIRECT if oscillator.kind == "limit-cycle" else DEFINITIONS)
+    budget = budget or Budget()
+    if oscillator.kind == "limit-cycle":
+        check("limit-cycle", order, budget)
+        return limit_cycle(oscillator, order, amplitude)
+    if amplitude not in DIRECT:
+        return _conservative(oscillator, order, "peak", budget).convert(amplitude)
+    return _conservative(oscillator, order, amplitude, budget)
+
+
+def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Budget) -> Expansion:
+    natural = oscillator.normalised()
+    force, names = natural.rational, free_names(natural.rational)
+    check("lindstedt", order, budget, parameters=len(names))
+    march = march_family(oscillator, order, amplitude, space_for(names))
+    return Expansion(
+        system=oscillator.name,
+        method="lindstedt",
+        variable="A",
+        amplitude=amplitude,
+        order=order,
+        scale=natural.scale,
+        scaled_variable=False,
+        coefficients=tuple(march.omega),
+        waveform=tuple(march.u),
+        amplitude_coefficients=None,
+        residual_of=lambda e: residual(e, force, {}),
+        names=names,
+        constants=natural.constants,
+        velocity=force.has(V),
+    )
+
+
+def march_family(
+    oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: Watch = unwatched
+) -> March:
+    """Run the orders of a conservative oscillator over a given coefficient space; ``watch`` sees each order begin.
+
+    Raises InputError when the oscillator has no family of periodic orbits.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> march_family(find("duffing"), 2, "peak", space_for(())).omega
+    [1, 0, 3/8]
+    """
+    force = oscillator.normalised().rational
+    program = compiled(force, space.names, constant(space, fmpq(0)))
+    if program.root.slope_v:
+        raise InputError(_no_family(oscillator))
+    march = March(program, [constant(space, fmpq(0)), cosine(space)], space)
+    program.supply(U, march.u[1])
+    program.supply(V, march.slope[1])
+    for n in range(2, order + 2):
+        watch(march, n)
+        _family_step(march, n, amplitude, oscillator)
+    return march
+
+
+def _family_step(march: March, n: int, amplitude: str, oscillator: Oscillator) -> None:
+    """Find u_n and omega_(n-1)."""
+    program, space = march.program, march.space
+    zero = constant(space, fmpq(0))
+    program.supply(U, zero)
+    program.supply(V, march.velocity(n, n - 2) if program.uses_velocity else zero)
+    right = -program.root.get(n) - march.inertia(n, 1, n - 2)
+    particular, p, q = solve_oscillator(right)
+    if not is_zero(q):  # a ball around 0 is no proof that sin tau vanishes
+        raise InputError(_no_family(oscillator) if q != 0 else _undecided(oscillator))
+    march.extend_omega(-p)  # right + w_(n-1) cos tau must hold no cos tau
+    march.append(normalise(particular, amplitude, size=True))
+    program.correct(n, march.u[n], march.slope[n] + march.slope[1].scale(march.omega[n - 1]))
+
+
+def _undecided(oscillator: Oscillator) -> str:
+    return (
+        f"{oscillator.name}: balls cannot prove that no secular sin tau survives, since no symmetry of the force "
+        "removes it; use the exact series"
+    )
+
+
+def _no_family(oscillator: Oscillator) -> str:
+    return (
+        f"{oscillator.name} loses or gains energy (a secular sin tau survives), so it has no family of periodic "
+        "orbits; use --method multiple-scales, or set its damping to 0"
+    )

@@ -1,0 +1,204 @@
+r"""Which parameters of an oscillator are small, of what weight, and the equation in natural units that goes with it.
+
+Small by default is every parameter all of whose terms are odd in u' (linear damping under any name, cubic damping, the
+eps of van der Pol's equation), unless it only ever multiplies another one of them (the b of eps*(1 - b*u^2)*u'), and
+the expansion parameter of a limit cycle.  Weights given by name override this: a weight above 0 makes any parameter
+small, the weight 0 makes it a coefficient like the others, symbolic or with its value.
+
+Units: time is tau = k t, so that u' = k du/dtau.  A parameter m whose lowest term holds u'^q is measured in k^(2 - q):
+mu = k mu^ for linear damping, c3 = c3^ / k for cubic damping, alpha = k^2 alpha^ for stiffness.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Final
+
+import sympy
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.structure import divided, free_names, positive_root
+
+ROOT: Final = "k*"
+INVERSE: Final = "1/k*"
+"""Stand for k and 1/k where they do not scale out: an irrational k (known by its square) as in u'' + 2*u + u'**3, a
+symbolic one as in u'' + k**2*u + u**3.  No parameter can have these names."""
+UNITS: Final = {ROOT: -1, INVERSE: 1}
+"""The power of k in the unit of each: the same bookkeeping as for parameters puts k back."""
+HIGHEST_POWER: Final = 8
+"""Powers of u' beyond this one are not looked for when a unit is chosen; any unit is right, some need a root of k^2."""
+
+
+@dataclass(frozen=True)
+class Ordered:
+    """An oscillator in natural units with its small parameters: u'' + force = 0, ' = d/dtau."""
+
+    force: sympy.Expr
+    """f(u, k u')/k^2 in the hatted parameters; the small ones and those without a value are symbols."""
+    scale: sympy.Expr
+    """k, the natural frequency when every small parameter vanishes."""
+    weights: Mapping[str, int]
+    """Weight of each small parameter against the amplitude, in the order of the variables."""
+    dimensions: Mapping[str, int]
+    """The power of k in the unit of each parameter left symbolic, the small ones first."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All parameters left symbolic, the small ones first."""
+        return tuple(self.dimensions)
+
+
+def ordered(oscillator: Oscillator, *, weight: int = 2, weights: Mapping[str, int] | None = None) -> Ordered:
+    """Choose the small parameters and measure everything in natural units.
+
+    ``weight`` is that of the parameters small by default, ``weights`` overrides it by name.  Raises InputError for a
+    weight that is no whole number, an unknown name, and damping or excitation that no small parameter carries.
+
+    >>> own = Oscillator.from_equation("u'' + c*u' + d*u'**3 + 4*u + g*u**3")
+    >>> found = ordered(own, weights={"d": 1})
+    >>> found.force, dict(found.weights), dict(found.dimensions)
+    (c*u' + d*u'**3 + g*u**3 + u, {'c': 2, 'd': 1}, {'c': 1, 'd': -1, 'g': 2})
+    """
+    chosen = _weights(oscillator, check_weight(weight), dict(weights or {}))
+    values = {_symbol(n): v for n, v in oscillator.parameters.items() if v is not None and n not in chosen}
+    force = oscillator.force.subs(values)
+    scale = _natural_frequency(force, oscillator, chosen)
+    symbolic = [n for n in free_names(force) if n not in chosen and not scale.has(_symbol(n))]
+    dimensions = {name: _dimension(force, _symbol(name)) for name in (*chosen, *symbolic)}
+    natural = _scaled(force, scale, dimensions)
+    _check(natural, oscillator, tuple(chosen), scale)
+    dimensions.update({name: power for name, power in UNITS.items() if natural.has(_symbol(name))})
+    return Ordered(force=natural, scale=scale, weights=chosen, dimensions=dimensions)
+
+
+def small_parameters(oscillator: Oscillator) -> tuple[str, ...]:
+    """The parameters small by default, in the order of the equation.
+
+    >>> small_parameters(Oscillator.from_equation("x'' - eps*(1 - b*x**2)*x' + x + g*x**3"))
+    ('eps',)
+    """
+    force = oscillator.force
+    odd = [name for name in oscillator.parameters if _odd(force, _symbol(name))]
+    known = [name for name in (oscillator.small, oscillator.damping) if name and name not in odd]
+    kept = [name for name in odd if not any(_within(force, name, other, odd) for other in odd if other != name)]
+    return tuple(name for name in oscillator.parameters if name in kept or name in known)
+
+
+def check_weight(weight: object, name: str = "") -> int:
+    """Return a weight of a small parameter, above 0; of a named one also 0, for a coefficient that is not small.
+
+    Raises InputError for anything else.
+
+    >>> check_weight(2)
+    2
+    """
+    lowest = 0 if name else 1
+    if isinstance(weight, bool) or not isinstance(weight, int) or weight < lowest:
+        whose = f" of {name}" if name else ""
+        raise InputError(
+            f"weight {weight!r}{whose} is not a whole number from {lowest} on; use 2 to count a parameter like the "
+            "amplitude squared" + (", 0 for one that is not small" if name else "")
+        )
+    return weight
+
+
+def _symbol(name: str) -> sympy.Symbol:
+    return sympy.Symbol(name, real=True)
+
+
+def _weights(oscillator: Oscillator, weight: int, given: dict[str, int]) -> dict[str, int]:
+    for name, value in given.items():
+        check_weight(value, name)
+        if name not in oscillator.parameters:
+            known = ", ".join(oscillator.parameters) or "none"
+            raise InputError(f"{oscillator.name} has no parameter {name[:60]!r} to weigh; its parameters: {known}")
+    merged = {**dict.fromkeys(small_parameters(oscillator), weight), **given}
+    return {name: merged[name] for name in oscillator.parameters if merged.get(name, 0)}
+
+
+def _odd(force: sympy.Expr, symbol: sympy.Symbol) -> bool:
+    """Whether every term that depends on the parameter is odd in u' and vanishes with the parameter."""
+    change = force.diff(symbol)
+    if change == 0 or sympy.expand(change + change.subs(V, -V)) != 0:
+        return False
+    rest = force.subs(symbol, 0)
+    return not rest.has(sympy.zoo, sympy.nan, sympy.oo)
+
+
+def _within(force: sympy.Expr, name: str, other: str, order: list[str]) -> bool:
+    """Whether the parameter occurs only in terms with the other one (of two that always go together, the later)."""
+    inside = not force.subs(_symbol(other), 0).has(_symbol(name))
+    outside = not force.subs(_symbol(name), 0).has(_symbol(other))
+    return inside and (not outside or order.index(other) < order.index(name))
+
+
+def _natural_frequency(force: sympy.Expr, oscillator: Oscillator, small: Mapping[str, int]) -> sympy.Expr:
+    slope = force.diff(U).subs({_symbol(name): 0 for name in small}).subs({U: 0, V: 0})
+    stiffness = sympy.expand(slope)
+    if stiffness.is_nonpositive or stiffness.has(sympy.zoo, sympy.nan):
+        raise InputError(
+            f"{oscillator.name} has no positive linear restoring force when {', '.join(small)} vanish; a small "
+            "parameter may not carry it: give weight 0 to the one that does"
+        )
+    return positive_root(stiffness)
+
+
+def _dimension(force: sympy.Expr, symbol: sympy.Symbol) -> int:
+    """2 - q, with u'^q the lowest power of u' in the terms of a parameter."""
+    term = force.diff(symbol)
+    for power in range(HIGHEST_POWER + 1):
+        if sympy.expand(term.subs(V, 0)) != 0:
+            return 2 - power
+        term = term.diff(V)
+    return 2
+
+
+def _scaled(force: sympy.Expr, scale: sympy.Expr, dimensions: Mapping[str, int]) -> sympy.Expr:
+    """f(u, k u')/k^2 with parameters in units of k; the powers of k that stay are powers of ROOT and INVERSE."""
+    irrational = scale.is_number and not scale.is_Rational
+    k = _symbol(ROOT) if irrational else scale
+    units = {_symbol(name): k**power * _symbol(name) for name, power in dimensions.items() if power}
+    natural = divided(force.subs({V: k * V, **units}), k**2)
+    if irrational:
+        square = sympy.expand(scale**2)
+        return _with_powers(natural, k, lambda n: square ** (n // 2) * k ** (n % 2))
+    if not scale.is_Symbol:
+        return natural
+    return _with_powers(natural, k, lambda n: _symbol(ROOT) ** n if n > 0 else _symbol(INVERSE) ** -n)
+
+
+def _with_powers(expression: sympy.Expr, k: sympy.Symbol, power: Callable[[sympy.Integer], sympy.Expr]) -> sympy.Expr:
+    """Replace every whole power of k."""
+    marked = expression.replace(lambda e: e.is_Pow and e.base == k and e.exp.is_Integer, lambda e: power(e.exp))
+    return marked if power(sympy.S.One) == k else marked.subs(k, power(sympy.S.One))
+
+
+def _check(force: sympy.Expr, oscillator: Oscillator, small: tuple[str, ...], scale: sympy.Expr) -> None:
+    held = sorted(str(s) for s in scale.free_symbols & force.free_symbols)
+    if {_symbol(name) for name in UNITS} <= force.free_symbols:
+        held = sorted(str(s) for s in scale.free_symbols)
+    if held:
+        raise InputError(
+            f"{oscillator.name}: its natural frequency {scale} does not scale out of every term; give "
+            f"{', '.join(held)} a number, or the other coefficients a name each"
+        )
+    resting = {**{_symbol(name): 0 for name in small}, U: 0, V: 0}
+    if sympy.expand(force.diff(V).subs(resting)) != 0:
+        raise InputError(
+            f"{oscillator.name} has linear damping that does not vanish with a small parameter; write its coefficient "
+            "as a parameter and set that, as in 2*mu*u' with mu = 1/100"
+        )
+
+
+def undamped(oscillator: Oscillator) -> Oscillator:
+    """Return the oscillator with its damping set to zero: the one that has a backbone curve; limit cycles as they are.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> undamped(find("damped-pendulum")).is_conservative
+    True
+    """
+    if oscillator.kind == "limit-cycle":
+        return oscillator
+    return oscillator.with_parameters(dict.fromkeys(small_parameters(oscillator), 0))

@@ -1,0 +1,141 @@
+"""The worth of an expression at the origin, in ball arithmetic: whether it is analytic there, and its sign.
+
+Every node is visited with u = u' = u'' = 0 and the parameters at their values.  Balls decide signs rigorously and
+never hang on towers such as exp(exp(exp(100))), which SymPy would try to evaluate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Final
+
+import sympy
+from flint import arb, ctx, fmpq
+
+from ridgeback.common.errors import InputError
+
+PRECISION: Final = 160
+MAX_MAGNITUDE: Final = 10_000
+"""Largest magnitude of an argument of exp and its kin; beyond it the numbers leave every useful range."""
+
+Values = Mapping[str, "sympy.Rational | None"]
+
+# The functions SymPy may form from the ones that can be written, each with its real ball version.
+_BALLS: Final[dict[type, Callable[[arb], arb]]] = {
+    sympy.sin: arb.sin,
+    sympy.cos: arb.cos,
+    sympy.tan: arb.tan,
+    sympy.cot: arb.cot,
+    sympy.sinh: arb.sinh,
+    sympy.cosh: arb.cosh,
+    sympy.tanh: arb.tanh,
+    sympy.coth: arb.coth,
+    sympy.exp: arb.exp,
+    sympy.log: arb.log,
+    sympy.asin: arb.asin,
+    sympy.acos: arb.acos,
+    sympy.atan: arb.atan,
+    sympy.asinh: arb.asinh,
+    sympy.atanh: arb.atanh,
+}
+_UNKNOWNS: Final = ("u", "u'", "u''")
+
+
+def value_at_origin(expression: sympy.Expr, values: Values) -> arb | None:
+    """A ball around the expression at u = u' = u'' = 0; None when it depends on a parameter without a value.
+
+    Raises InputError when the expression is not analytic and real there (1/u, log(u), u**(1/2), sqrt(-1)), when that
+    cannot be decided, or when it overflows.
+
+    >>> u, k = sympy.Symbol("u", real=True), sympy.Symbol("k", real=True)
+    >>> value_at_origin(k**2 * sympy.cos(u), {"k": sympy.Rational(3)}) == 9
+    True
+    """
+    with ctx.workprec(PRECISION):
+        return _ball(expression, values)
+
+
+def sign_at_origin(expression: sympy.Expr, values: Values) -> int | None:
+    """-1, 0 or 1; None when a parameter is symbolic or the ball cannot tell (zero is only told when exact).
+
+    >>> sign_at_origin(sympy.pi - 4, {})
+    -1
+    """
+    value = value_at_origin(expression, values)
+    if value is None:
+        return None
+    if value.is_zero():
+        return 0
+    return None if value.contains(0) else (1 if value > 0 else -1)
+
+
+def _ball(expression: sympy.Expr, values: Values) -> arb | None:
+    if isinstance(expression, sympy.Rational):
+        return arb(fmpq(int(expression.p), int(expression.q)))
+    if isinstance(expression, sympy.Symbol):
+        return _symbol(expression, values)
+    if expression in (sympy.pi, sympy.E):
+        return arb.pi() if expression == sympy.pi else arb(1).exp()
+    below = [_ball(argument, values) for argument in expression.args]
+    known = [ball for ball in below if ball is not None]
+    if isinstance(expression, sympy.Mul) and any(ball.is_zero() for ball in known):
+        return arb(0)
+    if len(known) < len(below):
+        return None
+    return _checked(_combined(expression, known), expression)
+
+
+def _symbol(symbol: sympy.Symbol, values: Values) -> arb | None:
+    if symbol.name in _UNKNOWNS:
+        return arb(0)
+    value = values.get(symbol.name)
+    return None if value is None else arb(fmpq(int(value.p), int(value.q)))
+
+
+def _combined(expression: sympy.Expr, known: list[arb]) -> arb:
+    if isinstance(expression, sympy.Add):
+        return sum(known, arb(0))
+    if isinstance(expression, sympy.Mul):
+        product = arb(1)
+        for ball in known:
+            product *= ball
+        return product
+    if isinstance(expression, sympy.Pow):
+        return _power(known[0], expression)
+    function = _BALLS.get(expression.func)
+    if function is None:
+        raise InputError(f"{brief(expression)} is not a real function analytic at the origin; rewrite that term")
+    if not known[0].abs_upper() <= MAX_MAGNITUDE:
+        raise InputError(f"the argument of {brief(expression)} is beyond {MAX_MAGNITUDE} in magnitude; rescale it")
+    return function(known[0])
+
+
+def _power(base: arb, expression: sympy.Pow) -> arb:
+    """Integer powers of nonzero bases, other rational powers of positive ones: elsewhere there is a singularity."""
+    exponent = expression.exp
+    if not isinstance(exponent, sympy.Rational):
+        raise InputError(f"{brief(expression)} has an exponent that is not rational; write it with exp and log")
+    whole = isinstance(exponent, sympy.Integer)
+    if whole and exponent >= 0:
+        return base ** int(exponent)
+    if base.contains(0):
+        raise InputError(f"{brief(expression)} is not analytic at the origin (its base vanishes); rewrite that term")
+    if not whole and not base > 0:
+        raise InputError(f"{brief(expression)} is not real at the origin (its base is negative); rewrite that term")
+    return base ** (int(exponent) if whole else arb(fmpq(int(exponent.p), int(exponent.q))))
+
+
+def _checked(ball: arb, expression: sympy.Expr) -> arb:
+    if not ball.is_finite():
+        raise InputError(f"{brief(expression)} is not finite and real at the origin; rewrite that term")
+    return ball
+
+
+def brief(expression: sympy.Expr, limit: int = 60) -> str:
+    """The expression as text for a message, cut when long.
+
+    >>> brief(sympy.Symbol("u") ** 3)
+    'u**3'
+    """
+    text = str(expression)
+    return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -1,0 +1,239 @@
+r"""Lindstedt-Poincaré expansions to very high order in ball arithmetic: every coefficient a rigorous enclosure.
+
+The orders are those of ``lindstedt`` and ``limit_cycle``, over balls by harmonics (``harmonic_basis``), with the
+products on line in blocks (``relaxed``).  The recurrences lose a fixed number of bits per order (van der Pol: 3.6),
+since radii grow as if all signs conspired.  A short march measures it and sets the precision; if the balls come out
+too wide, the march is repeated with what was missing.  Bits below the radii are dropped on the way.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Final
+
+from flint import arb, ctx
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.expansion.amplitude import check_amplitude
+from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, log2, missing_bits
+from ridgeback.symbolic.expansion.cost import Budget, check
+from ridgeback.symbolic.expansion.expansion import check_order, first_harmonic
+from ridgeback.symbolic.expansion.limit_cycle import march_cycle
+from ridgeback.symbolic.expansion.lindstedt import DIRECT, march_family
+from ridgeback.symbolic.expansion.recursion import March
+from ridgeback.symbolic.high_order import checkpoint as file
+from ridgeback.symbolic.high_order.checkpoint import Checkpoint, Tape
+from ridgeback.symbolic.series.harmonic_basis import Balls
+from ridgeback.symbolic.series.relaxed_product import RelaxedProduct, Waiting
+from ridgeback.symbolic.series.spaces import Parts
+from ridgeback.symbolic.series.trigonometric import at_zero
+from ridgeback.symbolic.systems.oscillator import Oscillator
+from ridgeback.symbolic.systems.structure import free_names
+
+Progress = Callable[[int, int], None]
+
+GUARD: Final = 40
+"""Bits kept below the largest radius of the last order (10 000 instead changed no radius in van der Pol's to 200)."""
+PILOT: Final = 32
+"""Order of the march that measures the loss."""
+_LOSS: Final = 8
+"""Bits per order with which the pilot begins."""
+ATTEMPTS: Final = 4
+SAVE_EVERY: Final = 300.0
+"""Seconds between checkpoints."""
+MAX_DIGITS: Final = 10_000
+
+
+def lindstedt_in_balls(
+    oscillator: Oscillator,
+    order: int,
+    *,
+    digits: int = 30,
+    amplitude: str = "peak",
+    checkpoint: Path | None = None,
+    progress: Progress | None = None,
+    budget: Budget | None = None,
+) -> BallExpansion:
+    """Expand omega0 like ``lindstedt``, with every coefficient in a ball of at least ``digits`` certain digits.
+
+    ``progress`` is told the order about to be found and the last one.  With ``checkpoint`` the march is saved there
+    every few minutes and on KeyboardInterrupt, goes on from there if the file exists, with the same balls bit by bit,
+    and removes it when done.  Raises InputError as ``lindstedt`` does, for symbolic parameters, for a checkpoint that
+    is damaged or belongs to another computation, and for balls that stay too wide; OSError for the file.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> lindstedt_in_balls(find("van-der-pol"), 4).coefficients[4].str(20, radius=False)
+    '0.0055338541666666666667'
+    """
+    order = check_order(order)
+    check_amplitude(oscillator, amplitude, DIRECT)
+    _check_digits(digits)
+    _check_numbers(oscillator)
+    check("balls", order, budget or Budget())
+    task = Task(oscillator, order, amplitude, digits, progress)
+    saved = file.read(checkpoint, task.identity()) if checkpoint is not None and checkpoint.exists() else None
+    bits = saved.bits if saved is not None else predicted_bits(task)
+    for _ in range(ATTEMPTS):
+        found = _Run(task, bits, checkpoint, saved).result()
+        missing = missing_bits((*found.coefficients, *(found.amplitude_coefficients or ())), digits)
+        if not missing:
+            if checkpoint is not None:
+                checkpoint.unlink(missing_ok=True)
+            return found
+        bits, saved = bits + missing + GUARD, None
+    raise InputError(
+        f"{oscillator.name}: balls of {bits} bits do not give {digits} digits at order {order}; a coefficient may "
+        "vanish without a symmetry that shows it, so use the exact series"
+    )
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is to be found."""
+
+    oscillator: Oscillator
+    order: int
+    amplitude: str
+    digits: int
+    progress: Progress | None = None
+
+    @property
+    def cycle(self) -> bool:
+        return self.oscillator.kind == "limit-cycle"
+
+    def identity(self) -> dict[str, str]:
+        """What a checkpoint must agree on."""
+        natural = self.oscillator.normalised()
+        return {
+            "oscillator": self.oscillator.name,
+            "equation": f"u'' + {natural.force if self.cycle else natural.bound} = 0 in units where k = 1",
+            "order": str(self.order),
+            "amplitude": self.amplitude,
+            "precision": f"{self.digits} digits",
+        }
+
+
+@dataclass
+class _Run:
+    """One march at one precision: the only thing here that changes while it lasts."""
+
+    task: Task
+    bits: int
+    path: Path | None
+    saved: Checkpoint | None
+    last_save: float = field(default_factory=time.monotonic)
+    state: Callable[[], Checkpoint] | None = None
+    begun: bool = False
+
+    def result(self) -> BallExpansion:
+        """Run all orders; save what there is on an interrupt."""
+        run = march_cycle if self.task.cycle else march_family
+        with ctx.workprec(self.bits):
+            try:
+                space = Balls(self.task.order + 1)
+                march = run(self.task.oscillator, self.task.order, self.task.amplitude, space, watch=self.watch)
+            except KeyboardInterrupt:
+                self.save()
+                raise
+        with ctx.workprec(self.bits):
+            return _expansion(self.task, self.bits, march)
+
+    def watch(self, march: March, n: int) -> None:
+        """Between two orders: replay, remember, save, and drop the bits that are lost."""
+        products = [
+            node for node in march.program.nodes.values() if isinstance(node, RelaxedProduct) and not node.plain
+        ]
+        if not self.begun and self.saved is not None:
+            _replay(products, self.saved)
+        self.begun = True
+        if self.saved is None or n >= self.saved.order:
+            marks = [(node, len(node.tape), node.waiting.after) for node in products]
+            self.state = lambda: self._checkpoint(n, marks)
+            if time.monotonic() - self.last_save > SAVE_EVERY:
+                self.save()
+        if self.task.progress is not None:
+            self.task.progress(n, self.task.order + 1)
+        ctx.prec = min(ctx.prec, _worthwhile(march))
+
+    def _checkpoint(self, n: int, marks: list[tuple[RelaxedProduct, int, dict[int, Parts]]]) -> Checkpoint:
+        tapes = tuple(Tape(tuple(node.tape[:length]), waiting) for node, length, waiting in marks)
+        return Checkpoint(self.task.identity(), self.bits, n, tapes)
+
+    def save(self) -> None:
+        """Write the state before the present order."""
+        if self.path is not None and self.state is not None:
+            file.write(self.path, self.state())
+            self.last_save = time.monotonic()
+
+
+def predicted_bits(task: Task) -> int:
+    """The precision to begin with: the bits lost per order by a short march, times the orders, and the digits.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> 3000 < predicted_bits(Task(find("van-der-pol"), 859, "peak", 30)) < 3500
+    True
+    """
+    wanted = int(10**task.digits).bit_length() + GUARD
+    if task.order <= PILOT:
+        return _LOSS * task.order + wanted
+    bits = _LOSS * PILOT + GUARD
+    pilot = _Run(replace(task, order=PILOT, progress=None), bits, None, None).result()
+    rates = [
+        Fraction(bits - int(c.rel_accuracy_bits()), n)
+        for n, c in enumerate(pilot.coefficients)
+        if 2 * n > PILOT and not c.is_exact() and not c.contains(0)
+    ]
+    rate = max(rates, default=Fraction(_LOSS))
+    return math.ceil(rate * (task.order + 1)) + wanted
+
+
+def _replay(products: list[RelaxedProduct], saved: Checkpoint) -> None:
+    """Hand the tapes to the products of a march that is about to begin."""
+    if len(products) != len(saved.tapes):
+        raise InputError(f"the checkpoint has {len(saved.tapes)} products, this march {len(products)}; begin anew")
+    for node, tape in zip(products, saved.tapes, strict=True):
+        node.replayed = list(tape.values)
+        node.waiting = Waiting(-1, dict(tape.waiting), dict(tape.waiting))
+
+
+def _worthwhile(march: March) -> int:
+    """Bits from the largest coefficient of the last order down to ``GUARD`` below its largest radius."""
+    values = [x for p in march.u[-1].parts if p is not None for x in p.coeffs()]
+    sizes = [log2(abs(x).abs_upper()) for x in values if not x.is_zero()]
+    radii = [log2(x.rad()) for x in values if not x.is_exact()]
+    return max(sizes) - max(radii) + GUARD if radii else int(ctx.prec)
+
+
+def _expansion(task: Task, bits: int, march: March) -> BallExpansion:
+    last, read = task.order + 1, at_zero if task.amplitude == "peak" else first_harmonic
+    return BallExpansion(
+        system=task.oscillator.name,
+        variable=str(task.oscillator.small) if task.cycle else "A",
+        amplitude=task.amplitude,
+        order=task.order,
+        scale=task.oscillator.normalised().scale,
+        scaled_variable=task.cycle,
+        digits=task.digits,
+        bits=bits,
+        coefficients=tuple(arb(c) for c in march.omega[:last]),
+        amplitude_coefficients=tuple(arb(read(p)) for p in march.u[:last]) if task.cycle else None,
+    )
+
+
+def _check_digits(digits: object) -> None:
+    if isinstance(digits, bool) or not isinstance(digits, int) or not 1 <= digits <= MAX_DIGITS:
+        raise InputError(f"digits {digits!r} is not a whole number within 1..{MAX_DIGITS}; use e.g. 30")
+
+
+def _check_numbers(oscillator: Oscillator) -> None:
+    natural = oscillator.normalised()
+    force = natural.force if oscillator.kind == "limit-cycle" else natural.rational
+    names = sorted(set(free_names(force)) - {oscillator.small})
+    if names:
+        held = ", ".join(str(natural.constants.get(name, name)) for name in names)
+        raise InputError(f"{oscillator.name}: {held} is no rational number; balls need one for each parameter")

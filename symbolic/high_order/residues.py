@@ -1,0 +1,76 @@
+"""Residues modulo many primes as they are gathered, and the file that keeps them: exact, proved whole by a digest.
+
+A text file of one JSON value per line, like a checkpoint of balls: what is being computed, the residues kept back, the
+residues of all coefficients modulo the product of the primes used so far.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final
+
+from ridgeback.symbolic.high_order.checkpoint import checked_head, write_lines
+
+FORMAT: Final = "ridgeback residues of primes"
+VERSION: Final = 1
+
+
+@dataclass(frozen=True)
+class Residues:
+    """The coefficients of omega0, and of a limit cycle's amplitude, modulo one prime, in units with k = 1."""
+
+    prime: int
+    frequency: tuple[int, ...]
+    amplitude: tuple[int, ...]
+
+    @property
+    def all(self) -> tuple[int, ...]:
+        """Both, one after the other."""
+        return self.frequency + self.amplitude
+
+
+@dataclass(frozen=True)
+class Gathered:
+    """What has been found: residues kept back to test, and those of every coefficient modulo ``modulus``."""
+
+    kept: tuple[Residues, ...]
+    used: int = 0
+    """How many primes are in the modulus."""
+    modulus: int = 1
+    values: tuple[int, ...] = ()
+
+    def with_residues(self, found: Residues) -> Gathered:
+        """One step of the Chinese remainder theorem for all coefficients.
+
+        >>> one = Gathered(()).with_residues(Residues(5, (3,), ())).with_residues(Residues(7, (2,), ()))
+        >>> one.modulus, one.values
+        (35, (23,))
+        """
+        values = self.values or (0,) * len(found.all)
+        inverse = pow(self.modulus, -1, found.prime)
+        new = (v + self.modulus * ((r - v) * inverse % found.prime) for v, r in zip(values, found.all, strict=True))
+        return Gathered(self.kept, self.used + 1, self.modulus * found.prime, tuple(new))
+
+
+def write(path: Path, identity: Mapping[str, str], state: Gathered) -> None:
+    """Write the state whole or not at all.  Raises OSError."""
+    write_lines(path, _lines(identity, state))
+
+
+def _lines(identity: Mapping[str, str], state: Gathered) -> Iterator[str]:
+    head = {"format": FORMAT, "version": VERSION, "identity": dict(identity), "used": state.used}
+    yield json.dumps({**head, "modulus": f"{state.modulus:x}", "values": len(state.values)}) + "\n"
+    yield json.dumps([[k.prime, k.frequency, k.amplitude] for k in state.kept]) + "\n"
+    yield from (json.dumps(f"{value:x}") + "\n" for value in state.values)
+
+
+def read(path: Path, identity: Mapping[str, str]) -> Gathered:
+    """Read the state of the computation ``identity``; raises InputError and OSError as ``checkpoint.read``."""
+    with path.open(encoding="ascii") as file:
+        head = checked_head(path, file, FORMAT, VERSION, identity)
+        kept = tuple(Residues(p, tuple(f), tuple(a)) for p, f, a in json.loads(next(file)))
+        values = tuple(int(json.loads(next(file)), 16) for _ in range(head["values"]))
+    return Gathered(kept, head["used"], int(head["modulus"], 16), values)

@@ -1,0 +1,64 @@
+"""The resummation of a series by name: which formula, with which change of variable, refused over which range."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Literal, TypeAlias
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.resummation.elliptic_nome import nome
+from ridgeback.symbolic.resummation.pade import mapped, mapping_for, pade
+from ridgeback.symbolic.resummation.resummation import Resummation
+from ridgeback.symbolic.singularities.limits import settled_limits
+from ridgeback.symbolic.systems.oscillator import Oscillator
+
+Kind: TypeAlias = Literal["pade", "map", "nome"]
+KINDS: tuple[Kind, ...] = ("pade", "map", "nome")
+
+
+def resummed(
+    oscillator: Oscillator,
+    series: Expansion,
+    kind: str,
+    *,
+    degrees: tuple[int, int] | None = None,
+    growth: Fraction = Fraction(0),
+    up_to: Fraction | None = None,
+) -> Resummation:
+    """Resum a series: ``pade`` [m/n], ``map`` (the change of variable that its limits ask for), or elliptic ``nome``.
+
+    ``degrees`` are m and n of the approximant, diagonal by default and a plain polynomial for a map; ``growth`` is the
+    power of x that omega0 follows at infinity (maps only, see ``pade.mapped``).  A pole inside the radius of
+    convergence, or at or below ``up_to`` when that is more, is refused.  Raises InputError for that and for what the
+    oscillator or the order does not allow.
+
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> resummed(find("pendulum"), lindstedt(find("pendulum"), 8), "pade").method
+    'Pade [2/2]'
+    """
+    if kind not in KINDS:
+        raise InputError(f"no resummation {kind!r}; there are {', '.join(KINDS)}")
+    if growth and kind != "map":
+        raise InputError(f"growth {growth} can be taken out of a map only, not of {kind}; leave it out")
+    if kind == "nome":
+        return _nome(oscillator, series, degrees)
+    if not series.names and all(c == 0 for c in series.coefficients[1:]):
+        raise InputError(f"{series.system}: omega0 is constant through order {series.order}; nothing is to be resummed")
+    limits = settled_limits(oscillator, series)
+    reach = max(Fraction(limits.radius or 0), up_to or Fraction(0))
+    m, n = degrees or (None, None)
+    if kind == "map":
+        return mapped(series, mapping_for(limits), growth=growth, m=m, n=n or 0, up_to=reach)
+    return pade(series, m, n, up_to=reach)
+
+
+def _nome(oscillator: Oscillator, series: Expansion, degrees: tuple[int, int] | None) -> Resummation:
+    if degrees is not None:
+        raise InputError("the elliptic nome is no quotient of polynomials; leave the degrees out")
+    if series.amplitude != "peak" or series.variable != "A":
+        raise InputError(
+            f"the elliptic nome holds for the peak amplitude, not for {series.amplitude} in {series.variable}; use pade"
+        )
+    return nome(oscillator, series.order)

@@ -1,0 +1,104 @@
+"""The exact coefficient ring of the derivations: trigonometric polynomials, as ``series`` wants to see them."""
+
+from __future__ import annotations
+
+import sympy
+from flint import arb, fmpq, nmod
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.series.harmonic_basis import Balls
+from ridgeback.symbolic.series.recurrences import Node, Product
+from ridgeback.symbolic.series.relaxed_product import RelaxedProduct
+from ridgeback.symbolic.series.spaces import Space
+from ridgeback.symbolic.series.trigonometric import NOTHING, Trig, constant, dot
+
+# Values at the only arguments where an elementary function of a rational is rational.
+_AT_ZERO = {"sin": 0, "cos": 1, "sinh": 0, "cosh": 1, "exp": 1}
+
+
+class TrigRing:
+    """Trigonometric polynomials with rational coefficients, or polynomials in named parameters.
+
+    >>> from ridgeback.symbolic.series.spaces import space_for
+    >>> TrigRing(space_for(())).number(sympy.Rational(1, 3)).coefficients(0)
+    [1/3]
+    """
+
+    def __init__(self, space: Space) -> None:
+        self.space = space
+
+    def number(self, value: sympy.Expr) -> Trig:
+        if not value.is_Rational:
+            raise InputError(f"{value} is not rational, and the derivation is exact; use a fraction or a decimal")
+        return constant(self.space, fmpq(int(value.p), int(value.q)))
+
+    def parameter(self, name: str) -> Trig:
+        """Return a named parameter as a constant of the ring."""
+        return constant(self.space, self.space.gen(name))
+
+    def scale(self, element: Trig, numerator: int, denominator: int) -> Trig:
+        return element.scale(fmpq(numerator, denominator))
+
+    def absent(self, element: Trig) -> bool:
+        return element.parts == NOTHING
+
+    def dot(self, left: list[Trig], right: list[Trig]) -> Trig:
+        return dot(self.space, left, right)
+
+    def product(self, x: Node, y: Node) -> Node:
+        """Return the node of a product: in blocks for balls, where products are long and additions cheap."""
+        if isinstance(self.space, Balls):
+            return RelaxedProduct(self, x, y, self.space)
+        return Product(self, x, y)
+
+    def invert(self, element: Trig) -> Trig:
+        value = self._constant(element)
+        if value is None:
+            raise InputError(
+                "a denominator, log or root holds what oscillates from order 0 on, as u and u' of a limit cycle do, "
+                "or a parameter; use --method multiple-scales, or give the parameter a number"
+            )
+        if value == 0:
+            raise InputError(
+                "a denominator, log or root does not start from a nonzero rational number at the equilibrium; "
+                "no power series exists there"
+            )
+        return constant(self.space, 1 / value)
+
+    def function(self, name: str, element: Trig) -> Trig:
+        value = self._constant(element)
+        if value == 0 and name in _AT_ZERO:
+            return constant(self.space, fmpq(_AT_ZERO[name]))
+        if value == 1 and name == "log":
+            return constant(self.space, fmpq(0))
+        if value is None:
+            raise InputError(
+                f"{name} is taken of what oscillates from order 0 on, as u and u' of a limit cycle do, and has no "
+                "finite Fourier series there; use --method multiple-scales"
+            )
+        raise InputError(
+            f"{name} is taken of something that is not {1 if name == 'log' else 0} at the equilibrium, so its series "
+            "has irrational coefficients; shift the argument or use the numeric verbs"
+        )
+
+    def power(self, element: Trig, exponent: sympy.Rational) -> Trig:
+        value = self._constant(element)
+        if isinstance(value, arb) and value.is_exact():
+            value = value.fmpq()
+        root = None if not isinstance(value, fmpq) else sympy.Rational(int(value.p), int(value.q)) ** exponent
+        if root is None or not root.is_Rational:
+            raise InputError(f"the power {exponent} of {value} is not rational; scale the argument to start from 1")
+        return self.number(root)
+
+    def _constant(self, element: Trig) -> fmpq | nmod | arb | None:
+        """Return the value of a constant element without parameters, else None."""
+        coefficients = element.coefficients(0)
+        if any(p is not None and p != 0 for p in element.parts[1:]) or len(coefficients) > 1:
+            return None
+        value = coefficients[0] if coefficients else fmpq(0)
+        if isinstance(value, fmpq | nmod | arb):
+            return value
+        terms = value.to_dict()
+        if any(any(powers) for powers in terms):
+            return None
+        return next(iter(terms.values()), fmpq(0))

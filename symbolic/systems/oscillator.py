@@ -1,0 +1,303 @@
+"""The oscillator u'' + f(u, u') = 0: one frozen value, validated when it is made.
+
+Symbols: ``U`` is the unknown, ``V`` its first and ``W`` its second time derivative, whatever the unknown is called in
+the text; each parameter is one real symbol of its own name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from types import MappingProxyType
+from typing import Any, Literal, TypeAlias
+
+import sympy
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.grammar.at_origin import brief, sign_at_origin, value_at_origin
+from ridgeback.symbolic.grammar.parse import U, V, W, names, parse_equation, parse_expression, to_sympy
+from ridgeback.symbolic.systems.equation_latex import equation_latex
+from ridgeback.symbolic.systems.irrational import named
+from ridgeback.symbolic.systems.parameters import Parameters, Value, merged
+from ridgeback.symbolic.systems.potential import checked_potential, potential_of
+from ridgeback.symbolic.systems.structure import (
+    SQUARED_INVERSE,
+    damping_name,
+    divided,
+    in_natural_units,
+    positive_root,
+    small_name,
+    solved_for_acceleration,
+)
+
+__all__ = ["Kind", "Normalised", "Oscillator", "U", "V", "Value", "W"]
+
+Kind: TypeAlias = Literal["conservative", "damped", "limit-cycle"]
+
+
+class NoLinearForceError(InputError):
+    """There is nothing to expand about; ``oscillator`` is what was read, for ``enclosure.no_linear_part`` only."""
+
+    def __init__(self, message: str, oscillator: Oscillator) -> None:
+        super().__init__(message)
+        self.oscillator = oscillator
+
+
+@dataclass(frozen=True)
+class Normalised:
+    """An oscillator in natural units: time is tau = k*t, u is unchanged, and ' is d/dtau, so that u'' + u + ... = 0.
+
+    ``force`` is f(u, k*u')/k**2 with every parameter inserted except two that engines expand in and that therefore
+    stay as symbols: the linear damping ``mu`` (here standing for mu/k) and the limit cycle's ``eps`` (for eps/k).
+    All coefficients are rational when the parameters are and odd powers of u' carry mu or eps.
+    ``bound`` is the same force with those two inserted as well.  ``scale`` is k.
+    """
+
+    force: sympy.Expr
+    bound: sympy.Expr
+    scale: sympy.Expr
+    damping: sympy.Expr
+    """The value of mu/k; 0 when there is no such parameter."""
+    small: sympy.Expr | None
+    """The value of eps/k of a limit cycle, None elsewhere."""
+    potential: sympy.Expr | None
+    """Potential of the restoring force in natural units, V(u)/k**2."""
+    rational: sympy.Expr
+    """``bound`` with symbols for irrational numbers and for 1/k**2 where a symbolic k does not scale out."""
+    constants: Mapping[str, sympy.Expr]
+    """The values of those symbols by their names, which no parameter can have."""
+
+
+@dataclass(frozen=True)
+class Oscillator:
+    """A named equation of motion with exact parameters.
+
+    ``force`` is f(U, V, parameters) of u'' + f = 0.  ``parameters`` maps each name to an exact rational, or to None
+    for one that stays symbolic; ``defaults`` is what the catalogue gave.  ``potential`` P(U), with P(0) = 0, belongs
+    to the restoring force f(u, 0) and is None for limit cycles, for forces with conservative velocity terms and
+    where no rule integrates it (``potential_note`` says which).  ``small`` names the expansion parameter of a limit
+    cycle, ``damping`` the mu of a linear damping term 2*mu*u'; each is None when absent.  ``initial`` is (u, u') at
+    time 0.  ``symbol`` is LaTeX, ``unit`` that of u.
+
+    Construction raises InputError when the origin is not an equilibrium with a positive linear restoring force, or f
+    is not analytic there.
+
+    >>> Oscillator.from_equation("x'' + 4*x + x**3", name="mine").natural_frequency
+    2
+    """
+
+    name: str
+    title: str
+    equation: str
+    force: sympy.Expr
+    parameters: Parameters = field(hash=False)
+    defaults: Parameters = field(hash=False)
+    potential: sympy.Expr | None = None
+    potential_note: str = ""
+    small: str | None = None
+    damping: str | None = None
+    symbol: str = "u"
+    unit: str = ""
+    reference: str = ""
+    description: str = ""
+    initial: tuple[float, float] = (1.0, 0.0)
+    aliases: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("parameters", "defaults"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+        self.check_at_origin()
+
+    def __reduce__(self) -> tuple[Callable[..., Oscillator], tuple[type[Oscillator], dict[str, Any]]]:
+        """Pickle by value (a mapping proxy cannot be), so that work can be sent to other processes."""
+        values = {item.name: getattr(self, item.name) for item in fields(self)}
+        return _rebuilt, (type(self), {**values, "parameters": dict(self.parameters), "defaults": dict(self.defaults)})
+
+    @classmethod
+    def from_equation(
+        cls,
+        text: str,
+        *,
+        name: str = "equation",
+        parameters: Mapping[str, Value] | None = None,
+        potential: str | None = None,
+        **about: Any,
+    ) -> Oscillator:
+        """Read u'' + ... = 0 from text; parameters that are given no value stay symbolic.
+
+        The second derivative may carry a factor, which is divided out.  ``mu`` of a term 2*mu*u' and the ``eps`` of
+        a limit cycle are recognised under any name.  A potential is integrated by rule when the force allows it, and
+        checked by differentiation when it is given.  ``about`` takes title, reference, description, initial, symbol,
+        unit and aliases.  Raises InputError for what cannot be read or has no oscillation about the origin.
+
+        >>> own = Oscillator.from_equation("2*x'' + 2*c*x' + 8*sin(x) = 0", parameters={"c": "0.1"})
+        >>> own.force, own.damping, own.potential
+        (c*u' + 4*sin(u), None, 4 - 4*cos(u))
+        """
+        equation = parse_equation(text)
+        values = merged(name, dict.fromkeys(names(equation.left)), parameters or {})
+        left = to_sympy(equation.left)
+        value_at_origin(left, values)  # before SymPy is asked for any value there, which it may never finish
+        force = solved_for_acceleration(left)
+        integral, note = _potential(force, potential, equation.unknown)
+        about.setdefault("title", name)
+        about.setdefault("symbol", sympy.latex(sympy.Symbol(equation.unknown)))
+        return cls(
+            name=name,
+            equation=text,
+            force=force,
+            parameters=values,
+            defaults=values,
+            potential=integral,
+            potential_note=note,
+            small=small_name(force),
+            damping=damping_name(force),
+            **about,
+        )
+
+    def with_parameters(self, values: Mapping[str, Value]) -> Oscillator:
+        """The same oscillator with other parameter values.
+
+        Text and floats become the decimal rational that they print as ("0.1" and 0.1 are 1/10); None leaves the
+        parameter symbolic.  Raises InputError for unknown names, for values that are not finite numbers, and when
+        the origin stops being a centre.
+
+        >>> from ridgeback.symbolic.systems.catalogue import find
+        >>> find("pendulum").with_parameters({"k": "12.5", "mu": 0.01}).parameters["mu"]
+        1/100
+        """
+        return replace(self, parameters=merged(self.name, self.parameters, values))
+
+    @cached_property
+    def substituted_force(self) -> sympy.Expr:
+        """The force with every parameter that has a value inserted."""
+        return self._inserted(self.force)
+
+    @cached_property
+    def substituted_potential(self) -> sympy.Expr | None:
+        """The potential with every parameter that has a value inserted."""
+        return None if self.potential is None else self._inserted(self.potential)
+
+    @cached_property
+    def is_conservative(self) -> bool:
+        """Whether the force is even in u', so that motion is reversible and every orbit near the origin closes."""
+        force = self.substituted_force
+        return bool(sympy.expand(force - force.subs(V, -V)) == 0)
+
+    @property
+    def kind(self) -> Kind:
+        """``limit-cycle`` when there is an expansion parameter or negative linear damping, else by the force."""
+        if self.small is not None:
+            return "limit-cycle"
+        if self.is_conservative:
+            return "conservative"
+        slope = sign_at_origin(self.force.diff(V), self.parameters)
+        return "limit-cycle" if slope is not None and slope < 0 else "damped"
+
+    @cached_property
+    def stiffness(self) -> sympy.Expr:
+        """The linear restoring coefficient f_u(0, 0) = k**2, parameters inserted."""
+        return sympy.expand(self._inserted(self.force.diff(U)).subs({U: 0, V: 0}))
+
+    @cached_property
+    def natural_frequency(self) -> sympy.Expr:
+        """k, the positive root of the stiffness, exact; a symbolic parameter under the root is taken as positive."""
+        return positive_root(self.stiffness)
+
+    @cached_property
+    def linear_damping(self) -> sympy.Expr:
+        """Half of f_u'(0, 0), parameters inserted: the mu of the linearised equation, whatever it is called."""
+        return sympy.expand(self._inserted(self.force.diff(V)).subs({U: 0, V: 0}) / 2)
+
+    @property
+    def equation_latex(self) -> str:
+        """The equation in LaTeX: acceleration, damping, restoring; terms with a parameter of value 0 are left out."""
+        zero = {_symbol(name): 0 for name, value in self.parameters.items() if value == 0}
+        return equation_latex(self.force.subs(zero), self.symbol)
+
+    def check_at_origin(self) -> None:
+        """Raise InputError unless u = 0 is an equilibrium with a positive linear restoring force, f analytic there."""
+        value_at_origin(self.force, self.parameters)
+        rest = sympy.expand(self._inserted(self.force).subs({U: 0, V: 0}))
+        if rest != 0:
+            raise InputError(
+                f"{self.name}: u = 0 is not at rest, since f(0, 0) = {brief(rest)} and not 0; "
+                "measure the unknown from the equilibrium"
+            )
+        slope = self.force.diff(U)
+        sign = sign_at_origin(slope, self.parameters)
+        if self.stiffness == 0 or sign == 0:
+            raise NoLinearForceError(_no_linear_force(self.name), self)
+        if sign == -1 or self.stiffness.is_nonpositive:
+            raise InputError(
+                f"{self.name}: the origin is a saddle, since the linear restoring coefficient "
+                f"{brief(self.stiffness)} is negative; measure the unknown from a stable equilibrium"
+            )
+
+    def normalised(self) -> Normalised:
+        """The equation in natural units, k = 1; see ``Normalised``.
+
+        >>> own = Oscillator.from_equation("u'' + 2*mu*u' + k**2*sin(u)", parameters={"k": 4, "mu": "0.01"})
+        >>> own.normalised().force, own.normalised().damping
+        (2*mu*u' + sin(u), 1/400)
+        """
+        k, kept = self.natural_frequency, [name for name in (self.damping, self.small) if name]
+        symbols = {name: _symbol(name) for name in kept}
+        force = self._inserted(self.force, keep=kept).subs({V: k * V, **{s: k * s for s in symbols.values()}})
+        values = {name: self._inserted(symbol) / k for name, symbol in symbols.items()}
+        potential = self.substituted_potential
+        bound = force.subs({symbols[name]: value for name, value in values.items()})
+        rational = named(in_natural_units(bound, self.stiffness))
+        constants = {**rational.values, SQUARED_INVERSE: 1 / self.stiffness}
+        return Normalised(
+            force=divided(force, self.stiffness),
+            bound=divided(bound, self.stiffness),
+            scale=k,
+            damping=values.get(self.damping or "", sympy.S.Zero),
+            small=values.get(self.small or ""),
+            potential=None if potential is None else divided(potential, self.stiffness),
+            rational=rational.force,
+            constants={name: constants[name] for name in sorted(constants) if rational.force.has(_symbol(name))},
+        )
+
+    def _inserted(self, expression: sympy.Expr, keep: list[str] | None = None) -> sympy.Expr:
+        values = {
+            _symbol(name): value
+            for name, value in self.parameters.items()
+            if value is not None and name not in (keep or ())
+        }
+        return expression.subs(values)
+
+
+def _symbol(name: str) -> sympy.Symbol:
+    return sympy.Symbol(name, real=True)
+
+
+def _rebuilt(cls: type[Oscillator], values: dict[str, Any]) -> Oscillator:
+    return cls(**values)
+
+
+def _potential(force: sympy.Expr, given: str | None, unknown: str) -> tuple[sympy.Expr | None, str]:
+    """The potential of f(u, 0) and, when there is none, why."""
+    restoring = force.subs(V, 0)
+    velocity = force - restoring
+    checked = None
+    if given is not None:  # checked wherever it is given, also where it is not all that sets the motion
+        checked = checked_potential(to_sympy(parse_expression(given, unknown=unknown)), restoring)
+    if sympy.expand(velocity + velocity.subs(V, -V)) != 0:
+        return None, "the force has velocity terms that do not dissipate"
+    if small_name(force) is not None:
+        return None, "a limit cycle is not set by its potential"
+    if checked is not None:
+        return checked, ""
+    potential = potential_of(restoring)
+    return potential, "" if potential is not None else f"no rule integrates {brief(restoring)}"
+
+
+def _no_linear_force(name: str) -> str:
+    return (
+        f"{name}: there is no linear restoring force at u = 0, so the frequency vanishes with the amplitude "
+        "(u'' + u**3 = 0 has omega proportional to A) and no expansion about a natural frequency exists; "
+        "add a linear term k**2*u, or compute the period by quadrature (derive --at 1 encloses it)"
+    )

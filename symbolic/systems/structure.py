@@ -1,0 +1,122 @@
+"""The structure of a force: what multiplies u'', which parameter damps it, which one excites it."""
+
+from __future__ import annotations
+
+from typing import Final
+
+import sympy
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.grammar.at_origin import brief
+from ridgeback.symbolic.grammar.parse import U, V, W
+
+SQUARED_INVERSE: Final = "1/k^2*"
+"""Stands for 1/k^2 where a symbolic k does not scale out, as in u'' + k**2*u + b*u**3.  No parameter has this name."""
+
+
+def positive_root(square: sympy.Expr) -> sympy.Expr:
+    """The square root, with symbolic parameters taken as positive: sqrt(k**2) is k.
+
+    >>> positive_root(sympy.Symbol("k", real=True) ** 2)
+    k
+    """
+    return sympy.sqrt(square).replace(sympy.Abs, lambda inner: inner)
+
+
+def solved_for_acceleration(left: sympy.Expr) -> sympy.Expr:
+    """f of u'' + f = 0 from left = 0, dividing by the factor of u'' exactly.
+
+    Raises InputError when u'' cancels, does not enter linearly or has a factor that vanishes at rest.
+
+    >>> solved_for_acceleration(2 * W + 4 * U)
+    2*u
+    """
+    factor = left.diff(W)
+    if factor.has(W):
+        left = sympy.expand(left)
+        factor = left.diff(W)
+    if factor == 0:
+        raise InputError("the second derivative cancels out of the equation; an oscillator needs it")
+    if factor.has(W):
+        raise InputError(f"u'' enters through {brief(left)}; it must enter linearly, as in (1 + u**2)*u'' + u = 0")
+    if factor.subs({U: 0, V: 0}) == 0:
+        raise InputError(
+            f"the factor {brief(factor)} of u'' vanishes at rest; there is no oscillation about the origin"
+        )
+    rest = left.subs(W, 0)
+    return rest if factor == 1 else divided(rest, factor)
+
+
+def divided(expression: sympy.Expr, divisor: sympy.Expr) -> sympy.Expr:
+    """Divide term by term, so that common factors cancel without a simplifier.
+
+    >>> divided(2 * U + 4 * V, sympy.Integer(2))
+    u + 2*u'
+    """
+    if divisor == 1:
+        return expression
+    return sympy.Add(*(term / divisor for term in sympy.Add.make_args(sympy.expand_mul(expression))))
+
+
+def in_natural_units(force: sympy.Expr, stiffness: sympy.Expr) -> sympy.Expr:
+    """f / k^2 with k^2 the stiffness; what a symbolic k^2 does not cancel from is multiplied by a symbol for 1/k^2.
+
+    The part of this force that is linear in u is u itself, whatever the value of that symbol.
+
+    >>> k, b = sympy.symbols("k b", real=True)
+    >>> in_natural_units(k**2 * sympy.sin(U), k**2)
+    sin(u)
+    >>> in_natural_units(k**2 * U + b * U**3, k**2) == U + b * sympy.Symbol(SQUARED_INVERSE, real=True) * U**3
+    True
+    """
+    below = stiffness.free_symbols
+    if not below:
+        return divided(force, stiffness)
+    terms = sympy.Add.make_args(sympy.expand_mul(force))
+    held = [term for term in terms if below & sympy.fraction(term / stiffness)[1].free_symbols]
+    clean = sympy.Add(*(term / stiffness for term in terms if term not in held))
+    if not held:
+        return clean
+    kept = sympy.expand_mul(sympy.Add(*held))
+    slope, linear = (sympy.expand(part.diff(U).subs({U: 0, V: 0})) for part in (kept, clean))
+    nonlinear = sympy.expand_mul(kept - sympy.expand_mul(slope * U))
+    return clean + (1 - linear) * U + sympy.Symbol(SQUARED_INVERSE, real=True) * nonlinear
+
+
+def damping_name(force: sympy.Expr) -> str | None:
+    """The parameter p when the force is 2*p*u' plus terms without p, else None.
+
+    >>> damping_name(2 * sympy.Symbol("c", real=True) * V + U)
+    'c'
+    """
+    slope = sympy.expand(force.diff(V).subs({U: 0, V: 0}))
+    symbol = slope / 2
+    if not isinstance(symbol, sympy.Symbol) or sympy.expand(force - slope * V).has(symbol):
+        return None
+    return str(symbol.name)
+
+
+def small_name(force: sympy.Expr) -> str | None:
+    """The parameter p when the force is g(u) + p*h(u, u') with h_u(0, 0) = 0 and h_u'(0, 0) < 0, else None.
+
+    Such a p > 0 feeds energy in near rest, as the eps of van der Pol's and Rayleigh's equations does.
+
+    >>> small_name(U - sympy.Symbol("eps", real=True) * (1 - U**2) * V)
+    'eps'
+    """
+    slope, stiffness = (sympy.expand(force.diff(s).subs({U: 0, V: 0})) for s in (V, U))
+    for symbol in sorted(slope.free_symbols, key=lambda s: str(s.name)):
+        rate = sympy.expand(slope / symbol)
+        linear = not force.diff(symbol).has(symbol) and not stiffness.has(symbol)
+        if linear and rate.is_negative and not force.subs(symbol, 0).has(V):
+            return str(symbol.name)
+    return None
+
+
+def free_names(force: sympy.Expr) -> tuple[str, ...]:
+    """Return the names of the parameters in a force, sorted; u and u' are not among them.
+
+    >>> free_names(U + sympy.Symbol("alpha3", real=True) * U**3)
+    ('alpha3',)
+    """
+    return tuple(sorted(symbol.name for symbol in force.free_symbols - {U, V}))

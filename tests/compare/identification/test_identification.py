@@ -1,0 +1,252 @@
+"""Identification: the right class in noise, intervals that hold the truth, honest doubt, and predictions."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.identification.candidates import NAMES, level_at, models_of, van_der_pol_flow
+from ridgeback.compare.identification.confusion import DRAWS, confusion, noisy
+from ridgeback.compare.identification.fitting import spread_of
+from ridgeback.compare.identification.identify import identify, usable
+from ridgeback.compare.identification.potentials import POTENTIALS, helmholtz_limit, pendulum_orbits
+from ridgeback.compare.identification.prediction import predict
+from ridgeback.compare.identification.ranking import effective_number
+from ridgeback.compare.identification.results import Identification
+from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
+from ridgeback.numeric.motion.dynamics import duffing, helmholtz_duffing, pendulum, van_der_pol
+from ridgeback.numeric.motion.trajectory import integrate
+from ridgeback.numeric.orbits.potential import peak_limit
+from ridgeback.numeric.orbits.slow_flow import motion
+from ridgeback.numeric.recording.recording import Recording
+from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.flow.reconstruction import Reconstruction
+from ridgeback.symbolic.systems.catalogue import find
+
+
+def decay(*, noise: float = 0.01, cycles: float = 40.0, **parameters: float) -> Recording:
+    """A Duffing decay from 1 with white noise; eight samples per cycle."""
+    rng = np.random.default_rng(7)
+    run = integrate(duffing(**parameters), (1.0, 0.0), duration=cycles * 2 * math.pi, rate=4 / math.pi, rtol=1e-9)
+    return Recording(run.time, run.u + noise * rng.normal(size=run.u.size), 4 / math.pi, "u", "mm", "decay.csv", "")
+
+
+@pytest.fixture(scope="module")
+def hardening() -> Identification:
+    return identify(decay(eps=0.5, mu=0.006), candidates=("linear", "duffing-hardening", "helmholtz-duffing"))
+
+
+def test_ranking_is_complete_and_in_order(hardening: Identification) -> None:
+    deltas = [c.delta for c in hardening.candidates]
+    assert deltas == sorted(deltas)
+    assert deltas[0] == 0
+    assert sum(c.weight for c in hardening.candidates) == pytest.approx(1.0, rel=1e-12)
+    assert hardening.candidates[1].weight / hardening.best.weight == pytest.approx(math.exp(-deltas[1] / 2))
+    assert {c.name for c in hardening.candidates} == {"linear", "duffing-hardening", "helmholtz-duffing"}
+
+
+def test_the_best_candidate_leaves_the_noise_and_has_the_parameters(hardening: Identification) -> None:
+    best = hardening.best
+    assert best.name == "duffing-hardening"
+    assert best.residual == pytest.approx(0.01, rel=0.1)
+    assert hardening.effective_samples > 0.9 * hardening.samples
+    for name, truth in {"k": 1.0, "eps": 0.5, "mu": 0.006, "offset": 0.0}.items():
+        parameter = best.parameter(name)
+        assert abs(parameter.value - truth) < 3.5 * parameter.standard_deviation, name
+    assert best.parameter("eps").unit == "1/(s^2 mm^2)"
+
+
+def test_bands_hold_the_backbone_and_grow_with_its_deviation(hardening: Identification) -> None:
+    """In the fundamental amplitude, from the exact frequency by the first harmonic of the same orbit."""
+    from ridgeback.numeric.orbits.orbit_table import orbit_table
+
+    best = hardening.best
+    peaks = np.linspace(0.05, 1.2, 200)
+    table = orbit_table(duffing(eps=0.5), peaks)
+    exact = np.interp(best.amplitude, table.cosine[1], table.omega)
+    assert np.all(best.omega_low <= best.omega)
+    assert np.mean((best.omega_low <= exact) & (exact <= best.omega_high)) > 0.5
+    assert np.abs(best.omega / exact - 1).max() < 1e-3
+    assert np.all((best.damping_low < best.damping) & (best.damping < best.damping_high))
+
+
+def test_a_result_is_frozen_and_json_knows_it(hardening: Identification) -> None:
+    text = json.loads(json.dumps(hardening.record()))
+    assert text["candidates"][0]["parameters"][0]["name"] == "k"
+    assert len(text["data"]["amplitude"]) == hardening.data.amplitude.size
+    with pytest.raises(ValueError, match="read-only"):
+        hardening.best.omega[0] = 0.0
+
+
+def test_what_cannot_be_told_apart_is_said() -> None:
+    """A weakly softening decay in strong noise: pendulum and Duffing agree through the order that can be seen."""
+    found = identify(decay(eps=-0.15, mu=0.01, noise=0.03), candidates=("pendulum", "duffing-softening", "linear"))
+    assert set(found.indistinguishable) == {"pendulum", "duffing-softening"}
+    assert "cannot tell it apart from" in found.verdict
+    assert max(c.weight for c in found.candidates) < 0.9
+
+
+@pytest.mark.parametrize(("law", "name"), [("linear + quadratic", "beta"), ("linear + cubic", "gamma")])
+def test_the_damping_law_is_found(law: str, name: str) -> None:
+    """u'' + 2 mu u' + c u'|u'|^n + u + 0.4 u^3 = 0, integrated as it stands."""
+    from ridgeback.numeric.motion.dynamics import Dynamics
+
+    power, c = (1, 0.03) if name == "beta" else (2, 0.04)
+    conservative = duffing(eps=0.4, mu=0.003)
+    dynamics = Dynamics(
+        name="damped",
+        force=lambda u, v: conservative.force(u, v) + c * v * abs(v) ** power,
+        natural_frequency=1.0,
+    )
+    run = integrate(dynamics, (1.0, 0.0), duration=250.0, rate=1.3, rtol=1e-9)
+    values = run.u + 0.003 * np.random.default_rng(2).normal(size=run.u.size)
+    found = identify(Recording(run.time, values, 1.3, "u", "", "x", ""), candidates=("duffing-hardening",))
+    assert found.best.damping_law == law
+    parameter = found.best.parameter(name)
+    assert parameter.value == pytest.approx(c, abs=3.5 * parameter.standard_deviation + 0.02 * c)
+
+
+def test_prediction_from_the_first_cycles() -> None:
+    ahead = predict(decay(eps=0.5, mu=0.006), cycles=15, candidates=("linear", "duffing-hardening"), laws=("linear",))
+    assert ahead.candidate == "duffing-hardening"
+    assert ahead.until == pytest.approx(15 * 2 * math.pi / 1.13, rel=0.05)
+    assert ahead.time[0] > ahead.until
+    assert ahead.errors["omega"] < 5e-3
+    assert ahead.errors["phase"] < 0.3
+    assert min(ahead.coverage.values()) > 0.6
+    half = 0.5 * (ahead.amplitude_high - ahead.amplitude_low)
+    assert np.all(half > 0)
+    assert ahead.phase_band[-1] > ahead.phase_band[0]
+
+
+def test_the_papers_pendulum_is_a_pendulum() -> None:
+    """From 0.95 pi, where the swing is nearly square and the frequency doubles within the record."""
+    k, mu = 4 * math.pi, 0.01
+    run = integrate(pendulum(k=k, mu=mu), (0.95 * math.pi, 0.0), duration=20.0, rate=32.0)
+    values = run.u + 0.02 * np.random.default_rng(0).normal(size=run.u.size)
+    recording = Recording(run.time, values, 32.0, "theta", "rad", "paper", "")
+    found = identify(recording, candidates=("pendulum", "duffing-softening"), laws=("linear",))
+    assert found.best.name == "pendulum"
+    assert found.best.residual < 0.03
+    for name, truth in {"k": k, "b": 1.0, "mu": mu}.items():
+        parameter = found.best.parameter(name)
+        assert abs(parameter.value - truth) < 3.5 * parameter.standard_deviation, name
+        assert parameter.standard_deviation < 0.01 * truth, name
+
+
+def test_tables_are_fine_up_to_their_end_next_to_the_separatrix() -> None:
+    """The pendulum's up to 0.992 pi against its closed form; the last nodes stand where it bends most."""
+    orbits = pendulum_orbits((math.pi,))
+    peak = orbits.peak * math.pi
+    assert peak[-1] == pytest.approx(0.992 * math.pi)
+    assert np.abs(orbits.omega / np.asarray(pendulum().closed_form(peak)) - 1).max() < 3e-5
+
+
+def test_effective_number_of_a_narrow_band() -> None:
+    """White noise kept in a tenth of the band is worth a tenth of its samples, wherever the band lies."""
+    rng = np.random.default_rng(5)
+    spectrum = np.fft.rfft(rng.normal(size=8000))
+    for first in (0, 1500):
+        kept = np.zeros_like(spectrum)
+        kept[first : first + 400] = spectrum[first : first + 400]
+        assert effective_number(np.fft.irfft(kept)) == pytest.approx(800, rel=0.15)
+
+
+def test_spread_is_the_covariance_of_least_squares() -> None:
+    """For a straight line: (J^T J)^-1 by hand."""
+    t = np.arange(5.0)
+    assert np.allclose(spread_of(np.column_stack((np.ones(5), t))), np.linalg.inv([[5, 10], [10, 30]]), rtol=1e-9)
+
+
+@pytest.mark.parametrize(("alpha", "eps"), [(0.3, 0.2), (1.2, 0.1), (-1.2, 0.1), (0.5, -0.4), (-0.7, 0.0), (0.0, -1.0)])
+def test_the_end_of_the_well_in_closed_form(alpha: float, eps: float) -> None:
+    exact = peak_limit(helmholtz_duffing(alpha=alpha, eps=eps))
+    assert helmholtz_limit(alpha, eps) == pytest.approx(exact, rel=1e-6)
+
+
+@pytest.mark.parametrize("potential", POTENTIALS, ids=lambda p: p.name)
+def test_every_potential_is_linear_at_small_amplitude_and_mirrors(potential: object) -> None:
+    model = models_of(potential.name, "linear")  # type: ignore[attr-defined]
+    shape = {0: (), 1: (0.5,), 2: (0.1, 0.2)}[len(potential.lower)]  # type: ignore[attr-defined]
+    shape = (-0.3,) if model.name == "duffing-softening" else (1.3, 0.5) if "stop" in model.name else shape
+    flow = model.flow(np.array([2.0, *shape, 0.02, 0.0]), 100.0)
+    expected = 2 / (1 + 1 / 0.5) * 2 if model.name == "bilinear" else 2.0
+    assert flow.omega[-1] == pytest.approx(expected, rel=1e-3)
+    assert flow.growth[-1] == pytest.approx(-0.01, rel=1e-3)
+    assert np.allclose(flow.cosine[1], 1.0)
+
+
+def test_a_stop_below_mirrors_a_stop_above() -> None:
+    above, below = (models_of(name, "linear").flow(np.array([1.0, 1.5, 0.4, 0.01, 0.0]), 1.0) for name in STOPS)
+    signs = np.array([-1.0, 1.0, -1.0, 1.0, -1.0])[:, None]
+    assert np.allclose(above.cosine, signs * below.cosine)
+    assert np.array_equal(above.omega, below.omega)
+
+
+STOPS = ("bilinear-stop", "bilinear-stop-below")
+
+
+@pytest.mark.parametrize("start", [0.4, 3.5])
+def test_van_der_pol_flow_follows_the_equation(start: float) -> None:
+    """Into the limit cycle from inside and outside: the phase error is of the order eps^3 t that was left out."""
+    eps = 0.1
+    run = integrate(van_der_pol(eps), (start, 0.0), duration=120.0, rate=4.0)
+    cycles = cycle_frequency(run, dynamics=van_der_pol(eps))
+    time = np.linspace(8.0, 110.0, 12)
+    wave = Reconstruction(multiple_scales(find("van-der-pol").with_parameters({"k": 1, "eps": None}), 9, weight=1))
+    a0, phase0 = wave.start(start, 0.0, eps)
+    flow = van_der_pol_flow(1.0, eps, 1.0, a0, 120.0)
+    samples = motion(flow, level_at(flow, math.log(a0)), phase0, run.time)
+    assert np.abs(samples.u - run.u).max() < 5e-3 * start
+    at = motion(flow, level_at(flow, math.log(a0)), phase0, time)
+    assert np.abs(at.omega / cycles.at(time) - 1).max() < 2e-3
+    assert float(at.amplitude[-1]) == pytest.approx(2.0, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"candidates": ("linear", "cubic")}, "candidate 'cubic' is unknown"),
+        ({"candidates": ()}, "no candidate is named"),
+        ({"laws": ("viscous",)}, "damping law 'viscous' is unknown"),
+        ({"kind": "aic"}, "criterion 'aic' is unknown"),
+        ({"span": (500.0, 600.0)}, "the recording runs from 0 to"),
+    ],
+)
+def test_unusable_requests_are_refused(options: dict[str, object], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        identify(decay(eps=0.0, mu=0.01), **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("cycles", [3.0, 38.0])
+def test_a_prediction_needs_cycles_on_both_sides(cycles: float) -> None:
+    with pytest.raises(InputError, match="use 6 to 34"):
+        predict(decay(eps=0.0, mu=0.01), cycles=cycles)
+
+
+def test_a_class_without_draws_is_refused() -> None:
+    with pytest.raises(InputError, match="cannot be drawn"):
+        confusion(classes=("backbone-polynomial",), trials=1)
+
+
+def test_long_recordings_are_thinned_and_said() -> None:
+    t = np.arange(40_000) / 200.0
+    x = np.exp(-0.01 * t) * np.cos(2 * math.pi * 0.5 * t)
+    used, notes = usable(Recording(t, x, 200.0, "u", "", "long.csv", ""), None)
+    factor = round(200.0 / used.rate)
+    assert 2 <= factor <= 16
+    assert used.values.size < 6100
+    assert np.abs(used.values - x[::factor])[50:-50].max() < 1e-3
+    assert notes == (f"Every {factor}th sample was used, after a low-pass filter.",)
+
+
+def test_trials_are_seeded_and_noise_has_its_level() -> None:
+    first, again = (DRAWS["linear"](np.random.default_rng(4)) for _ in range(2))
+    assert np.array_equal(first.u, again.u)
+    added = noisy(first, 40.0, np.random.default_rng(1)).values - first.u
+    assert added.std() == pytest.approx(0.01 / math.sqrt(2), rel=0.15)
+    assert set(DRAWS) < set(NAMES)

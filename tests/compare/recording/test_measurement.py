@@ -1,0 +1,124 @@
+"""A survey of recordings: what is measured, left out, failed and combined."""
+
+import numpy as np
+import pytest
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.recording.survey import amplitude_columns, measure, survey
+from ridgeback.numeric.backbone.backbone import backbone
+from ridgeback.numeric.recording.recording import Recording
+
+RATE = 20.0
+T = np.arange(500) / RATE
+QUICK = {"method": "pseudo-wigner", "bias": False}
+
+
+def recording(samples=500, name="u", units="", run="", stretch=0, clip=np.inf, start=0):
+    a = 1.2 * np.exp(-0.05 * T)
+    x = np.clip(a * np.cos(7.0 * T), -clip, clip)[start : start + samples]
+    t = T[start : start + samples]
+    return Recording(t, x, RATE, name, units, "a.csv", "0", run=run, stretch=stretch, clipped=np.abs(x) >= clip)
+
+
+def test_rows_join_frequency_and_amplitude_and_say_where_there_is_none():
+    found = measure(recording(), **QUICK)
+    rows = found.rows()
+    assert len(rows) == 500
+    known = [row for row in rows if np.isfinite(row["amplitude"])]
+    assert 300 < len(known) < 500
+    for row in known:
+        assert row["amplitude"] == pytest.approx(1.2 * np.exp(-0.05 * row["time_s"]), rel=1e-3)
+        assert row["damping_per_s"] == pytest.approx(-0.05, abs=1e-3)
+    assert found.method == "pseudo-wigner"
+    assert found.usable
+
+
+def test_amplitude_is_not_interpolated_across_points_that_were_left_out():
+    """The middle of the record is clipped: between the points before and after it no amplitude is claimed."""
+    whole = recording()
+    flat = (T > 10.0) & (T < 11.0)
+    marked = Recording(whole.time, whole.values, RATE, "u", "", "a.csv", "0", clipped=flat)
+    found = measure(marked, **QUICK)
+    columns = amplitude_columns(found.backbone, found.found.time)
+    assert np.isnan(columns["amplitude"][(T > 9.5) & (T < 11.5)]).all()
+    assert np.isfinite(columns["amplitude"][(T > 6.0) & (T < 8.0)]).all()
+    assert np.isfinite(columns["amplitude"][(T > 14.0) & (T < 20.0)]).all()
+
+
+def test_the_interval_holds_the_truth_and_is_that_of_the_estimator():
+    along = measure(recording(), method="pseudo-wigner").frequency()
+    inside = np.isfinite(along.low)
+    assert inside.sum() > 300
+    assert np.all(along.low[inside] <= along.high[inside])
+    halves = measure(recording(), halves=True).frequency()
+    assert np.all((halves.low <= 7.0 + 1e-3) & (halves.high >= 7.0 - 1e-3))
+
+
+def test_a_harmonic_has_no_backbone():
+    a = np.exp(-0.02 * T)
+    x = a * np.cos(4.0 * T) + 0.1 * a**3 * np.cos(12.0 * T)
+    found = measure(Recording(T, x, RATE, "u", "", "a.csv", "0"), harmonic=3, **QUICK)
+    assert found.backbone is None
+    track = found.frequency()
+    known = np.isfinite(track.omega)
+    assert np.abs(track.omega[known] - 12.0).max() < 0.05
+    for row in found.rows()[50:450:20]:
+        expected = 0.1 * np.exp(-0.06 * row["time_s"])
+        assert row["amplitude"] == pytest.approx(expected, rel=1e-3)
+        assert row["amplitude_low_95"] <= row["amplitude"] <= row["amplitude_high_95"]
+    second = measure(Recording(T, x, RATE, "u", "", "a.csv", "0"), harmonic=2, **QUICK)
+    assert any(note.startswith("No amplitude") for note in second.notes)
+
+
+def test_a_short_stretch_is_left_out_and_a_short_signal_fails():
+    long, short = recording(stretch=1), recording(samples=40, stretch=2, start=450)
+    found = survey([long, short], **QUICK)
+    assert len(found.measured) == 1
+    assert found.failed == ()
+    assert found.notes[0].startswith("Left out, a.csv, u, stretch 2: signal spans")
+    other = survey([long, recording(samples=40, name="w")], **QUICK)
+    assert other.failed[0].startswith("a.csv, w: signal spans")
+    assert other.notes == ()
+    with pytest.raises(InputError, match="signal spans"):
+        survey([short], **QUICK)
+
+
+def test_what_is_combined():
+    runs = [recording(run="1"), recording(run="2"), recording(name="w", run="1")]
+    assert [c.channel for c in survey(runs, **QUICK).combined] == ["u"]
+    (every,) = survey(runs, combine_over="all", **QUICK).combined
+    assert (every.channel, len(every.curve.labels)) == ("all channels", 3)
+    assert survey(runs, combine_over="none", **QUICK).combined == ()
+    with pytest.raises(InputError, match="combine 'both' is unknown; use one of runs, all, none"):
+        survey(runs, combine_over="both", **QUICK)
+    mixed = [recording(units="mm"), recording(name="w", units="V")]
+    with pytest.raises(InputError, match="backbones in V and mm cannot be combined"):
+        survey(mixed, combine_over="all", **QUICK)
+
+
+def test_progress_names_each_signal():
+    told = []
+    survey([recording(run="1"), recording(run="2")], progress=lambda share, text: told.append((share, text)), **QUICK)
+    assert told == [(0.0, "estimating a.csv, 1, u"), (0.5, "estimating a.csv, 2, u")]
+
+
+def test_a_long_record_is_measured_at_the_rate_of_its_decimated_track(monkeypatch):
+    """Amplitude and backbone fit the samples that the track used, not a hundred times as many."""
+    seen = []
+
+    def watched(track, x, rate, **rest):
+        seen.append((x.size, rate))
+        return backbone(track, x, rate, **rest)
+
+    monkeypatch.setattr("ridgeback.compare.recording.survey.backbone", watched)
+    rate = 8000.0
+    t = np.arange(64_000) / rate
+    x = 2.0 * np.exp(-0.1 * t) * np.cos(10 * np.pi * t) + 0.001 * np.random.default_rng(0).normal(size=t.size)
+    found = measure(Recording(t, x, rate, "u", "V", "a.wav", "", clipped=t < 1.0))
+    factor = found.found.settings["decimated_by"]
+    assert factor > 100
+    assert seen == [(found.found.time.size, rate / factor)]
+    curve = found.backbone
+    assert curve.time.min() > 1.0
+    assert np.abs(curve.amplitude / (2.0 * np.exp(-0.1 * curve.time)) - 1.0).max() < 3e-4
+    assert np.abs(curve.damping + 0.1).max() < 5e-3

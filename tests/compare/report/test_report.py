@@ -1,0 +1,130 @@
+"""Reports as a whole: complete, deterministic apart from times, and honest in their title."""
+
+import csv
+import io
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from ridgeback.common.errors import InputError
+from ridgeback.common.errors import InputError as NumericError
+from ridgeback.compare.motion.motion import setting
+from ridgeback.compare.report.provenance import settings_hash
+from ridgeback.compare.report.recording_report import assemble_recording
+from ridgeback.compare.report.results import Report
+from ridgeback.compare.report.system_report import assemble_system, paper_case
+from ridgeback.compare.study.study import ranges
+from ridgeback.compare.wording import amplitude, relative
+from ridgeback.numeric.estimators.estimate import METHODS
+from ridgeback.symbolic.systems.catalogue import find
+
+
+def small(**options) -> Report:
+    case = setting(find("damped-duffing-hardening"), initial=(0.8, 0.0), duration=40.0, rate=5.0)
+    return assemble_system(
+        case, orders=(2, 6), amplitudes=np.linspace(0.1, 0.9, 9), order=6, **{"trials": 2, **options}
+    )
+
+
+@pytest.fixture(scope="module")
+def report():
+    return small(command="ridgeback report duffing")
+
+
+def test_the_title_is_the_range_of_the_chosen_order(report):
+    found = next(item for item in ranges(report.study, 1e-3) if item.order == 6)
+    assert report.finding == found
+    assert report.title == f"Order 6 stays within 0.10 % up to A = {amplitude(found.up_to, '')}"
+    row = np.abs(report.study.relative_error[report.study.orders.index(6)])
+    assert (row[report.study.amplitudes <= found.up_to] <= 1e-3).all()
+    assert row[report.study.amplitudes > found.up_to][0] > 1e-3
+
+
+def test_three_cards_and_every_part_is_there(report):
+    assert [card.heading for card in report.cards] == ["Range of use", "Worst error", "Cost per value"]
+    assert report.derivation.formulas
+    assert report.derivation.certificate
+    assert set(report.derivation.code) == {"Python", "C"}
+    assert report.decay.statements
+    assert report.timings
+    assert report.recording is None
+    assert report.provenance.command == "ridgeback report duffing"
+
+
+def test_every_estimator_stands_beside_the_others_and_in_noise(report):
+    assert {standing.method for standing in report.standings} == set(METHODS) - {"auto", "model-fit"}
+    for standing in report.standings:
+        assert standing.failed or standing.rms_interior < 0.05, standing
+    best = next(s for s in report.standings if s.method == "harmonic-least-squares")
+    assert best.rms_interior < 1e-3
+    assert 0.0 < best.half_width < 0.01
+    loud, quiet = (report.noise.cell("harmonic-least-squares", snr).rms for snr in (10.0, 40.0))
+    assert quiet < 0.1 * loud
+
+
+def test_the_same_request_gives_the_same_report_apart_from_times(report):
+    def timeless(item):
+        still = tuple(replace(standing, seconds=0.0) for standing in item.standings)
+        made = replace(item.provenance, command="", seconds={})
+        return replace(item, provenance=made, timings=(), cards=item.cards[:2], standings=still)
+
+    again = small()
+    assert repr(timeless(again)) == repr(timeless(report))
+    assert again.provenance.settings_hash == report.provenance.settings_hash
+
+
+def test_another_setting_has_another_hash(report):
+    other = assemble_system(
+        setting(find("damped-duffing-hardening"), initial=(0.7, 0.0), duration=40.0, rate=5.0),
+        orders=(2,), order=2, amplitudes=[0.1], trials=0,
+    )  # fmt: skip
+    assert other.provenance.settings_hash != report.provenance.settings_hash
+    assert settings_hash({"a": 1}) != settings_hash({"a": 2})
+
+
+def test_csv_files_read_back_as_the_numbers_they_came_from(report):
+    rows = list(csv.DictReader(io.StringIO(report.csv["study.csv"])))
+    assert len(rows) == report.study.omega.size
+    assert float(rows[3]["omega"]) == report.study.omega[0, 3]
+    decay = list(csv.DictReader(io.StringIO(report.csv["decay.csv"])))
+    np.testing.assert_allclose([float(row["u"]) for row in decay], report.decay.u, rtol=1e-11)
+    found = [float(row["omega_linear"]) for row in decay]
+    np.testing.assert_allclose(found, report.decay.curves[2].omega, rtol=1e-6)
+    scores = list(csv.DictReader(io.StringIO(report.csv["scores.csv"])))
+    assert [row["method"] for row in scores] == [score.method for score in report.decay.scores]
+
+
+def test_the_papers_case_is_the_papers():
+    case = paper_case()
+    numbers = case.case().parameters
+    assert numbers["k"] == pytest.approx(4 * np.pi, rel=1e-15)
+    assert numbers["mu"] == 0.01
+    assert case.initial == (0.95 * np.pi, 0.0)
+    assert (case.duration, case.rate, case.time_unit) == (20.0, 64.0, "s")
+
+
+def test_a_limit_cycle_reports_in_eps():
+    case = setting(find("van-der-pol").with_parameters({"eps": "0.4"}), initial=(1.0, 0.0), duration=40.0, rate=5.0)
+    report = assemble_system(case, orders=(2, 4), amplitudes=[0.2, 0.5], order=4, trials=0)
+    assert "ε = 0.5" in report.title
+    assert report.study.limit is None
+    assert any("Amplitude of the limit cycle" in formula.title for formula in report.derivation.formulas)
+
+
+def test_bad_requests_are_refused():
+    with pytest.raises(InputError, match="target"):
+        small(target=2.0)
+    with pytest.raises(InputError, match="order -1"):
+        assemble_system(paper_case(), order=-1)
+    with pytest.raises(NumericError, match="the suffix"):
+        assemble_recording("missing.unknown")
+    with pytest.raises(OSError, match=r"missing\.csv"):
+        assemble_recording("missing.csv")
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(0.5, "50 %"), (0.0123, "1.2 %"), (0.00099, "0.099 %"), (9.9e-5, "9.9 × 10⁻⁵"), (0.0, "0")]
+)
+def test_errors_are_worded_without_prefixes(value, text):
+    assert relative(value) == text

@@ -1,0 +1,99 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.backbone.backbone import backbone
+from ridgeback.numeric.backbone.curve import pooled
+from ridgeback.numeric.estimators.estimate import METHODS, estimate
+
+RATE = 32.0
+T = np.arange(1921) / RATE
+A = 2.0 * np.exp(-0.04 * T)
+OMEGA = 8.0 - 0.3 * A**2  # a softening backbone, omega0 = 8 - 0.3 a^2
+PHASE = 8.0 * T - 0.3 * 4.0 * (1.0 - np.exp(-0.08 * T)) / 0.08
+CLEAN = A * np.cos(PHASE) + 0.02 * A**3 * np.cos(3 * PHASE) + 0.5
+
+
+def test_softening_backbone_and_constant_damping_are_recovered() -> None:
+    found = backbone(estimate(CLEAN, RATE, start=3.0), CLEAN, RATE)
+    assert found.definition == "fundamental"
+    assert found.offset == pytest.approx(0.5, abs=0.02)
+    assert np.abs(found.amplitude - 2.0 * np.exp(-0.04 * (found.time - 3.0))).max() < 2e-3
+    assert np.abs(found.omega - (8.0 - 0.3 * found.amplitude**2)).max() < 5e-3
+    assert np.abs(found.damping + 0.04).max() < 2e-3
+    assert np.all(np.diff(found.curve_amplitude) > 0)
+    assert np.abs(found.curve_omega - (8.0 - 0.3 * found.curve_amplitude**2)).max() < 1e-2
+    assert "mean" in found.notes[0]
+
+
+@pytest.mark.parametrize("method", [m for m in METHODS if m != "auto"])
+def test_every_track_serves(method: str) -> None:
+    found = backbone(estimate(CLEAN, RATE, method=method), CLEAN, RATE)
+    expected = 8.0 - 0.3 * found.curve_amplitude**2
+    coarse = method == "wigner"  # its curvature bias is left in
+    assert np.median(np.abs(found.curve_omega / expected - 1.0)) < (1e-2 if coarse else 3e-3)
+
+
+def test_bands_cover_the_truth_in_noise() -> None:
+    inside_omega, inside_damping = [], []
+    for seed in range(4):
+        x = CLEAN + 0.05 * np.random.default_rng(seed).normal(size=T.size)
+        found = backbone(estimate(x, RATE, bias=False), x, RATE)
+        expected = 8.0 - 0.3 * found.curve_amplitude**2
+        inside_omega.append(np.abs(found.curve_omega - expected) < 2 * found.curve_omega_sd)
+        inside_damping.append(np.abs(found.curve_damping + 0.04) < 2 * found.curve_damping_sd)
+    assert np.mean(np.concatenate(inside_omega)) > 0.85
+    assert np.mean(np.concatenate(inside_damping)) > 0.85
+    assert np.median(found.curve_omega_sd) < 0.1
+
+
+def test_points_in_the_noise_are_left_out_and_counted() -> None:
+    x = 2.0 * np.exp(-0.15 * T) * np.cos(8.0 * T) + 0.05 * np.random.default_rng(1).normal(size=T.size)
+    found = backbone(estimate(x, RATE, band=(6.0, 10.0)), x, RATE)
+    assert found.amplitude.min() > 5 * 0.005
+    assert "not 5 times above noise" in found.notes[-1]
+
+
+def test_rows_carry_the_names_of_their_columns() -> None:
+    row = backbone(estimate(CLEAN, RATE), CLEAN, RATE).rows()[0]
+    assert list(row) == [
+        "amplitude",
+        "omega_rad_s",
+        "frequency_hz",
+        "omega_standard_deviation_rad_s",
+        "damping_per_s",
+        "damping_standard_deviation_per_s",
+    ]
+    assert row["frequency_hz"] == pytest.approx(row["omega_rad_s"] / (2 * np.pi))
+
+
+def test_the_bands_are_not_much_wider_than_the_errors_either() -> None:
+    off_omega, off_damping = [], []
+    for seed in range(4):
+        x = CLEAN + 0.05 * np.random.default_rng(seed).normal(size=T.size)
+        found = backbone(estimate(x, RATE, method="pseudo-wigner", bias=False), x, RATE)
+        off_omega.append((found.curve_omega - (8.0 - 0.3 * found.curve_amplitude**2)) / found.curve_omega_sd)
+        off_damping.append((found.curve_damping + 0.04) / found.curve_damping_sd)
+    for off in (np.concatenate(off_omega), np.concatenate(off_damping)):
+        assert 0.4 < np.sqrt(np.mean(off**2)) < 1.4
+
+
+def test_pooling_counts_independent_values_only() -> None:
+    rng = np.random.default_rng(0)
+    a, values, deviations = np.linspace(1.0, 2.0, 400), 3.0 + 0.2 * rng.normal(size=400), np.full(400, 0.1)
+    mean, deviation = pooled(a, values, deviations, np.ones(400), 4.0)
+    assert mean == pytest.approx(values.mean())
+    assert deviation == pytest.approx(0.2 / np.sqrt(100.0), rel=0.1)  # the scatter, twice what is stated
+    assert pooled(a, values, 3 * deviations, np.ones(400), 4.0)[1] == pytest.approx(0.03)  # what is stated
+    sloping = values + 5.0 * a
+    assert pooled(a, sloping, deviations, np.ones(400), 4.0)[1] == pytest.approx(deviation)  # a slope is no scatter
+    assert pooled(a[:2], values[:2], deviations[:2], np.ones(2), 4.0)[1] >= 0.1  # both share one window
+
+
+def test_a_record_without_clear_points_is_refused() -> None:
+    rng = np.random.default_rng(3)
+    x = 0.02 * np.cos(8.0 * T[:200]) + rng.normal(size=200)
+    with pytest.raises(InputError, match=r"clear of the noise|valid values|have a peak in the band"):
+        backbone(estimate(x, RATE, band=(7.0, 9.0)), x, RATE)

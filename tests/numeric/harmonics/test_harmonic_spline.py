@@ -1,0 +1,123 @@
+"""The model of the whole signal against dense linear algebra, its own Fisher information, and repeated trials."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.harmonics.signal_model import signal_models
+from ridgeback.numeric.harmonics.spline_basis import DEGREE, normal_equations, spline_basis
+from ridgeback.numeric.harmonics.spline_fit import chosen, fit_on, harmonic_splines, weights_of
+
+RATE = 32.0
+T = np.arange(641) / RATE
+PHASE = 2 * np.pi * (1.0 * T + 0.01 * T**2) + 0.3 * np.sin(0.4 * T)
+OMEGA = 2 * np.pi * (1.0 + 0.02 * T) + 0.12 * np.cos(0.4 * T)
+
+
+@given(st.integers(0, 500), st.integers(1, 4), st.integers(1, 5))
+@settings(deadline=None, max_examples=25)
+def test_banded_least_squares_are_the_dense_ones(seed: int, families: int, intervals: int) -> None:
+    rng = np.random.default_rng(seed)
+    time, weights = np.linspace(0.0, 2.0, 160), rng.normal(size=(160, families))
+    breaks = np.concatenate([[0.0], np.sort(rng.uniform(0.2, 1.8, intervals - 1)), [2.0]])
+    basis = spline_basis(time, breaks)
+    equations = normal_equations(basis, weights)
+    dense = (basis.values.toarray()[:, :, None] * weights[:, None, :]).reshape(160, -1)
+    x = rng.normal(size=160)
+    if np.linalg.cond(dense) < 1e4:
+        assert_allclose(equations.solve(x).ravel(), np.linalg.lstsq(dense, x, rcond=None)[0], rtol=1e-4, atol=1e-5)
+        covariance, slopes = np.linalg.inv(dense.T @ dense)[::families, ::families], basis.slopes.toarray()
+        expected = np.einsum("nk,kl,nl->n", slopes, covariance, slopes)
+        assert_allclose(equations.variance(basis.slopes, 0), expected, rtol=1e-4)
+
+
+def test_slopes_are_those_of_the_splines() -> None:
+    basis = spline_basis(T, np.array([0.0, 3.0, 11.0, 20.03125]) * T[-1] / 20.03125)
+    assert_allclose(basis.slopes.sum(axis=1), 0.0, atol=1e-10)
+    p = normal_equations(basis, np.ones((T.size, 1))).solve(T**DEGREE)[:, 0]
+    assert_allclose(basis.slopes @ p, DEGREE * T ** (DEGREE - 1), rtol=1e-6, atol=1e-2)
+
+
+def test_exact_where_the_model_holds_up_to_the_very_ends() -> None:
+    x = (2.0 - 0.05 * T) * np.cos(PHASE) + (0.2 + 0.01 * T) * np.cos(3 * PHASE - 1.0) + 0.7 - 0.02 * T
+    model = chosen(harmonic_splines(x, RATE, OMEGA * 1.1, multiples=(3,)))
+    assert np.abs(model.omega / OMEGA - 1.0).max() < 3e-6
+    assert np.abs(model.amplitude - (2.0 - 0.05 * T)).max() < 3e-5
+    third, size = model.tone(3)
+    assert np.abs(third / (3.0 * OMEGA) - 1.0).max() < 1e-5
+    assert np.abs(size - (0.2 + 0.01 * T)).max() < 3e-5
+    assert np.abs(model.samples(keep=lambda h: h == 0) - (0.7 - 0.02 * T)).max() < 3e-5
+    assert np.abs(model.samples() - x).max() < 3e-5
+
+
+def test_deviation_is_the_cramer_rao_bound_and_is_met() -> None:
+    # The bound is computed from the Jacobian written out in full, at the truth; the trials are fits on the same knots.
+    sigma, breaks = 0.1, np.array([0.0, 7.0, 14.0, 20.0])
+    phase, omega = 2 * np.pi * (1.0 * T + 0.01 * T**2), 2 * np.pi * (1.0 + 0.02 * T)
+    basis = spline_basis(T, breaks)
+    jacobian = (basis.values.toarray()[:, :, None] * weights_of(phase, np.ones(T.size), ())[:, None, :]).reshape(
+        641, -1
+    )
+    slopes = basis.slopes.toarray()
+    covariance = np.linalg.inv(jacobian.T @ jacobian)[2::3, 2::3]
+    bound = sigma * np.sqrt(np.einsum("nk,kl,nl->n", slopes, covariance, slopes))
+    found, claimed = [], []
+    for seed in range(100):
+        x = np.cos(phase) + sigma * np.random.default_rng(seed).normal(size=T.size)
+        model = fit_on(x, T, phase, np.ones(T.size), breaks, ())
+        found.append(model.omega - omega)
+        claimed.append(model.omega_deviation)
+    assert_allclose(np.mean(claimed, axis=0), bound, rtol=0.05)
+    ratio = np.sqrt(np.mean(np.square(found), axis=0)) / bound
+    assert np.sqrt(np.mean(ratio**2)) == pytest.approx(1.0, abs=0.08)
+
+
+def test_answer_to_noise_is_the_change_of_the_fit() -> None:
+    rng = np.random.default_rng(3)
+    clean, breaks = np.cos(PHASE) + 0.3 * np.cos(2 * PHASE + 0.5), np.array([0.0, 7.0, 14.0, 20.0])
+    model = fit_on(clean, T, PHASE, np.ones(T.size), breaks, (2,))
+    noise = 1e-5 * rng.normal(size=T.size)
+    again = fit_on(model.samples() + noise, T, PHASE, np.ones(T.size), breaks, (2,))
+    change, taken = model.answer(noise)
+    for h in (1, 2):
+        for moved, predicted, before in zip(again.tone(h), model.tone(h, change), model.tone(h), strict=True):
+            assert np.abs(moved - predicted).max() < 2e-2 * np.abs(moved - before).max()
+    assert abs(float(taken @ (noise - taken))) < 1e-6 * float(noise @ noise)
+
+
+def test_knots_go_where_the_phase_bends() -> None:
+    phase = 2 * np.pi * 1.5 * T + 3.0 * np.exp(-T)
+    x = np.cos(phase) + 0.001 * np.random.default_rng(5).normal(size=T.size)
+    model = chosen(harmonic_splines(x, RATE, np.gradient(phase, T)))
+    assert np.diff(model.breaks)[0] < 0.8 * np.diff(model.breaks)[-1]
+
+
+def test_more_noise_asks_for_fewer_knots() -> None:
+    rng = np.random.default_rng(9)
+    noise = rng.normal(size=T.size)
+    x = np.cos(PHASE + np.sin(T))
+    fine, rough = (chosen(harmonic_splines(x + s * noise, RATE, OMEGA)) for s in (1e-3, 0.3))
+    assert fine.cycles < rough.cycles
+
+
+def test_harmonics_of_the_data_are_found_and_steps_kept() -> None:
+    x = np.cos(PHASE) + 0.1 * np.cos(3 * PHASE) + 0.02 * np.random.default_rng(2).normal(size=T.size)
+    models = signal_models(x, RATE, OMEGA, half=40)
+    assert models.best.multiples == (3,)
+    assert models.coarse.parameters < models.best.parameters < models.fine.parameters
+    assert models.coarse.criterion <= min(models.best.criterion, models.fine.criterion)
+    assert 0.0 < models.remainder < 0.2
+    with pytest.raises(InputError, match=r"harmonic 2 is not in the model of the signal; it holds \(1, 3\)"):
+        models.fine.tone(2)
+
+
+def test_what_no_model_fits_is_said() -> None:
+    with pytest.raises(InputError, match="cycles in 40 samples; a model of all of it with 3 splines needs"):
+        harmonic_splines(np.cos(PHASE[:40]), RATE, OMEGA[:40])
+    with pytest.raises(InputError, match="operations, over the budget"):
+        harmonic_splines(np.ones(5_000_000), RATE, np.ones(5_000_000), multiples=(2, 3, 4, 5))

@@ -1,0 +1,160 @@
+"""Files appear whole or not at all, and JSON holds only what JSON knows."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import stat
+from fractions import Fraction
+from pathlib import Path
+
+import click
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ridgeback.cli import main
+from ridgeback.common.files import current_umask
+from ridgeback.console import output, tables
+
+
+def test_a_file_is_replaced_in_one_step(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    target = tmp_path / "out.csv"
+    target.write_text("before", encoding="utf-8")
+
+    def broken(self: Path, _: Path) -> Path:
+        raise OSError(28, "No space left on device", str(self))
+
+    monkeypatch.setattr(Path, "replace", broken)
+    with pytest.raises(OSError, match="No space"):
+        output.write_text(str(target), "after")
+    assert target.read_text(encoding="utf-8") == "before"
+    assert list(tmp_path.iterdir()) == [target]
+
+
+def test_an_interrupt_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(_: int) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(os, "fsync", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        output.write_text(str(tmp_path / "out.csv"), "text")
+    assert not list(tmp_path.iterdir())
+
+
+def test_links_and_modes_are_kept(tmp_path: Path) -> None:
+    real, link = tmp_path / "real.txt", tmp_path / "link.txt"
+    real.write_text("before", encoding="utf-8")
+    real.chmod(0o640)
+    link.symlink_to(real)
+    output.write_text(str(link), "after")
+    assert link.is_symlink()
+    assert real.read_text(encoding="utf-8") == "after"
+    assert stat.S_IMODE(real.stat().st_mode) == 0o640
+
+
+def test_a_new_file_has_the_usual_mode(tmp_path: Path) -> None:
+    output.write_text(str(tmp_path / "new.txt"), "x")
+    assert stat.S_IMODE((tmp_path / "new.txt").stat().st_mode) == 0o666 & ~current_umask()
+
+
+def test_devices_are_written_and_not_replaced() -> None:
+    output.write_text(os.devnull, "gone")
+    assert not Path(os.devnull).is_file()
+
+
+@pytest.mark.parametrize(
+    ("path", "error"),
+    [(".", IsADirectoryError), ("missing/out.csv", FileNotFoundError)],
+)
+def test_places_that_cannot_be_written_are_refused_before_the_work(
+    path: str, error: type[OSError], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(error):
+        output.check_writable(path)
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=5), inner, max_size=4),
+    max_leaves=12,
+)
+
+
+@settings(deadline=None, max_examples=100)
+@given(JSON)
+def test_json_is_strict_whatever_the_value(value: object) -> None:
+    text = output.json_text(value)
+    assert text.endswith("\n")
+
+    def refuse(constant: str) -> None:
+        raise AssertionError(constant)
+
+    json.loads(text, parse_constant=refuse)
+
+
+def test_arrays_and_exact_numbers_become_json() -> None:
+    value = {
+        "omega": np.array([1.0, np.nan]),
+        "n": np.int64(3),
+        "ok": np.bool_(True),
+        "c": Fraction(-1, 16),
+        "t": (1, 2),
+    }
+    assert output.plain(value) == {"omega": [1.0, None], "n": 3, "ok": True, "c": "-1/16", "t": [1, 2]}
+
+
+@settings(deadline=None)
+@given(st.floats())
+def test_csv_floats_are_read_back_the_same(value: float) -> None:
+    text = tables.cell(value)
+    if math.isfinite(value):
+        assert float(text).hex() == value.hex()
+    else:
+        assert text == ""
+
+
+def test_outputs_are_kept_apart_by_their_resolved_paths(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "real.csv").touch()
+    (tmp_path / "link.csv").symlink_to("real.csv")
+    output.keep_apart({"-o": "-", "--plot": None}, ["-", None])
+    output.keep_apart({"-o": "a.csv", "--plot": "b.svg"}, ["real.csv"])
+    output.keep_apart({"-o": os.devnull, "--checkpoint": os.devnull}, [os.devnull])
+    for other in ("link.csv", str(tmp_path / "real.csv")):
+        with pytest.raises(click.UsageError, match="is a file that is read too"):
+            output.keep_apart({"-o": other}, ["real.csv"])
+        with pytest.raises(click.UsageError, match="is the file of -o too"):
+            output.keep_apart({"-o": "real.csv", "--plot": other})
+
+
+VERBS = ("derive", "generate", "simulate", "study", "report", "systems")
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_no_verb_writes_over_the_description_it_reads(
+    verb: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = "[oscillator]\nequation = \"u'' + u + u**3 = 0\"\n"
+    source = tmp_path / "mine.toml"
+    source.write_text(text)
+    (tmp_path / "link").symlink_to(source)
+    (tmp_path / "hard").hardlink_to(source)
+    (tmp_path / "folder").mkdir()
+    for name in ("mine.toml", "./mine.toml", str(source), "folder/../mine.toml", "link", "hard"):
+        assert main([verb, "mine.toml", "-o", name]) == 2
+        assert "is a file that is read too" in capsys.readouterr().err
+    assert source.read_text() == text
+
+
+def test_a_read_only_file_is_not_replaced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    kept = tmp_path / "kept.txt"
+    kept.write_text("kept")
+    kept.chmod(0o444)
+    assert main(["systems", "-o", str(kept)]) == 4
+    assert "read-only" in capsys.readouterr().err
+    assert kept.read_text() == "kept"

@@ -1,0 +1,318 @@
+"""``ridgeback estimate`` on recordings as they are: several channels and runs, gaps, clipping, formats, a picture."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.io import savemat
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.recording.recording import Recording
+from tests.ridgeback.conftest import Ridgeback
+
+RATE = 20.0
+T = np.arange(500) / RATE
+QUICK = ("--method", "pseudo-wigner")
+BAND = (*QUICK, "--band", "6,10")
+"""In noise too, where the band is no matter of the signal."""
+
+
+def decay(size: float = 1.0) -> np.ndarray:
+    """omega0 = 8 - 0.3 a^2, a'/a = -0.05."""
+    a = size * np.exp(-0.05 * T)
+    return a * np.cos(8.0 * T - 0.3 * size**2 * (1 - np.exp(-0.1 * T)) / 0.1)
+
+
+def written(path: Path, **columns: np.ndarray) -> str:
+    rows = zip(*columns.values(), strict=True)
+    lines = [",".join("" if np.isnan(value) else repr(float(value)) for value in row) for row in rows]
+    path.write_text(",".join(columns) + "\n" + "\n".join(lines) + "\n", encoding="utf-8")
+    return str(path)
+
+
+def table(text: str) -> list[dict[str, str]]:
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def test_a_track_has_amplitude_and_damping_beside_frequency(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    done = ridgeback("estimate", written(tmp_path / "a.csv", t=T, u=decay()), *QUICK, "--format", "csv")
+    assert done.code == 0
+    assert "mean of the samples" in done.err
+    rows = [row for row in table(done.out) if row["amplitude"] and row["valid"] == "true"]
+    assert len(rows) > 200
+    for row in rows:
+        a = np.exp(-0.05 * float(row["time_s"]))
+        assert float(row["amplitude"]) == pytest.approx(a, rel=2e-3)
+        assert float(row["damping_per_s"]) == pytest.approx(-0.05, abs=2e-3)
+        assert float(row["omega_rad_s"]) == pytest.approx(8.0 - 0.3 * a**2, rel=1e-3)
+
+
+def test_one_missing_value_leaves_two_stretches_and_a_common_backbone(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    x = decay()
+    x[250] = np.nan
+    path = written(tmp_path / "a.csv", t=T, u=x)
+    public = json.loads(ridgeback("estimate", path, *QUICK, "--format", "json").out)
+    assert [signal["recording"]["stretch"] for signal in public["signals"]] == [1, 2]
+    assert all(np.isfinite(row["omega_rad_s"]) for signal in public["signals"] for row in signal["track"])
+    assert "1 gap: t = 12.45 to 12.55 (1 missing)" in " ".join(public["signals"][0]["notes"])
+    (combined,) = public["combined"]
+    assert (combined["channel"], combined["amplitude"]) == ("u", "fundamental")
+    for row in combined["backbone"]:
+        assert row["frequency_hz"] * 2 * np.pi == pytest.approx(8.0 - 0.3 * row["amplitude"] ** 2, rel=3e-3)
+    filled = json.loads(ridgeback("estimate", path, *QUICK, "--fill", "0.11", "--format", "json").out)
+    assert filled["recording"]["filled"] == 1
+    said = ridgeback("estimate", path, *QUICK, "--backbone", "--format", "csv")
+    assert "ridgeback: a.csv, u, stretch 1: 1 gap: t = 12.45" in said.err
+    rows = table(said.out)
+    assert {row["run"] for row in rows} == {"a.csv", "combined"}
+    assert {row["stretch"] for row in rows} == {"1", "2", ""}
+
+
+def test_runs_in_files_and_channels_by_name(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    files = [written(tmp_path / f"{i}.csv", t=T, u=decay(s), w=3 * decay(s)) for i, s in enumerate((1.0, 0.8))]
+    done = ridgeback("estimate", *files, "--column", "u,w", *QUICK, "--backbone")
+    assert (done.code, done.err) == (0, "")
+    assert done.out.count("combined backbone of") == 2
+    assert "combined backbone of w: 0.csv, w; 1.csv, w" in done.out
+    assert "omega_between_runs_rad_s" in done.out
+    together = json.loads(
+        ridgeback("estimate", *files, "--column", "all", *QUICK, "--combine", "all", "--format", "json").out
+    )
+    (combined,) = together["combined"]
+    assert len(combined["runs"]) == 4
+    alone = json.loads(
+        ridgeback("estimate", *files, "--column", "u", *QUICK, "--combine", "none", "--format", "json").out
+    )
+    assert alone["combined"] == []
+
+
+def test_units_are_not_mixed(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    path = written(tmp_path / "a.csv", **{"t": T, "u [mm]": decay(), "w [V]": decay()})
+    done = ridgeback("estimate", path, "--column", "all", "--combine", "all", *QUICK)
+    assert done.code == 2
+    assert "backbones in V and mm cannot be combined" in done.err
+
+
+def test_a_channel_without_an_oscillation_is_owned_up_to(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    short = np.where(np.arange(500) < 20, decay(), np.nan)
+    path = written(tmp_path / "a.csv", t=T, u=decay(), w=short)
+    done = ridgeback("estimate", path, "--column", "u,w", *QUICK, "--format", "json")
+    assert done.code == 3
+    assert "gave no result: a.csv, w: signal spans" in done.err
+    assert len(json.loads(done.out)["signals"]) == 1
+
+
+def test_clipped_samples_are_told_and_kept_out_of_the_backbone(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    path = written(tmp_path / "a.csv", t=T, u=np.clip(decay(), -0.7, 0.7))
+    public = json.loads(ridgeback("estimate", path, *QUICK, "--format", "json").out)
+    assert public["recording"]["clipped"] > 20
+    assert any("are clipped: t = 0" in note for note in public["notes"])
+    assert max(row["amplitude"] for row in public["backbone"]) < 0.75
+    halves = json.loads(ridgeback("estimate", path, "--half-cycles", "--format", "json").out)
+    assert max(row["amplitude"] for row in halves["backbone"]) < 0.7
+    assert max(row["amplitude"] for row in halves["track"]) == pytest.approx(0.7, rel=0.05)
+
+
+def test_half_cycles_and_their_backbone(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    path = written(tmp_path / "a.csv", t=T, u=decay() + 0.3)
+    public = json.loads(ridgeback("estimate", path, "--half-cycles", "--format", "json").out)
+    assert public["method"] == "half-cycles"
+    assert public["amplitude_definition"] == "peak"
+    for row in public["track"][1:-1]:
+        a = np.exp(-0.05 * row["time_s"])
+        assert row["amplitude"] == pytest.approx(a, rel=2e-3)
+        assert row["damping_per_s"] == pytest.approx(-0.05, abs=1e-3)
+        assert row["omega_rad_s"] == pytest.approx(8.0 - 0.3 * a**2, rel=1e-3)
+    rows = table(ridgeback("estimate", path, "--half-cycles", "--backbone", "--format", "csv").out)
+    assert set(rows[0]) >= {"amplitude", "omega_rad_s", "damping_per_s"}
+
+
+def test_a_matlab_file_gives_what_the_text_gives(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    text = written(tmp_path / "a.csv", t=T, u=decay())
+    savemat(tmp_path / "a.mat", {"t": T, "u": decay()})
+    of_text, of_mat = (
+        table(ridgeback("estimate", name, *QUICK, "--format", "csv").out) for name in (text, str(tmp_path / "a.mat"))
+    )
+    assert of_text == of_mat
+
+
+def test_without_h5py_the_environment_is_at_fault(
+    ridgeback: Ridgeback, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "a.h5").write_bytes(b"\x89HDF\r\n\x1a\n")
+    monkeypatch.setitem(sys.modules, "h5py", None)
+    done = ridgeback("estimate", str(tmp_path / "a.h5"))
+    assert done.code == 4
+    assert done.err == "ridgeback: reading a.h5 needs the library h5py, which is missing; pip install h5py\n"
+
+
+@pytest.mark.parametrize("kind", ["svg", "png", "pdf"])
+def test_a_picture_is_written_beside_the_numbers(ridgeback: Ridgeback, tmp_path: Path, kind: str) -> None:
+    path = written(tmp_path / "a.csv", t=T, u=decay())
+    picture = tmp_path / f"a.{kind}"
+    done = ridgeback("estimate", path, *QUICK, "--plot", str(picture))
+    assert (done.code, done.err) == (0, "")
+    assert picture.read_bytes()[:5] in (b"<?xml", b"\x89PNG\r", b"%PDF-")
+    assert "time_s" in done.out
+
+
+def test_settings_reach_the_estimator(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    path = written(tmp_path / "a.csv", t=T, u=decay())
+
+    def settings(*words: str) -> dict[str, object]:
+        done = ridgeback("estimate", path, *words, "--format", "json")
+        assert done.code == 0, done.err
+        found = json.loads(done.out)
+        return {"method": found["method"], **found["settings"]}
+
+    limited = settings("--method", "pseudo-wigner", "--band-limited", "--single", "--window", "hann")
+    assert limited["band_limited"] is True
+    assert limited["single"] is True
+    assert limited["lag_window"] == "hann"
+    smooth = settings("--method", "smoothed-pseudo-wigner", "--smoothing", "0.5")
+    assert smooth["smoothing_seconds"] == pytest.approx(0.5, abs=0.1)
+    assert settings("--method", "polynomial-wigner", "--order", "4")["order"] == 4
+    assert settings("--method", "harmonic-least-squares", "--harmonics", "2")["harmonics"] == [1, 2]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--plot", "a.gif"), "does not end in .svg, .png or .pdf"),
+        (("--half-cycles", "--harmonic", "3"), "--half-cycles are those of the signal"),
+        (("--backbone", "--harmonic", "3"), "--backbone is that of the fundamental"),
+        (("--half-cycles", "--method", "wigner", "--lag", "3"), "no use for --method, --lag"),
+        (("--monte-carlo", "5", "--window", "hann", "--single"), "no use for --window, --single"),
+        (("--resample", "-3"), "'-3' is not above 0"),
+        (("--detrend", "cubic"), "'cubic' is not one of"),
+        (("--method", "hilbert", "--single"), "has no band-limited or single-precision form"),
+        (("--run-column", "shot"), "no column shot"),
+        (("--order", "5"), "'5' is not one of"),
+    ],
+)
+def test_refusals_are_one_line(ridgeback: Ridgeback, tmp_path: Path, words: tuple[str, ...], message: str) -> None:
+    done = ridgeback("estimate", written(tmp_path / "a.csv", t=T, u=decay()), *words)
+    assert done.code == 2
+    assert done.out == ""
+    assert message in done.err
+    assert done.err.count("\n") == 1
+
+
+def test_treatment_belongs_to_a_recording(ridgeback: Ridgeback) -> None:
+    done = ridgeback("report", "--fill", "0.1")
+    assert done.code == 2
+    assert "--fill belongs to --recording FILE" in done.err
+
+
+def test_a_report_reads_what_estimate_reads(
+    ridgeback: Ridgeback, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The recording that reaches the page is the one that the options describe."""
+    seen: list[Recording] = []
+
+    def taken(recording: Recording, **_: object) -> None:
+        seen.append(recording)
+        raise InputError("that is enough")
+
+    monkeypatch.setattr("ridgeback.compare.report.recording_report.assemble_recording", taken)
+    x = decay()
+    x[250] = np.nan
+    path = written(tmp_path / "a.csv", t=T, u=x)
+    assert ridgeback("report", "--recording", path).code == 2
+    assert ridgeback("report", "--recording", path, "--fill", "0.2", "--detrend", "linear").code == 2
+    assert [recording.values.size for recording in seen] == [250, 500]
+    assert seen[1].facts["detrend"] == "linear"
+
+
+def test_what_a_table_has_no_room_for_is_said(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    """Notes of the measurement and why there is no interval: those that JSON has, a line each beside CSV."""
+    noise = np.random.default_rng(1).standard_normal(T.size)
+    path = written(tmp_path / "a.csv", t=T, u=noise)
+    public = json.loads(ridgeback("estimate", path, *BAND, "--format", "json").out)
+    assert "No amplitude: " in public["notes"][-1]
+    reason = public["settings"]["no_interval"]
+    done = ridgeback("estimate", path, *BAND, "--format", "csv")
+    assert done.code == 3  # noise: no sample that the estimator vouches for
+    wanted = [*public["notes"], f"No interval: {reason}."]
+    *said, last = done.err.splitlines()
+    assert said == [f"ridgeback: a.csv, u: {note}" for note in wanted]
+    assert "found no sample it can vouch for" in last
+
+
+@pytest.mark.parametrize("style", ["text", "json", "csv"])
+def test_a_signal_without_a_backbone_is_named(ridgeback: Ridgeback, tmp_path: Path, style: str) -> None:
+    noise = np.random.default_rng(1).standard_normal(T.size)
+    files = [written(tmp_path / "a.csv", t=T, u=decay()), written(tmp_path / "noise.csv", t=T, u=noise)]
+    done = ridgeback("estimate", *files, *BAND, "--backbone", "--format", style)
+    assert done.code == 3
+    last = done.err.splitlines()[-1]
+    assert "noise.csv, u: no backbone, No amplitude: " in last
+    assert "a.csv, u: no backbone" not in last
+    assert "amplitude" in done.out
+
+
+def test_a_stretch_without_a_backbone_is_a_note(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    x = decay()
+    x[250] = np.nan
+    x[251:] = np.random.default_rng(1).standard_normal(T.size - 251)
+    path = written(tmp_path / "a.csv", t=T, u=x)
+    done = ridgeback("estimate", path, *BAND, "--backbone", "--format", "csv")
+    assert done.code == 3  # the noise of the second stretch is not vouched for
+    assert "a.csv, u, stretch 2: No amplitude: " in done.err
+    assert "a.csv, u: no backbone" not in done.err
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("-o", "z.svg", "--plot", "./z.svg"),
+        ("-o", "a.csv"),
+        ("-o", "link.csv"),
+        ("-o", "sub/../a.csv"),
+        ("--monte-carlo", "2", "-o", "a.csv"),
+    ],
+)
+def test_no_output_replaces_another_or_the_recording(
+    ridgeback: Ridgeback, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "sub").mkdir()
+    written(tmp_path / "a.csv", t=T, u=decay())
+    (tmp_path / "link.csv").symlink_to("a.csv")
+    before = (tmp_path / "a.csv").read_bytes()
+    done = ridgeback("estimate", "a.csv", *QUICK, *words)
+    assert done.code == 2
+    assert "give each a name of its own" in done.err
+    assert done.err.count("\n") == 1
+    assert (tmp_path / "a.csv").read_bytes() == before
+    assert not (tmp_path / "z.svg").exists()
+
+
+@pytest.mark.parametrize("verb", [("identify", "a.csv"), ("report", "--recording", "a.csv")])
+def test_no_verb_writes_over_its_recording(
+    ridgeback: Ridgeback, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, verb: tuple[str, ...]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    written(tmp_path / "a.csv", t=T, u=decay())
+    done = ridgeback(*verb, "-o", "a.csv")
+    assert done.code == 2
+    assert "-o 'a.csv' is a file that is read too" in done.err
+
+
+@pytest.mark.parametrize(
+    "verb", [("study", "--estimators"), ("derive", "pendulum", "--order", "8", "--digits", "20")], ids=lambda v: v[0]
+)
+def test_a_checkpoint_is_no_output(
+    ridgeback: Ridgeback, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, verb: tuple[str, ...]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = ridgeback(*verb, "--checkpoint", "x.json", "-o", "x.json")
+    assert done.code == 2
+    assert "-o 'x.json' is the file of --checkpoint too" in done.err
+    assert not (tmp_path / "x.json").exists()

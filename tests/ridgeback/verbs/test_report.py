@@ -1,0 +1,155 @@
+"""``ridgeback report``: one file, what it says on the terminal, and the command that makes it again."""
+
+from __future__ import annotations
+
+import html
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ridgeback.compare.report.system_report import paper_case
+from ridgeback.console.failure import PartialError
+from ridgeback.options.system import Choice
+from ridgeback.verbs import report
+
+Ridgeback = Callable[..., Any]  # the fixture of conftest.py
+
+NONE = Choice(None, None, None, ())
+SMALL = [
+    "--duration",
+    "40",
+    "--rate",
+    "6",
+    "--order",
+    "2",
+    "--orders",
+    "2,4",
+    "--amplitudes",
+    "0.2,0.5",
+    "--trials",
+    "0",
+]
+
+
+def test_a_system(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    page = tmp_path / "duffing.html"
+    done = ridgeback("report", "damped-duffing", "--set", "eps=1/2", "--initial", "0.8,0", *SMALL, "-o", str(page))
+    assert (done.code, done.err) == (0, "")
+    text = page.read_text(encoding="utf-8")
+    assert text.startswith("<!DOCTYPE html>") or text.startswith("<!doctype html>")
+    assert text.rstrip().endswith("</html>")
+    title = done.out.splitlines()[2]
+    assert f"wrote {page}" in done.out
+    assert "Order 2" in title
+    assert html.escape(title) in text or title in html.unescape(text)
+    # The page tells how to make it again, without the place it was written to.
+    assert "ridgeback report damped-duffing --set eps=1/2 --initial 0.8,0" in html.unescape(text)
+    assert str(tmp_path) not in text
+
+
+def test_a_recording(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    """1.25 Hz, decaying as exp(-0.05 t): a linear oscillator, whatever the amplitude."""
+    samples = [math.exp(-0.05 * i / 32) * math.cos(2 * math.pi * 1.25 * i / 32) for i in range(960)]
+    recording = tmp_path / "decay.csv"
+    recording.write_text("t,x\n" + "".join(f"{i / 32!r},{x!r}\n" for i, x in enumerate(samples)), encoding="utf-8")
+    page = tmp_path / "decay.html"
+    done = ridgeback("report", "--recording", str(recording), "--column", "x", "--trials", "0", "-o", str(page))
+    assert (done.code, done.err) == (0, "")
+    assert "1.25" in done.out.splitlines()[2]
+    assert "What made it: Linear oscillator" in done.out
+    assert "section-identification" in page.read_text(encoding="utf-8")
+
+
+def test_the_page_alone_on_standard_output(ridgeback: Ridgeback) -> None:
+    done = ridgeback("report", "linear", *SMALL, "-o", "-")
+    assert done.code == 0
+    assert done.out.lstrip().lower().startswith("<!doctype html>")
+    assert done.out.rstrip().endswith("</html>")
+
+
+def test_without_an_argument_it_is_the_papers_case() -> None:
+    nothing = report.Motion(NONE, None, None, None)
+    paper = paper_case()
+    assert report.setting_of(nothing) == paper
+    assert paper.initial == (0.95 * math.pi, 0.0)
+    assert {n: float(v) for n, v in paper.oscillator.parameters.items()} == {"mu": 0.01, "k": 12.566370614359172}
+
+
+def test_the_papers_case_can_be_varied() -> None:
+    varied = report.setting_of(report.Motion(NONE, (1.0, 0.0), None, 32.0))
+    assert (varied.initial, varied.duration, varied.rate) == ((1.0, 0.0), 20.0, 32.0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ("report --column u", ("--column", "--recording")),
+        ("report --recording run.csv --initial 1,0", ("--initial", "simulation")),
+        ("report --recording run.csv --order 4", ("--order", "study")),
+        ("report --recording run.csv --set k=2", ("--set", "SYSTEM")),
+        ("report --set k=1 --set k=2", ("k", "twice")),
+        ("report --set q=1", ("'q'", "mu")),
+        ("report --initial 4,0", ("4", "3.14159")),
+        ("report pendulum --amplitudes 4", ("4", "3.14159")),
+        ("report --target 2", ("2", "0.001")),
+        ("report --rate 2", ("2",)),
+        ("report --duration 0.1", ("0.1",)),
+    ],
+)
+def test_requests_that_cannot_be_met(
+    ridgeback: Ridgeback, tmp_path: Path, arguments: str, words: tuple[str, ...]
+) -> None:
+    page = tmp_path / "page.html"
+    done = ridgeback(*arguments.split(), "-o", str(page))
+    assert done.code == 2
+    assert done.out == ""
+    assert done.err.count("\n") == 1
+    assert "unexpected" not in done.err
+    for word in words:
+        assert word in done.err
+    assert not page.exists()
+
+
+def test_missing_results_are_owned_up_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from types import SimpleNamespace
+
+    monkeypatch.setattr("ridgeback.reports.page.render", lambda _: "<html></html>")
+    scores = (SimpleNamespace(label="Wigner peak", failed="too short"), SimpleNamespace(label="model", failed=""))
+    made = SimpleNamespace(title="t", cards=(), summary=(), decay=SimpleNamespace(scores=scores))
+    page = tmp_path / "page.html"
+    with pytest.raises(PartialError, match="Wigner peak"):
+        report.publish(made, str(page), "text")  # type: ignore[arg-type]
+    assert page.exists()
+
+
+def test_a_recording_with_a_system_and_its_findings_as_json(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    """Five estimates and one curve of theory are six tracks: all must find a colour or stay out."""
+    samples = [math.exp(-0.05 * i / 32) * math.cos(2 * math.pi * 1.25 * i / 32) for i in range(960)]
+    recording = tmp_path / "decay.csv"
+    recording.write_text("t,x\n" + "".join(f"{i / 32!r},{x!r}\n" for i, x in enumerate(samples)), encoding="utf-8")
+    page = tmp_path / "decay.html"
+    words = ["--recording", str(recording), "--column", "x", "linear", "--set", "k=7.85398", "--format", "json"]
+    words += ["--trials", "2", "--predict-from", "12"]
+    done = ridgeback("report", *words, "-o", str(page))
+    assert (done.code, done.err) == (0, "")
+    found = json.loads(done.out)
+    assert found["output"] == str(page)
+    assert "1.25" in found["title"]
+    text = page.read_text(encoding="utf-8")
+    assert "prediction-phase" in text
+    assert "noise-ratio" in text
+
+
+def test_options_that_belong_elsewhere_are_refused(ridgeback: Ridgeback) -> None:
+    assert "--predict-from belongs to --recording" in ridgeback("report", "--predict-from", "9").err
+    assert "--trials 1 shows no spread" in ridgeback("report", "--trials", "1").err
+
+
+def test_an_overdamped_motion_is_refused_by_name(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    done = ridgeback("report", "--set", "mu=20", "-o", str(tmp_path / "x.html"))
+    assert done.code == 2
+    assert "overdamped" in done.err

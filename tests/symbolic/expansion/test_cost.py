@@ -1,0 +1,32 @@
+"""Costs are predicted and refused before the work."""
+
+import pytest
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.expansion.cost import Budget, predict
+from ridgeback.symbolic.expansion.energy_integral import energy_integral
+from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.systems.catalogue import find
+
+
+@pytest.mark.parametrize("derive", [lindstedt, energy_integral, multiple_scales])
+@pytest.mark.parametrize("name", ["pendulum", "duffing"])
+def test_an_order_beyond_the_budget_is_refused_at_once_with_one_that_fits(derive, name: str) -> None:  # type: ignore[no-untyped-def]
+    with pytest.raises(InputError, match=r"order 1000000 by .* order \d+ fits") as caught:
+        derive(find(name), 10**6)
+    fits = int(str(caught.value).split()[-2])
+    assert 0 < fits < 10**6
+
+
+def test_the_order_said_to_fit_does_fit_and_the_next_does_not() -> None:
+    budget = Budget(seconds=0.01)
+    with pytest.raises(InputError) as caught:
+        lindstedt(find("van-der-pol"), 500, budget=budget)
+    fits = int(str(caught.value).split()[-2])
+    assert predict("limit-cycle", fits).within(budget)
+    assert not predict("limit-cycle", fits + 1).within(budget)
+
+
+def test_symbolic_parameters_cost_more() -> None:
+    assert predict("lindstedt", 20, parameters=2).seconds > 10 * predict("lindstedt", 20).seconds

@@ -1,0 +1,75 @@
+"""Many primes make the same rationals as exact arithmetic, in one process or several."""
+
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes, primes, rational, residues
+from ridgeback.symbolic.systems.catalogue import find
+from ridgeback.symbolic.systems.oscillator import Oscillator
+
+
+@pytest.mark.parametrize("name", ["pendulum", "duffing-softening", "helmholtz-duffing", "van-der-pol", "rayleigh"])
+@pytest.mark.parametrize("amplitude", ["peak", "fundamental"])
+def test_the_primes_give_the_exact_series(name: str, amplitude: str) -> None:
+    exact = lindstedt(find(name), 20, amplitude=amplitude)
+    modular = lindstedt_by_primes(find(name), 20, amplitude=amplitude)
+    assert modular.frequency == exact.frequency
+    assert modular.amplitude_series == exact.amplitude_series
+
+
+def test_the_natural_frequency_travels_with_the_series() -> None:
+    fast = find("van-der-pol").with_parameters({"k": 3})
+    assert lindstedt_by_primes(fast, 6).frequency == lindstedt(fast, 6).frequency
+
+
+@pytest.mark.parametrize("pool", [ProcessPoolExecutor, ThreadPoolExecutor])
+def test_any_executor_serves(pool: type) -> None:
+    told: list[tuple[int, bool]] = []
+    with pool(2) as executor:
+        series = lindstedt_by_primes(
+            find("van-der-pol"), 12, executor=executor, workers=2, progress=lambda *step: told.append(step)
+        )
+    assert series.frequency == lindstedt(find("van-der-pol"), 12).frequency
+    assert told[-1][1]
+    assert not any(done for _, done in told[:-1])
+
+
+def test_a_corrupted_residue_is_not_accepted(monkeypatch: pytest.MonkeyPatch) -> None:
+    # One wrong prime among the first makes every later reconstruction disagree with the primes kept back.
+    import ridgeback.symbolic.high_order.by_primes as module
+
+    calls = iter(range(10**6))
+
+    def corrupt(oscillator, order, amplitude, prime):  # type: ignore[no-untyped-def]
+        found = residues(oscillator, order, amplitude, prime)
+        if next(calls) == 2:
+            wrong = (*found.frequency[:-1], (found.frequency[-1] + 1) % prime)
+            found = module.Residues(found.prime, wrong, found.amplitude)
+        if next(calls) > 60:
+            raise TimeoutError
+        return found
+
+    monkeypatch.setattr(module, "residues", corrupt)
+    with pytest.raises(TimeoutError):
+        lindstedt_by_primes(find("duffing"), 6)
+
+
+@given(st.fractions(max_denominator=10**9, min_value=-(10**9), max_value=10**9))
+@settings(max_examples=200, deadline=None)
+def test_rational_reconstruction_inverts_reduction(value: Fraction) -> None:
+    first, second = (p for p, _ in zip(primes(), range(2), strict=False))
+    modulus = first * second
+    found = rational(value.numerator * pow(value.denominator, -1, modulus) % modulus, modulus)
+    assert found is not None
+    assert (int(found.p), int(found.q)) == (value.numerator, value.denominator)
+
+
+def test_symbolic_parameters_are_refused() -> None:
+    with pytest.raises(InputError, match="is no rational number; the primes need one"):
+        lindstedt_by_primes(Oscillator.from_equation("u'' + u + c*u**3"), 4)
