@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Literal
 from urllib.parse import quote
 
-from ridgeback.compare.report.results import Report
-from ridgeback.compare.results import Derivation, Formula, Provenance, Range, RecordingComparison
+from ridgeback.compare.recording.results import RecordingComparison
+from ridgeback.compare.report.results import Provenance, Report
+from ridgeback.compare.study.results import Derivation, Formula, Range
 from ridgeback.reports.figures.decay import budget_figure, residuals_figure, tracks_figure
 from ridgeback.reports.figures.identification import identification_blocks, parameter_table, ranking_table
 from ridgeback.reports.figures.noise import noise_blocks, noise_table

@@ -19,7 +19,7 @@ from ridgeback.compare.motion.overtones import Overtones, overtones
 from ridgeback.compare.motion.paper_statements import Evidence, statements
 from ridgeback.compare.motion.planes import spectrogram_image, wigner_image
 from ridgeback.compare.motion.reconstruction import reconstruct
-from ridgeback.compare.results import Amplitudes, BudgetRow, Curve, DecayComparison, Image, Score
+from ridgeback.compare.motion.results import Amplitudes, BudgetRow, Curve, DecayComparison, Image, Score
 from ridgeback.compare.study.derivation import Exact, derive
 from ridgeback.compare.wording import scientific
 

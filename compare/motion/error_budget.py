@@ -18,7 +18,7 @@ from ridgeback.compare.motion.error_norms import relative_error, rms
 from ridgeback.compare.motion.estimate_curves import Outcome, attempt
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.reconstruction import KnownMotion, known_motion
-from ridgeback.compare.results import BudgetRow, Curve
+from ridgeback.compare.motion.results import BudgetRow, Curve
 from ridgeback.numeric.arrays import Array
 
 

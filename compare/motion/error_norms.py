@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ridgeback.compare.results import Curve, Score
+from ridgeback.compare.motion.results import Curve, Score
 from ridgeback.numeric.arrays import Array, Mask
 
 Reference = Callable[[Array], Array]

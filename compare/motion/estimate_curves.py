@@ -9,7 +9,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.motion.motion import Motion
-from ridgeback.compare.results import Curve
+from ridgeback.compare.motion.results import Curve
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.tracking.track import Track

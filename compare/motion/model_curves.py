@@ -11,7 +11,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from ridgeback.compare.motion.motion import Motion
-from ridgeback.compare.results import Curve
+from ridgeback.compare.motion.results import Curve
 from ridgeback.compare.study.derivation import Exact
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.paper_model import series_frequency

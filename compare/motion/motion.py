@@ -14,7 +14,7 @@ import sympy
 from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion.error_norms import Zones, zones
-from ridgeback.compare.results import Case, Curve
+from ridgeback.compare.motion.results import Case, Curve
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.cycle_frequency import CycleFrequency, cycle_frequency
 from ridgeback.numeric.motion.dynamics import Dynamics

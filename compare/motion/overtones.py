@@ -11,7 +11,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.motion.estimate_curves import Outcome
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.order_analysis import MOST, Orders, orders
-from ridgeback.compare.results import Curve
+from ridgeback.compare.motion.results import Curve
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.higher_harmonics import harmonic_track, raw_harmonic_peak
 from ridgeback.numeric.tracking.track import Track

@@ -17,8 +17,8 @@ from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.order_analysis import MOST, Orders, Ripple, ripple
 from ridgeback.compare.motion.overtones import Overtones, ratio_error, slope
 from ridgeback.compare.motion.reconstruction import known_motion, model_phase, relative_rms
+from ridgeback.compare.motion.results import Curve, Reconstruction, Score, Statement
 from ridgeback.compare.motion.wigner_bias import WignerCause, wigner_cause
-from ridgeback.compare.results import Curve, Reconstruction, Score, Statement
 from ridgeback.compare.wording import frequency, in_pi, offset, relative, scientific
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.orbits.energy import amplitude_from_energy, energy_of

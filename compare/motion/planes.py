@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ridgeback.compare.results import Curve, Image
+from ridgeback.compare.motion.results import Curve, Image
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.distributions.distribution import Distribution
 from ridgeback.numeric.distributions.spectrogram import spectrogram

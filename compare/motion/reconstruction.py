@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ridgeback.compare.motion.motion import Motion
-from ridgeback.compare.results import Reconstruction
+from ridgeback.compare.motion.results import Reconstruction
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.paper_model import (
     MulticomponentModel,

@@ -14,7 +14,7 @@ from ridgeback.compare.motion.error_norms import mean, relative_error
 from ridgeback.compare.motion.estimate_curves import RECIPES, attempt
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.reconstruction import KnownMotion
-from ridgeback.compare.results import Curve
+from ridgeback.compare.motion.results import Curve
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.paper_model import slope_of_samples
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ridgeback.compare.results import Formula
+from ridgeback.compare.study.results import Formula
 from ridgeback.numeric.arrays import Array
 
 MOST_TERMS = 4

@@ -15,8 +15,9 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion.estimate_curves import curve_of
 from ridgeback.compare.motion.planes import spectrogram_image
+from ridgeback.compare.motion.results import Curve
 from ridgeback.compare.recording.backbone_fit import fit_backbone, formula_of
-from ridgeback.compare.results import Curve, RecordingComparison
+from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.wording import relative
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.estimators.estimate import estimate

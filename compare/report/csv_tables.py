@@ -9,7 +9,9 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from ridgeback.compare.results import BudgetRow, Curve, DecayComparison, RecordingComparison, Score, Study
+from ridgeback.compare.motion.results import BudgetRow, Curve, DecayComparison, Score
+from ridgeback.compare.recording.results import RecordingComparison
+from ridgeback.compare.study.results import Study
 from ridgeback.numeric.arrays import Array
 
 

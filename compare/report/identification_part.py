@@ -11,7 +11,7 @@ from ridgeback.common.progress import Progress
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.prediction import predict
 from ridgeback.compare.identification.results import Identification
-from ridgeback.compare.results import RecordingComparison
+from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.numeric.recording.recording import Recording
 
 SHARE = 1.0 / 3.0

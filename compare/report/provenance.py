@@ -8,7 +8,7 @@ import platform
 from collections.abc import Mapping
 from importlib import metadata
 
-from ridgeback.compare.results import Provenance
+from ridgeback.compare.report.results import Provenance
 
 PACKAGES = ("ridgeback", "sympy", "python-flint", "mpmath", "numpy", "scipy", "matplotlib")
 

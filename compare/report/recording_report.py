@@ -9,6 +9,7 @@ from pathlib import Path
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.recording.recording import compare_recording
+from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report import csv_tables as tables
 from ridgeback.compare.report.identification_part import identified
 from ridgeback.compare.report.noise_part import TRIALS, noise_of_recording
@@ -16,7 +17,7 @@ from ridgeback.compare.report.provenance import provenance
 from ridgeback.compare.report.recording_summary import recording_cards, recording_sentences, recording_title
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.report.stages import Stages
-from ridgeback.compare.results import Range, RecordingComparison
+from ridgeback.compare.study.results import Range
 from ridgeback.numeric.recording.recording import Recording, read_recording
 from ridgeback.symbolic.systems.oscillator import Oscillator
 

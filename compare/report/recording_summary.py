@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.results import Card
-from ridgeback.compare.results import RecordingComparison
 from ridgeback.compare.wording import frequency, relative
 from ridgeback.numeric.arrays import Array
 

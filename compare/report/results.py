@@ -6,18 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ridgeback.compare.identification.results import Identification
+from ridgeback.compare.motion.results import DecayComparison
 from ridgeback.compare.noise.results import NoiseStudy
-from ridgeback.compare.results import (
-    Certified,
-    DecayComparison,
-    Derivation,
-    Provenance,
-    Range,
-    RecordingComparison,
-    Standing,
-    Study,
-    Timing,
-)
+from ridgeback.compare.recording.results import RecordingComparison
+from ridgeback.compare.study.results import Certified, Derivation, Range, Study, Timing
 
 
 @dataclass(frozen=True)
@@ -27,6 +19,40 @@ class Card:
     heading: str
     value: str
     text: str
+
+
+@dataclass(frozen=True)
+class Standing:
+    """One estimator with its own defaults on the samples of a motion, with and without its bias."""
+
+    method: str
+    rms_raw: float | None
+    """Relative, like the next four, against the cycle frequency; over the interior, bias left in."""
+    rms_interior: float | None
+    """Over the interior, bias removed; so are the next two."""
+    rms_start: float | None
+    rms_end: float | None
+    half_width: float | None
+    """Median half width of its 95 % interval over the interior; None where it claims none."""
+    coverage: float | None
+    """Share of the interior's samples whose interval holds the reference."""
+    seconds: float
+    """CPU time of the whole track on the machine that made the page."""
+    note: str = ""
+    failed: str = ""
+    """Why the method gave nothing, when it did not."""
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """How to get the same page again."""
+
+    command: str
+    versions: Mapping[str, str]
+    parameters: Mapping[str, str]
+    settings_hash: str
+    input_hash: str = ""
+    seconds: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.compare.motion.error_norms import Zones, relative_error, rms
 from ridgeback.compare.motion.estimate_curves import curve_of
-from ridgeback.compare.results import Curve, DecayComparison, Standing
+from ridgeback.compare.motion.results import Curve, DecayComparison
+from ridgeback.compare.report.results import Standing
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.estimators.estimate import METHODS, estimate
 from ridgeback.numeric.tracking.track import Track

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ridgeback.compare.motion.results import DecayComparison, Score
 from ridgeback.compare.report.results import Card
-from ridgeback.compare.results import DecayComparison, Range, Score, Study, Timing
+from ridgeback.compare.study.results import Range, Study, Timing
 from ridgeback.compare.wording import (
     amplitude,
     frequency,

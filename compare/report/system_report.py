@@ -13,6 +13,7 @@ from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion.comparison import HIGH_ORDER, compare_decay
 from ridgeback.compare.motion.model_curves import LOW_ORDERS
 from ridgeback.compare.motion.motion import Setting, setting
+from ridgeback.compare.motion.results import DecayComparison
 from ridgeback.compare.report import csv_tables as tables
 from ridgeback.compare.report.noise_part import TRIALS, noise_of_motion
 from ridgeback.compare.report.provenance import provenance
@@ -20,9 +21,9 @@ from ridgeback.compare.report.results import Report
 from ridgeback.compare.report.stages import Stages
 from ridgeback.compare.report.standings import standings
 from ridgeback.compare.report.summary import cards, decay_sentences, study_sentences, study_title
-from ridgeback.compare.results import DecayComparison, Range, Study, Timing
 from ridgeback.compare.study.certified import certified
 from ridgeback.compare.study.derivation import Exact, derivation, derive
+from ridgeback.compare.study.results import Range, Study, Timing
 from ridgeback.compare.study.study import ranges, study
 from ridgeback.compare.study.timing import timings
 from ridgeback.compare.wording import symbol

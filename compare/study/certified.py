@@ -8,7 +8,7 @@ from fractions import Fraction
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.results import Certified, CertifiedRow
+from ridgeback.compare.study.results import Certified, CertifiedRow
 from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.certificates.accuracy import Accuracy, Ball, accuracy
 from ridgeback.symbolic.enclosure.enclosure import enclose, separatrix

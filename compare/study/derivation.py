@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import sympy
 
 from ridgeback.compare.binding.bind import bind
-from ridgeback.compare.results import Derivation, Formula
+from ridgeback.compare.study.results import Derivation, Formula
 from ridgeback.numeric.orbits.potential import peak_limit
 from ridgeback.symbolic.certificates.certificate import Check, certify
 from ridgeback.symbolic.codegen import generate

@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
-from ridgeback.compare.results import Range, Study
 from ridgeback.compare.study.reference import Exact, conservative_reference, enclosed_reference, limit_cycle_reference
+from ridgeback.compare.study.results import Range, Study
 from ridgeback.compare.study.truncations import METHODS, Method
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from ridgeback.compare.binding.generated_code import compiled, python_module
-from ridgeback.compare.results import Timing
+from ridgeback.compare.study.results import Timing
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.orbits.paper_model import series_frequency

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from ridgeback.compare.results import BudgetRow, Curve, DecayComparison
+from ridgeback.compare.motion.results import BudgetRow, Curve, DecayComparison
 from ridgeback.reports.drawing.block import Block, Readout, Toggle, block
 from ridgeback.reports.drawing.canvas import Array, Canvas, Line, decades, draw, linear, padded, shade, titles
 from ridgeback.reports.drawing.labels import measured, place

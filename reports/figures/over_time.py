@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ridgeback.compare.results import Curve, Image
+from ridgeback.compare.motion.results import Curve, Image
 from ridgeback.reports.drawing.block import Block, Key, Readout, block
 from ridgeback.reports.drawing.canvas import Array, Canvas, Line, Trace, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place

@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from ridgeback.compare.results import Curve, DecayComparison, Statement
+from ridgeback.compare.motion.results import Curve, DecayComparison, Statement
 from ridgeback.reports.drawing.block import Block, Readout, block
 from ridgeback.reports.drawing.canvas import Canvas, Line, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place

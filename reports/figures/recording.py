@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ridgeback.compare.results import RecordingComparison
+from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.reports.drawing.block import Block, Readout, block
 from ridgeback.reports.drawing.canvas import Array, Canvas, Line, Trace, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place

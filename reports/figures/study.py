@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from matplotlib.axes import Axes
 
-from ridgeback.compare.results import Range, Study
+from ridgeback.compare.study.results import Range, Study
 from ridgeback.compare.wording import rounded_down
 from ridgeback.reports.drawing import cells
 from ridgeback.reports.drawing.block import Block, Key, Readout, Toggle, block

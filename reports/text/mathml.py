@@ -11,7 +11,7 @@ from xml.etree import ElementTree as ET
 
 from latex2mathml.converter import convert
 
-from ridgeback.compare.results import Formula
+from ridgeback.compare.study.results import Formula
 
 _NAMESPACE = "http://www.w3.org/1998/Math/MathML"
 _ELEMENTS = frozenset(

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ridgeback.compare.results import BudgetRow, Certified, Range, Score, Standing, Timing
+from ridgeback.compare.motion.results import BudgetRow, Score
+from ridgeback.compare.report.results import Standing
+from ridgeback.compare.study.results import Certified, Range, Timing
 from ridgeback.compare.wording import rounded_down
 from ridgeback.reports.text.wording import NONE, number, relative, threshold
 

@@ -17,7 +17,7 @@ from ridgeback.options.shared import format_option, output_option
 from ridgeback.options.system import Choice, choosing
 
 if TYPE_CHECKING:
-    from ridgeback.compare.results import Study
+    from ridgeback.compare.study.results import Study
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
 

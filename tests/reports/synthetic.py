@@ -16,30 +16,22 @@ from scipy.signal import stft
 from scipy.special import ellipk
 
 from ridgeback.compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
-from ridgeback.compare.noise.results import NoiseCell, NoiseStudy
-from ridgeback.compare.report.results import Card, Report
-from ridgeback.compare.results import (
+from ridgeback.compare.motion.results import (
     Amplitudes,
     BudgetRow,
     Case,
-    Certified,
-    CertifiedRow,
     Curve,
     DecayComparison,
-    Derivation,
-    Formula,
     Image,
     Kind,
-    Provenance,
-    Range,
     Reconstruction,
-    RecordingComparison,
     Score,
-    Standing,
     Statement,
-    Study,
-    Timing,
 )
+from ridgeback.compare.noise.results import NoiseCell, NoiseStudy
+from ridgeback.compare.recording.results import RecordingComparison
+from ridgeback.compare.report.results import Card, Provenance, Report, Standing
+from ridgeback.compare.study.results import Certified, CertifiedRow, Derivation, Formula, Range, Study, Timing
 
 Array = NDArray[np.float64]
 

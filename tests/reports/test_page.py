@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from ridgeback.compare.report.results import Report
-from ridgeback.compare.results import Formula
+from ridgeback.compare.study.results import Formula
 from ridgeback.reports.page import WARN_BYTES, render, size_warning
 from tests.reports import synthetic
 from tests.reports.markup import Element, parse

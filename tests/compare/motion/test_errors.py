@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ridgeback.compare.motion.error_norms import failure, mean, relative_error, rms, score, worst, zones
-from ridgeback.compare.results import Curve
+from ridgeback.compare.motion.results import Curve
 
 TIME = np.linspace(0.0, 20.0, 2001)
 

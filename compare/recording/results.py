@@ -1,0 +1,40 @@
+"""What a comparison of a recording hands over.
+
+Angular frequency is in rad per time unit throughout; times are in the oscillator's own unit (s for a recording).
+Arrays are one-dimensional float64 and read-only.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ridgeback.compare.motion.results import Curve, Image
+from ridgeback.compare.study.results import Formula
+from ridgeback.numeric.arrays import Array
+
+
+@dataclass(frozen=True)
+class RecordingComparison:
+    """A user's recording: its tracks, backbone and damping, with bands."""
+
+    source: str
+    sha256: str
+    column: str
+    rate: float
+    time: Array
+    signal: Array
+    curves: tuple[Curve, ...]
+    chosen: str
+    """Name of the curve the backbone is made from, and why in ``notes``."""
+    spectrogram: Image
+    amplitude_time: Array
+    amplitude: Array
+    backbone_amplitude: Array
+    backbone_omega: Array
+    backbone_omega_sd: Array
+    damping_amplitude: Array
+    damping: Array
+    damping_sd: Array
+    fit: Formula | None
+    notes: tuple[str, ...]
+    theory: tuple[Curve, ...] = ()

@@ -1,0 +1,123 @@
+"""What an accuracy-order study hands over: errors over order and amplitude, ranges of use, formulas, times.
+
+Angular frequency is in rad per time unit throughout; times are in the oscillator's own unit (s for a recording).
+Arrays are one-dimensional float64 and read-only, except the grids of a study, which
+are ``[order, amplitude]``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ridgeback.numeric.arrays import Array
+
+
+@dataclass(frozen=True)
+class Formula:
+    """One printed relation: ``left = sum of terms``, each term its own LaTeX so that it can wrap."""
+
+    title: str
+    left: str
+    terms: tuple[str, ...]
+    note: str = ""
+    python: str = ""
+
+
+@dataclass(frozen=True)
+class Study:
+    """Error of truncated expansions over order and amplitude; grids are ``[order, amplitude]``."""
+
+    system: str
+    title: str
+    method: str
+    variable: str
+    """``A`` (amplitude) or ``eps`` (limit cycles): what ``amplitudes`` holds."""
+    amplitude_definition: str
+    amplitude_unit: str
+    orders: tuple[int, ...]
+    amplitudes: Array
+    omega: Array
+    reference: Array
+    reference_error: Array
+    """Relative uncertainty of the reference at each amplitude."""
+    reference_name: str
+    relative_error: Array
+    """``omega / reference - 1``, signed."""
+    limit: float | None
+    """Where the oscillation itself ends (separatrix), or None."""
+    convergence_radius: float | None
+    scale: float
+    """The natural frequency k that omega is printed with."""
+    convergence_uncertainty: float | None = None
+    """Uncertainty of ``convergence_radius``, in the same variable."""
+    convergence_note: str = ""
+    """Where the radius comes from, or why none is known."""
+
+    def rows(self) -> list[dict[str, float | int | str]]:
+        """One row per cell: order, amplitude (or eps), method, omega, omega_reference, relative_error."""
+        key = "amplitude" if self.variable == "A" else self.variable
+        return [
+            {
+                "order": order,
+                key: float(self.amplitudes[j]),
+                "method": self.method,
+                "omega": float(self.omega[i, j]),
+                "omega_reference": float(self.reference[j]),
+                "relative_error": float(self.relative_error[i, j]),
+            }
+            for i, order in enumerate(self.orders)
+            for j in range(self.amplitudes.size)
+        ]
+
+
+@dataclass(frozen=True)
+class Range:
+    """How far an order may be used: up to the first violation of the target, not the last crossing."""
+
+    order: int
+    target: float
+    up_to: float | None
+    """Largest studied amplitude below which the target holds everywhere; None when it holds nowhere."""
+
+
+@dataclass(frozen=True)
+class CertifiedRow:
+    """One formula: its relative errors, proved to within ``radius``; None where it does not hold."""
+
+    method: str
+    errors: tuple[float | None, ...]
+    radius: float
+
+
+@dataclass(frozen=True)
+class Certified:
+    """The series and its resummations of one order, each error enclosed against the exact frequency."""
+
+    order: int
+    amplitudes: Array
+    """Peak amplitudes."""
+    rows: tuple[CertifiedRow, ...]
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Median time of one evaluation over an array, in nanoseconds per value, with its spread."""
+
+    name: str
+    nanoseconds: float
+    low: float
+    high: float
+    values: int
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """The exact side of the page: formulas, certificate lines, generated code."""
+
+    system: str
+    formulas: tuple[Formula, ...]
+    certificate: tuple[str, ...]
+    code: Mapping[str, str]
+    """Language name to source text."""
