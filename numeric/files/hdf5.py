@@ -49,7 +49,9 @@ def library(source: str) -> Any:
     try:
         import h5py  # noqa: PLC0415 - two tenths of a second that only HDF5 files should cost
     except ImportError:
-        raise OSError(f"reading {source} needs the library h5py, which is missing; pip install h5py") from None
+        raise OSError(
+            f"reading {source} needs h5py, which is not installed; pip install 'ridgeback[hdf5]' brings it"
+        ) from None
     return h5py
 
 

@@ -108,7 +108,7 @@ def test_nothing_outside_an_hdf5_file_is_followed(tmp_path: Path) -> None:
 def test_without_the_library_the_environment_is_at_fault(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = hdf5(tmp_path / "run.h5", t=TIME, u=U)
     monkeypatch.setitem(sys.modules, "h5py", None)
-    with pytest.raises(OSError, match=r"reading run\.h5 needs the library h5py, which is missing; pip install h5py"):
+    with pytest.raises(OSError, match=r"reading run\.h5 needs h5py, .*pip install 'ridgeback\[hdf5\]'"):
         read_recording(path)
 
 

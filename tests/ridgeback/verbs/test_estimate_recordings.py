@@ -149,7 +149,8 @@ def test_without_h5py_the_environment_is_at_fault(
     monkeypatch.setitem(sys.modules, "h5py", None)
     done = ridgeback("estimate", str(tmp_path / "a.h5"))
     assert done.code == 4
-    assert done.err == "ridgeback: reading a.h5 needs the library h5py, which is missing; pip install h5py\n"
+    remedy = "pip install 'ridgeback[hdf5]' brings it"
+    assert done.err == f"ridgeback: reading a.h5 needs h5py, which is not installed; {remedy}\n"
 
 
 @pytest.mark.parametrize("kind", ["svg", "png", "pdf"])
