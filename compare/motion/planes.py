@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ridgeback.compare.motion.results import Curve, Image
@@ -45,7 +47,7 @@ def spectrogram_image(
 
 def columns(plane: Distribution, keep: Mask) -> Distribution:
     """The plane at some of its times."""
-    return Distribution(plane.values[:, keep], plane.omega, plane.time[keep], plane.name, plane.settings)
+    return replace(plane, values=plane.values[:, keep], time=plane.time[keep])
 
 
 def wigner_image(
@@ -59,10 +61,10 @@ def wigner_image(
     plane = wigner(x, rate)
     step = max(1, plane.time.size // COLUMNS)
     count = plane.time.size // step
-    blocks = plane.values[:, : count * step].reshape(plane.omega.size, count, step)
+    blocks = plane.size()[:, : count * step].reshape(plane.omega.size, count, step)
     size = np.sqrt(np.mean(blocks**2, axis=2))
     middle = plane.time[: count * step].reshape(count, step).mean(axis=1)
-    thin = Distribution(size, plane.omega, middle, plane.name, plane.settings)
+    thin = replace(plane, values=size, time=middle)
     told = f"{note}  Each column is the rms over {step} samples.".strip()
     return image(thin, top=top, name=name, overlays=overlays, note=told, floor_db=WIGNER_FLOOR_DB)
 
@@ -72,7 +74,7 @@ def image(
 ) -> Image:
     """Level of a plane up to the angular frequency ``top``, clipped at the floor."""
     keep = plane.omega <= top
-    values = plane.values[keep]
+    values = plane.size()[keep]
     floor = 10 ** (floor_db / 10) * float(values.max())
     level = 10 * np.log10(np.maximum(values, floor) / values.max())
     level.flags.writeable = False

@@ -8,44 +8,15 @@ a Wigner distribution shows between two components.  Scaling and axes are those 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
-from types import MappingProxyType
-
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import fft
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import Array, frozen
+from ridgeback.numeric.distributions.distribution import Distribution
 from ridgeback.numeric.distributions.lag_kernel import Complexes, LagKernel, lagged
-from ridgeback.numeric.distributions.wigner import MEMORY_BUDGET, wigner_kernel
-from ridgeback.numeric.signal.samples import TWO_PI, checked_budget
-
-
-@dataclass(frozen=True)
-class CrossDistribution:
-    """Complex ``values[frequency, time]``, omega in rad per time unit; the plane is a read-only view."""
-
-    values: Complexes
-    omega: Array
-    time: Array
-    name: str
-    settings: Mapping[str, object] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        kept = self.values.dtype if self.values.dtype == np.complex64 else np.complex128
-        plane = np.asarray(self.values, dtype=kept).view()
-        plane.flags.writeable = False
-        object.__setattr__(self, "values", plane)
-        object.__setattr__(self, "omega", frozen(self.omega))
-        object.__setattr__(self, "time", frozen(self.time))
-        object.__setattr__(self, "settings", MappingProxyType(dict(self.settings)))
-
-    @property
-    def frequency_hz(self) -> Array:
-        """The frequency axis in cycles per time unit."""
-        return self.omega / TWO_PI
+from ridgeback.numeric.distributions.wigner import wigner_kernel
+from ridgeback.numeric.signal.samples import MEMORY_BUDGET, checked_budget
 
 
 def cross_wigner(
@@ -60,13 +31,42 @@ def cross_wigner(
     remove_mean: bool = True,
     memory: int = MEMORY_BUDGET,
     single: bool = False,
-) -> CrossDistribution:
+) -> Distribution:
     """Return the cross-Wigner distribution of two signals of one length, over all lags or under a window of them.
 
-    Real signals are made analytic (less their means unless ``remove_mean`` is False), complex ones taken as they are.
-    ``single=True`` works in complex64: half the memory, an error near 3e-7 of the largest value.
-    Raises InputError as ``wigner`` does, and for signals of different length.
+    Parameters
+    ----------
+    x, y : array, shape (N,)
+        The signals.  Real samples are made analytic, complex ones are taken as they are.
+    rate : float
+        Samples per time unit, of both.
+    lag_seconds : float, optional
+        Stretch of signal that a column sees, in time units; all of the record by default.
+    lag_window : str
+        Window over the lags, where ``lag_seconds`` is given.
+    n_fft : int, optional
+        Rows of the plane; as in ``wigner`` and ``pseudo_wigner`` by default.
+    start : float
+        Time of the first sample.
+    remove_mean : bool
+        Whether real signals lose their means first.
+    single : bool
+        Work in complex64: half the memory, an error near 3e-7 of the largest value.
+    memory : int
+        Bytes that the plane may take.
 
+    Returns
+    -------
+    Distribution
+        Complex ``values[n_fft, N]`` on the axes of ``wigner``.
+
+    Raises
+    ------
+    InputError
+        As ``wigner`` does, and for signals of different length.
+
+    Examples
+    --------
     >>> tone = np.exp(2j * np.pi * 3.0 * np.arange(64) / 32.0)
     >>> plane = cross_wigner(tone, 1j * tone, 32.0)
     >>> at = np.abs(plane.values[:, 30]).argmax()
@@ -101,7 +101,8 @@ def cross_wigner(
         "precision": first.signal.real.dtype.name,
     }
     time = start + np.arange(size) / first.rate
-    return CrossDistribution(columns.T, first.omega, time, "cross-wigner", settings)
+    border = 0.0 if lag_seconds is None else 0.5 * lag_seconds
+    return Distribution(columns.T, first.omega, time, "cross-wigner", settings, border)
 
 
 # Two products give both signs of the lag: K_xy[n, -m] = conj K_yx[n, m].

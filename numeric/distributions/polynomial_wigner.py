@@ -22,11 +22,11 @@ from scipy import fft
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, ComplexArray
+from ridgeback.numeric.distributions.distribution import Distribution
 from ridgeback.numeric.distributions.lag_kernel import BLOCK_BYTES
-from ridgeback.numeric.distributions.wigner import MEMORY_BUDGET
 from ridgeback.numeric.harmonics.noise import Level, phase_noise
 from ridgeback.numeric.signal.analytic import as_analytic
-from ridgeback.numeric.signal.samples import checked_budget, checked_rate
+from ridgeback.numeric.signal.samples import MEMORY_BUDGET, checked_budget, checked_rate
 from ridgeback.numeric.signal.windows import half_width, window
 
 _C = 1.0 / (4.0 - 2.0 * 2.0 ** (1.0 / 3.0))
@@ -97,6 +97,8 @@ def polynomial_kernel(
     lag_seconds: float,
     order: int = 6,
     lag_window: str = "hann",
+    n_fft: int | None = None,
+    remove_mean: bool = True,
     memory: int = MEMORY_BUDGET,
 ) -> PolynomialKernel:
     """Build the polynomial lag kernel of real (made analytic) or complex ``x`` over ``lag_seconds`` of signal.
@@ -109,8 +111,11 @@ def polynomial_kernel(
     >>> round(float(kernel.omega[spectra[64].argmax()] / (2 * np.pi)), 1)
     3.0
     """
-    z, rate = as_analytic(x), checked_rate(rate)
+    z, rate = as_analytic(x, remove_mean=remove_mean), checked_rate(rate)
     M = half_lags(lag_seconds, rate, order, z.size)
+    bins = fft.next_fast_len(2 * (2 * M + 1), real=True) if n_fft is None else int(n_fft)
+    if bins < 2 * M + 1:
+        raise InputError(f"n_fft {bins} is below the {2 * M + 1} lags of the kernel; use at least {2 * M + 1}")
     checked_budget(48 * z.size * (M + 1), memory, f"{z.size} by {M + 1} lag products", "use a shorter lag_seconds")
     h = window(lag_window, M)[M:]
     products = np.empty((z.size, M + 1), dtype=np.complex128)
@@ -119,7 +124,87 @@ def polynomial_kernel(
         for power, c in DESIGNS[order]:
             column *= (shifted(z, 2.0 * c * m) * shifted(z, -2.0 * c * m).conj()) ** power
         products[:, m] = column
-    return PolynomialKernel(products, rate, fft.next_fast_len(2 * (2 * M + 1), real=True))
+    return PolynomialKernel(products, rate, bins)
+
+
+def polynomial_wigner(
+    x: ArrayLike,
+    rate: float,
+    *,
+    lag_seconds: float,
+    order: int = 6,
+    lag_window: str = "hann",
+    n_fft: int | None = None,
+    start: float = 0.0,
+    remove_mean: bool = True,
+    memory: int = MEMORY_BUDGET,
+) -> Distribution:
+    """Return the polynomial Wigner distribution, whose ridge is exact for phases of degree 2 (order 2) or 4 (order 6).
+
+    Its lag product of ``order`` factors turns harmonics into cross terms on the fundamental: take them out first.
+
+    Parameters
+    ----------
+    x : array, shape (N,)
+        The signal.  Real samples are made analytic, complex ones are taken as they are.
+    rate : float
+        Samples per time unit.
+    lag_seconds : float
+        Stretch of signal that a column sees, in time units: the farthest factors lie within it.
+    lag_window : str
+        Window over the lags, 1 at tau = 0: one of ``signal.windows.WINDOWS``, such as ``"blackman"``.
+    order : int
+        Number of factors: 2 (the pseudo-Wigner distribution), 4 (a quarter of its error from phi''') or 6.
+    n_fft : int, optional
+        Rows of the plane, about twice the number of lags by default.
+    start : float
+        Time of the first sample.
+    remove_mean : bool
+        Whether a real signal loses its mean first.
+    memory : int
+        Bytes that the lag products may take, and the plane.
+
+    Returns
+    -------
+    Distribution
+        Real ``values[n_fft, N]``, ``omega`` from 0 to pi ``rate``, every sample in ``time``.  Integrated over
+        omega / 2 pi it is |z|^order.
+
+    Raises
+    ------
+    InputError
+        For an order other than 2, 4, 6, a window unknown or longer than the signal, or work over ``memory``.
+
+    References
+    ----------
+    Boashash and O'Shea, IEEE Trans. Signal Process. 42 (1994) 216; Barkat and Boashash, ibid. 47 (1999) 2480.
+
+    Examples
+    --------
+    >>> t = np.arange(257) / 32.0
+    >>> plane = polynomial_wigner(np.cos(2 * np.pi * 3.0 * t), 32.0, lag_seconds=4.0, n_fft=256)
+    >>> float(plane.frequency_hz[plane.values[:, 128].argmax()])
+    3.0
+    """
+    kernel = polynomial_kernel(
+        x,
+        rate,
+        lag_seconds=lag_seconds,
+        order=order,
+        lag_window=lag_window,
+        n_fft=n_fft,
+        remove_mean=remove_mean,
+        memory=memory,
+    )
+    size, M = kernel.products.shape[0], kernel.products.shape[1] - 1
+    remedy = "shorten the signal or lower n_fft"
+    checked_budget(8 * size * kernel.n_fft, memory, f"polynomial-wigner of {size} samples", remedy)
+    columns = np.empty((size, kernel.n_fft))
+    for first, last, spectra in kernel.searched():
+        columns[first:last] = spectra
+    settings = {"rate": kernel.rate, "n_fft": kernel.n_fft, "order": order, "lag_seconds": 2.0 * M / kernel.rate}
+    time = start + np.arange(size) / kernel.rate
+    return Distribution(columns.T, kernel.omega, time, "polynomial-wigner", settings, 0.5 * lag_seconds)
 
 
 # The peak moves by (rate / 2) sum_m h m e[m] / sum_m h m^2, e[m] = sum_k b_k (eta[n + 2 c_k m] - eta[n - 2 c_k m]);

@@ -19,10 +19,8 @@ from ridgeback.numeric.distributions.lag_kernel import BLOCK_BYTES
 from ridgeback.numeric.distributions.reassignment import WindowFamily, first_order, second_order, window_family
 from ridgeback.numeric.distributions.short_time import short_time_spectra
 from ridgeback.numeric.signal.analytic import analytic_signal
-from ridgeback.numeric.signal.samples import TWO_PI, checked_budget, checked_rate, checked_real_samples
+from ridgeback.numeric.signal.samples import MEMORY_BUDGET, TWO_PI, checked_budget, checked_rate, checked_real_samples
 from ridgeback.numeric.signal.windows import half_width, window
-
-MEMORY_BUDGET = 1_000_000_000
 
 
 def blocks(size: int, n_fft: int, windows: int) -> list[tuple[int, int]]:
@@ -65,13 +63,47 @@ def reassigned_spectrogram(
     remove_mean: bool = True,
     memory: int = MEMORY_BUDGET,
 ) -> Distribution:
-    """Return the reassigned spectrogram of the real signal ``x``, ``values[n_fft // 2 + 1, N]``.
+    """Return the reassigned spectrogram of a real signal: each value moved to where its energy sits.
 
-    Bins omega_k = 2 pi rate k / n_fft up to the Nyquist frequency, every sample in time.  The values are those of
-    the spectrogram (A^2 on the ridge of a cosine) and keep their sum; nothing moves by more than half a window in time,
-    and what moves beyond the plane is dropped.
-    Raises InputError as ``spectrogram`` does, and for a window that does not end at zero.
+    The values are those of the spectrogram (A^2 on the ridge of a cosine) and keep their sum; nothing moves by more
+    than half a window in time, and what moves beyond the plane is dropped.
 
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        The real signal.
+    rate : float
+        Samples per time unit.
+    window_seconds : float
+        Full width of the window, in time units.
+    window_name : str
+        ``"hann"`` or ``"blackman"``: windows that end at zero.
+    n_fft : int, optional
+        Length of the transform, about twice the window by default.
+    start : float
+        Time of the first sample.
+    remove_mean : bool
+        Whether the signal loses its mean first.
+    memory : int
+        Bytes that the work may take.
+
+    Returns
+    -------
+    Distribution
+        ``values[n_fft // 2 + 1, N]``, ``omega`` from 0 to the Nyquist frequency, every sample in ``time``.
+
+    Raises
+    ------
+    InputError
+        For complex or non-finite samples, ``rate`` <= 0, a window that does not end at zero or is longer than
+        the signal, ``n_fft`` shorter than the window, or work over ``memory``.
+
+    References
+    ----------
+    Auger and Flandrin, IEEE Trans. Signal Process. 43 (1995) 1068.
+
+    Examples
+    --------
     >>> tone = np.cos(2 * np.pi * 4.1 * np.arange(256) / 32.0)
     >>> plane = reassigned_spectrogram(tone, 32.0, window_seconds=2.0, n_fft=256)
     >>> column = plane.values[:, 128]
@@ -96,7 +128,7 @@ def reassigned_spectrogram(
         columns[begin:end] += energy.reshape(-1, bins)
     settings = {"rate": rate, "n_fft": n_fft, "window": window_name, "window_seconds": 2 * half / rate}
     time = start + np.arange(size) / rate
-    return Distribution(columns.T, omega[:bins], time, "reassigned-spectrogram", settings)
+    return Distribution(columns.T, omega[:bins], time, "reassigned-spectrogram", settings, half / rate)
 
 
 def squeezed(z: ComplexArray, family: WindowFamily, omega: Array, first: int, last: int) -> tuple[ComplexArray, Array]:
@@ -116,12 +148,47 @@ def synchrosqueezed_spectrogram(
     remove_mean: bool = True,
     memory: int = MEMORY_BUDGET,
 ) -> Distribution:
-    """Return |T|^2 of the second-order synchrosqueezed spectrum T of the real ``x``, ``values[n_fft // 2 + 1, N]``.
+    """Return |T|^2 of the second-order synchrosqueezed spectrum T of a real signal.
 
     T[k, n] = sum of S / (n_fft w(0)) over the bins whose frequency falls nearest omega_k; its sum over k is the
     analytic signal, but for what falls below 0 or beyond the Nyquist frequency.  A cosine of amplitude A has A^2.
-    Raises InputError as :func:`reassigned_spectrogram` does.
 
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        The real signal.
+    rate : float
+        Samples per time unit.
+    window_seconds : float
+        Full width of the window, in time units.
+    window_name : str
+        ``"hann"`` or ``"blackman"``: windows that end at zero.
+    n_fft : int, optional
+        Length of the transform, about twice the window by default.
+    start : float
+        Time of the first sample.
+    remove_mean : bool
+        Whether the signal loses its mean first.
+    memory : int
+        Bytes that the work may take.
+
+    Returns
+    -------
+    Distribution
+        ``values[n_fft // 2 + 1, N]``, ``omega`` from 0 to the Nyquist frequency, every sample in ``time``.
+
+    Raises
+    ------
+    InputError
+        For complex or non-finite samples, ``rate`` <= 0, a window that does not end at zero or is longer than
+        the signal, ``n_fft`` shorter than the window, or work over ``memory``.
+
+    References
+    ----------
+    Oberlin, Meignen and Perrier, IEEE Trans. Signal Process. 63 (2015) 1335.
+
+    Examples
+    --------
     >>> tone = 3.0 * np.cos(2 * np.pi * 4.1 * np.arange(256) / 32.0)
     >>> plane = synchrosqueezed_spectrogram(tone, 32.0, window_seconds=2.0, n_fft=256)
     >>> round(float(plane.values[33, 128]), 1), float(plane.frequency_hz[33])
@@ -139,7 +206,7 @@ def synchrosqueezed_spectrogram(
         columns[first:last] = t.real**2 + t.imag**2
     settings = {"rate": rate, "n_fft": n_fft, "window": window_name, "window_seconds": 2 * half / rate}
     time = start + np.arange(size) / rate
-    return Distribution(columns.T, omega[:bins], time, "synchrosqueezed", settings)
+    return Distribution(columns.T, omega[:bins], time, "synchrosqueezed", settings, half / rate)
 
 
 def gathered(s: ComplexArray, cell: NDArray[np.intp], cells: int) -> ComplexArray:

@@ -9,7 +9,7 @@ from scipy.signal import ShortTimeFFT
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.distributions.distribution import Distribution
-from ridgeback.numeric.signal.samples import TWO_PI, checked_budget, checked_rate, checked_real_samples
+from ridgeback.numeric.signal.samples import MEMORY_BUDGET, TWO_PI, checked_budget, checked_rate, checked_real_samples
 from ridgeback.numeric.signal.windows import half_width, window
 
 
@@ -23,16 +23,49 @@ def spectrogram(
     n_fft: int | None = None,
     start: float = 0.0,
     remove_mean: bool = True,
-    memory: int = 1_000_000_000,
+    memory: int = MEMORY_BUDGET,
 ) -> Distribution:
-    """Return |S(omega, t)|^2, ``values[bins, ceil(N / hop)]``, with S the short-time DFT of the real signal ``x``.
+    """Return the spectrogram |S(omega, t)|^2 of a real signal, S its short-time Fourier transform.
 
-    S(omega_k, t_n) = sum over j of x[n + j] w[j] exp(-i omega_k j / rate), j = -half .. half, w symmetric about n and
-    divided by its sum / 2, so that a cosine of amplitude A has a ridge of A^2.  One-sided bins
-    omega_k = 2 pi rate k / n_fft from 0 to the Nyquist frequency, time t_n = start + n / rate at each column's centre.
-    Within half a window of the border the record is extended by zeros and the level falls.
-    Raises InputError for complex or non-finite input, rate <= 0, and a window longer than the signal.
+    S(omega_k, t_n) = sum over j of x[n + j] w[j] exp(-i omega_k j / rate), j = -half .. half, with w symmetric about n
+    and divided by half its sum, so that a cosine of amplitude A has a ridge of A^2.  Within half a window of the border
+    the record is extended by zeros and the level falls.
 
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        The real signal.
+    rate : float
+        Samples per time unit.
+    window_seconds : float
+        Full width of the window, in time units.
+    window_name : str
+        ``"rectangular"``, ``"hann"``, ``"hamming"``, ``"blackman"`` or ``"gaussian"``.
+    hop : int
+        Samples from one column to the next.
+    n_fft : int, optional
+        Length of the transform, about twice the window by default.
+    start : float
+        Time of the first sample.
+    remove_mean : bool
+        Whether the signal loses its mean first.
+    memory : int
+        Bytes that the work may take.
+
+    Returns
+    -------
+    Distribution
+        ``values[n_fft // 2 + 1, ceil(N / hop)]``, ``omega`` from 0 to the Nyquist frequency, each column's centre in
+        ``time``.
+
+    Raises
+    ------
+    InputError
+        For complex or non-finite samples, ``rate`` <= 0, a window longer than the signal, ``n_fft`` shorter
+        than the window, or work over ``memory``.
+
+    Examples
+    --------
     >>> tone = 3.0 * np.cos(2 * np.pi * 4.0 * np.arange(256) / 32.0)
     >>> plane = spectrogram(tone, 32.0, window_seconds=2.0, n_fft=256)
     >>> round(float(plane.values[32, 128]), 2), float(plane.frequency_hz[32])
@@ -55,4 +88,4 @@ def spectrogram(
     values = np.abs(transform.stft(samples, p0=0, p1=frames)) ** 2
     settings = {"rate": rate, "n_fft": n_fft, "hop": hop, "window": window_name, "window_seconds": 2 * half / rate}
     time = start + np.arange(frames) * hop / rate
-    return Distribution(values, TWO_PI * transform.f, time, "spectrogram", settings)
+    return Distribution(values, TWO_PI * transform.f, time, "spectrogram", settings, half / rate)

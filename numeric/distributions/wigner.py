@@ -19,11 +19,9 @@ from ridgeback.numeric.distributions.distribution import Distribution
 from ridgeback.numeric.distributions.lag_kernel import Complexes, LagKernel
 from ridgeback.numeric.signal.analytic import as_analytic
 from ridgeback.numeric.signal.band_limit import BandLimited, band_limited
-from ridgeback.numeric.signal.samples import checked_budget, checked_rate
+from ridgeback.numeric.signal.samples import MEMORY_BUDGET, checked_budget, checked_rate
 from ridgeback.numeric.signal.windows import half_width, window
 
-MEMORY_BUDGET = 1_000_000_000
-"""Bytes that a full plane may take unless the caller says otherwise."""
 SINGLE_SWING = (1e-12, 1e12)
 """Magnitudes that single precision takes: products of two, summed, stay far inside float32."""
 
@@ -75,7 +73,7 @@ def wigner_kernel(
     return LagKernel(signal, rate, h[::step], g / g.sum(), int(n_fft), step, limited.origin)
 
 
-def plane(kernel: LagKernel, name: str, *, start: float, memory: int) -> Distribution:
+def plane(kernel: LagKernel, name: str, *, start: float, memory: int, border: float = 0.0) -> Distribution:
     """Evaluate every column of a kernel; refuses before the work when the plane is over the budget ``memory``."""
     size, real = kernel.signal.size, kernel.signal.real.dtype
     remedy = "shorten the signal, lower n_fft, or follow the ridge with estimate(...), which stores no plane"
@@ -94,7 +92,7 @@ def plane(kernel: LagKernel, name: str, *, start: float, memory: int) -> Distrib
         "smoothing_seconds": 2.0 * kernel.half_smoothing / kernel.rate,
     }
     time = start + np.arange(size) / kernel.rate
-    return Distribution(columns.T, kernel.omega, time, name, settings)
+    return Distribution(columns.T, kernel.omega, time, name, settings, border)
 
 
 def wigner(
@@ -107,12 +105,41 @@ def wigner(
     single: bool = False,
     memory: int = MEMORY_BUDGET,
 ) -> Distribution:
-    """Return the Wigner distribution of ``x`` over all lags the record has; ``values[n_fft, N]``, n_fft = N by default.
+    """Return the Wigner distribution of a signal, over all lags that the record has.
 
-    Real ``x`` is made analytic (less its mean unless ``remove_mean`` is False); complex ``x`` is taken as it is.
-    ``single=True`` works in float32: half the memory, an error near 3e-7 of the largest value.
-    Raises InputError for values that are not finite, rate <= 0, n_fft below the lag count, or a plane over ``memory``.
+    Parameters
+    ----------
+    x : array, shape (N,)
+        The signal.  Real samples are made analytic, complex ones are taken as they are.
+    rate : float
+        Samples per time unit.
+    n_fft : int, optional
+        Rows of the plane, one per sample by default.
+    start : float
+        Time of the first sample.
+    remove_mean : bool
+        Whether a real signal loses its mean first.
+    single : bool
+        Work in single precision: half the memory, an error near 3e-7 of the largest value.
+    memory : int
+        Bytes that the plane may take.
 
+    Returns
+    -------
+    Distribution
+        Real ``values[n_fft, N]``, ``omega`` from 0 to pi ``rate`` (the Nyquist frequency), every sample in ``time``.
+
+    Raises
+    ------
+    InputError
+        For values that are not finite, ``rate`` <= 0, ``n_fft`` below the number of lags, or a plane over ``memory``.
+
+    References
+    ----------
+    Claasen and Mecklenbräuker, Philips J. Res. 35 (1980) 217, 276, 372.
+
+    Examples
+    --------
     >>> tone = np.exp(2j * np.pi * 3.0 * np.arange(64) / 32.0)
     >>> plane = wigner(tone, 32.0)
     >>> float(plane.frequency_hz[plane.values[:, 30].argmax()])
@@ -136,11 +163,48 @@ def pseudo_wigner(
     single: bool = False,
     memory: int = MEMORY_BUDGET,
 ) -> Distribution:
-    """Return the pseudo-Wigner distribution: the lag product under a window over ``lag_seconds`` of signal.
+    """Return the pseudo-Wigner distribution: the lag product under a window, so that a column sees what is near it.
 
-    The window is h(tau) of full support -lag_seconds .. lag_seconds with h(0) = 1, so the time marginal stays exact.
-    Raises InputError as :func:`wigner` does, and for a window longer than the signal or unknown.
+    The window is 1 at tau = 0, and the sum over frequency is the signal's power at each time still.
 
+    Parameters
+    ----------
+    x : array, shape (N,)
+        The signal.  Real samples are made analytic, complex ones are taken as they are.
+    rate : float
+        Samples per time unit.
+    lag_seconds : float
+        Stretch of signal that a column sees, in time units: the lag tau runs over -lag_seconds .. lag_seconds.
+    lag_window : str
+        Window over the lags, 1 at tau = 0: one of ``signal.windows.WINDOWS``, such as ``"blackman"``.
+    n_fft : int, optional
+        Rows of the plane, about twice the number of lags by default.
+    start : float
+        Time of the first sample.
+    remove_mean : bool
+        Whether a real signal loses its mean first.
+    single : bool
+        Work in single precision: half the memory, an error near 3e-7 of the largest value.
+    memory : int
+        Bytes that the plane may take.
+
+    Returns
+    -------
+    Distribution
+        Real ``values[n_fft, N]``, ``omega`` from 0 to pi ``rate`` (the Nyquist frequency), every sample in ``time``.
+
+    Raises
+    ------
+    InputError
+        For values that are not finite, ``rate`` <= 0, ``n_fft`` below the number of lags, a window unknown or longer
+        than the signal, or a plane over ``memory``.
+
+    References
+    ----------
+    Claasen and Mecklenbräuker, Philips J. Res. 35 (1980) 217, 276, 372.
+
+    Examples
+    --------
     >>> tone = np.cos(2 * np.pi * 3.0 * np.arange(256) / 32.0)
     >>> plane = pseudo_wigner(tone, 32.0, lag_seconds=2.0, n_fft=256)
     >>> float(plane.frequency_hz[plane.values[:, 128].argmax()])
@@ -149,7 +213,7 @@ def pseudo_wigner(
     kernel = wigner_kernel(
         x, rate, lag_seconds=lag_seconds, lag_window=lag_window, n_fft=n_fft, remove_mean=remove_mean, single=single
     )
-    return plane(kernel, "pseudo-wigner", start=start, memory=memory)
+    return plane(kernel, "pseudo-wigner", start=start, memory=memory, border=0.5 * lag_seconds)
 
 
 def smoothed_pseudo_wigner(
@@ -166,11 +230,52 @@ def smoothed_pseudo_wigner(
     single: bool = False,
     memory: int = MEMORY_BUDGET,
 ) -> Distribution:
-    """Return the smoothed pseudo-Wigner distribution: the pseudo-Wigner convolved along time with a window of sum 1.
+    """Return the smoothed pseudo-Wigner distribution: convolved along time with a window of sum 1.
 
-    Outside the record the signal counts as zero; the convolution is neither wrapped nor renormalised at the border.
-    Raises InputError as :func:`pseudo_wigner` does.
+    Smoothing takes out cross terms, which oscillate along time.  Outside the record the signal counts as zero; the
+    convolution is neither wrapped nor renormalised at the border.
 
+    Parameters
+    ----------
+    x : array, shape (N,)
+        The signal.  Real samples are made analytic, complex ones are taken as they are.
+    rate : float
+        Samples per time unit.
+    lag_seconds : float
+        Stretch of signal that a column sees, in time units: the lag tau runs over -lag_seconds .. lag_seconds.
+    smoothing_seconds : float
+        Full width of the smoothing window, in time units.
+    lag_window, smoothing_window : str
+        Windows over the lags and along time: ``"rectangular"``, ``"hann"``, ``"hamming"``, ``"blackman"`` or
+        ``"gaussian"``.
+    n_fft : int, optional
+        Rows of the plane, about twice the number of lags by default.
+    start : float
+        Time of the first sample.
+    remove_mean : bool
+        Whether a real signal loses its mean first.
+    single : bool
+        Work in single precision: half the memory, an error near 3e-7 of the largest value.
+    memory : int
+        Bytes that the plane may take.
+
+    Returns
+    -------
+    Distribution
+        Real ``values[n_fft, N]``, ``omega`` from 0 to pi ``rate`` (the Nyquist frequency), every sample in ``time``.
+
+    Raises
+    ------
+    InputError
+        For values that are not finite, ``rate`` <= 0, ``n_fft`` below the number of lags, a window unknown or longer
+        than the signal, or a plane over ``memory``.
+
+    References
+    ----------
+    Claasen and Mecklenbräuker, Philips J. Res. 35 (1980) 217, 276, 372.
+
+    Examples
+    --------
     >>> tone = np.cos(2 * np.pi * 3.0 * np.arange(256) / 32.0)
     >>> plane = smoothed_pseudo_wigner(tone, 32.0, lag_seconds=2.0, smoothing_seconds=0.5, n_fft=256)
     >>> float(plane.frequency_hz[plane.values[:, 128].argmax()])
@@ -187,4 +292,6 @@ def smoothed_pseudo_wigner(
         remove_mean=remove_mean,
         single=single,
     )
-    return plane(kernel, "smoothed-pseudo-wigner", start=start, memory=memory)
+    return plane(
+        kernel, "smoothed-pseudo-wigner", start=start, memory=memory, border=0.5 * (lag_seconds + smoothing_seconds)
+    )

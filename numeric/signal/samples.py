@@ -23,6 +23,8 @@ SWING = (1e-40, 1e40)
 """Magnitudes whose sixth powers (the polynomial kernel) and their squares stay within float64."""
 RATES = (1e-18, 1e18)
 """Sampling rates whose powers in a fit stay far from overflow: any unit of time comes nearer to 1 than that."""
+MEMORY_BUDGET = 1_000_000_000
+"""Bytes that a plane may take unless the caller says otherwise."""
 WORK_BUDGET = 1e12
 """Floating-point operations that one estimate may take: about ten minutes on one core."""
 
