@@ -18,12 +18,13 @@ from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR, evaluator
 from ridgeback.compare.binding.taylor_jet import solution_jet
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics, agm
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V, Value
 
 Vectorised = Callable[[ArrayLike], Array]
 
 
-def bind(oscillator: Oscillator, *, values: Mapping[str, Value] | None = None) -> Dynamics:
+def bind(oscillator: OscillatorLike, *, values: Mapping[str, Value] | None = None) -> Dynamics:
     """Turn an oscillator into the functions that the numeric side works with.
 
     ``values`` replaces parameters by name.  Raises InputError for an unknown parameter, for one that has no number,
@@ -34,6 +35,7 @@ def bind(oscillator: Oscillator, *, values: Mapping[str, Value] | None = None) -
     >>> dynamics.natural_frequency, dynamics.force(0.0, 1.0)
     (2.0, 0.0)
     """
+    oscillator = as_oscillator(oscillator)
     bound = oscillator.with_parameters(values) if values else oscillator
     _check_numbers(bound)
     force, potential = bound.substituted_force, bound.substituted_potential

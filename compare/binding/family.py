@@ -13,13 +13,14 @@ from ridgeback.compare.binding.closures import ARRAY, SCALAR, evaluator
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.model_fit.family import Family, Scalars
 from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 
 START = 1.0
 """Where a free parameter begins that has no value."""
 
 
-def family(oscillator: Oscillator, free: Sequence[str]) -> Family:
+def family(oscillator: OscillatorLike, free: Sequence[str]) -> Family:
     """Free the named parameters of an oscillator; their present values are where a fit begins.
 
     Raises InputError for unknown names, for none or one twice, and for another parameter that has no number.
@@ -29,6 +30,7 @@ def family(oscillator: Oscillator, free: Sequence[str]) -> Family:
     >>> pendulum.start.tolist(), pendulum.force(0.0, 1.0, (2.0, 0.1)), pendulum.partials(0.0, 1.0, (2.0, 0.1))
     ([2.0, 0.1], 0.2, (4.0, 0.2, 0.0, 2.0))
     """
+    oscillator = as_oscillator(oscillator)
     _check(oscillator, free)
     fixed = {_symbol(name): value for name, value in oscillator.parameters.items() if name not in free}
     force = oscillator.force.subs(fixed)

@@ -25,6 +25,7 @@ from ridgeback.numeric.motion.trajectory import (
     check_request,
     sample_times,
 )
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 
 TOLERANCE = 1e-16
@@ -40,13 +41,14 @@ def heyoka() -> Any:
 
 
 def integrate_heyoka(
-    oscillator: Oscillator, initial: tuple[float, float], *, duration: float, rate: float
+    oscillator: OscillatorLike, initial: tuple[float, float], *, duration: float, rate: float
 ) -> Trajectory:
     """Solve the oscillator's equation from ``initial = (u, u')`` over ``0 .. duration``, sampled at ``rate``.
 
     Raises OSError without the library, and InputError as ``trajectory.integrate`` does and for a function that
     heyoka does not know.
     """
+    oscillator = as_oscillator(oscillator)
     library, dynamics = heyoka(), bind(oscillator)
     state = check_request(dynamics, initial, duration=duration, rate=rate)
     u, v = library.make_vars("u", "v")

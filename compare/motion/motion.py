@@ -23,6 +23,7 @@ from ridgeback.numeric.motion.trajectory import Trajectory, integrate
 from ridgeback.numeric.orbits.averaging import AveragedDecay, averaged_decay
 from ridgeback.numeric.orbits.energy import amplitude_from_energy, energy_of
 from ridgeback.numeric.orbits.period import exact_frequency
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 
 CYCLES = 40.0
@@ -70,7 +71,7 @@ class Setting:
 
 
 def setting(
-    oscillator: Oscillator,
+    oscillator: OscillatorLike,
     *,
     initial: tuple[float, float] | None = None,
     duration: float | None = None,
@@ -85,6 +86,7 @@ def setting(
     >>> setting(find("linear")).rate.__round__(3)
     5.093
     """
+    oscillator = as_oscillator(oscillator)
     k = float(oscillator.natural_frequency.evalf(30))
     chosen = Setting(
         oscillator=oscillator,

@@ -19,6 +19,7 @@ from ridgeback.compare.report.results import Report
 from ridgeback.compare.report.stages import Stages
 from ridgeback.compare.study.results import Range
 from ridgeback.numeric.recording.recording import Recording, read_recording
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 
@@ -28,7 +29,7 @@ def assemble_recording(
     column: str | int | None = None,
     time_column: str | int | None = None,
     rate: float | None = None,
-    oscillator: Oscillator | None = None,
+    oscillator: OscillatorLike | None = None,
     cycles: float | None = None,
     trials: int = TRIALS,
     command: str = "",
@@ -41,6 +42,7 @@ def assemble_recording(
     the page says why.  Raises InputError for a file that holds no usable signal, OSError when it cannot be read.
     """
     stages = Stages(progress)
+    oscillator = None if oscillator is None else as_oscillator(oscillator)
     if isinstance(source, Recording):
         recording = source
     else:

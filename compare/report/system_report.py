@@ -32,7 +32,7 @@ from ridgeback.numeric.orbits.potential import peak_limit
 from ridgeback.symbolic.flow.ordering import undamped
 from ridgeback.symbolic.singularities.limits import limits
 from ridgeback.symbolic.systems.catalogue import find
-from ridgeback.symbolic.systems.oscillator import Oscillator
+from ridgeback.symbolic.systems.door import OscillatorLike
 
 ORDERS = (2, 4, 6, 8, 10, 12, 16, 20, 30, 40)
 CYCLE_ORDERS = (2, 4, 6, 8, 12, 16, 20, 30, 48)
@@ -85,7 +85,7 @@ class Plan:
 
 
 def assemble_system(
-    chosen: Setting | Oscillator,
+    chosen: Setting | OscillatorLike,
     *,
     order: int = ORDER,
     orders: Sequence[int] | None = None,
@@ -101,7 +101,7 @@ def assemble_system(
     study, ``target`` is the relative error of its ranges; ``trials`` is the number of noisy records a point of the
     noise study (0: none).  Raises InputError as the parts do.
     """
-    case = setting(chosen) if isinstance(chosen, Oscillator) else chosen
+    case = chosen if isinstance(chosen, Setting) else setting(chosen)
     stages = Stages(progress)
     with stages.stage("deriving", 0.0, 0.05):
         plan, exact = _plan(case, order, orders, amplitudes, target, trials)

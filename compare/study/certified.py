@@ -13,6 +13,7 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.certificates.accuracy import Accuracy, Ball, accuracy
 from ridgeback.symbolic.enclosure.enclosure import enclose, separatrix
 from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 SHARES = (0.25, 0.5, 0.7, 0.9, 0.95)
@@ -40,7 +41,7 @@ def certified(oscillator: Oscillator, order: int, largest: float) -> Certified |
 
 
 def certified_rows(
-    oscillator: Oscillator, orders: Sequence[int], amplitudes: Sequence[float]
+    oscillator: OscillatorLike, orders: Sequence[int], amplitudes: Sequence[float]
 ) -> list[dict[str, float | int | str | None]]:
     """Return one row per order, formula and amplitude: the keys of a study's rows, and the radius of the proof.
 
@@ -52,6 +53,7 @@ def certified_rows(
     >>> rows[0]["method"], f"{rows[0]['relative_error']:.4e}"
     ('truncated series', '3.5469e-05')
     """
+    oscillator = as_oscillator(oscillator)
     exact = [Fraction(a) for a in amplitudes]
     reference = [enclose(oscillator, a).omega for a in exact]
     return [

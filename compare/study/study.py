@@ -24,6 +24,7 @@ from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.orbits.potential import peak_limit
 from ridgeback.symbolic.enclosure.enclosure import separatrix
 from ridgeback.symbolic.flow.ordering import undamped
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, V, Value
 
 MAX_CELLS = 200_000
@@ -42,7 +43,7 @@ class Need:
 
 
 def study(
-    oscillator: Oscillator,
+    oscillator: OscillatorLike,
     orders: Sequence[int],
     amplitudes: ArrayLike,
     *,
@@ -61,6 +62,7 @@ def study(
     >>> result.relative_error.shape, bool(abs(result.relative_error[1, 1]) < 1e-4)
     ((2, 2), True)
     """
+    oscillator = as_oscillator(oscillator)
     bound = undamped(oscillator.with_parameters(values) if values else oscillator)
     kept, grid = _checked_orders(orders), _checked_amplitudes(amplitudes)
     _check_size(len(kept), grid.size, limit_cycle=bound.kind == "limit-cycle")

@@ -44,32 +44,11 @@ class Choice:
             from ridgeback.symbolic.systems.description import from_text
 
             return from_text(self.equation, about=self.about or "0", parameters=values)
-        oscillator = self._named()
-        oscillator = oscillator.with_parameters(values) if values else oscillator
-        return oscillator if self.about is None else _moved(oscillator, self.about)
-
-    def _named(self) -> Oscillator:
-        from ridgeback.symbolic.systems.catalogue import find
-        from ridgeback.symbolic.systems.description import read_description
-
         if self.system is None:
             raise click.UsageError("name a SYSTEM (ridgeback systems lists them), a TOML file, or give --equation")
-        return read_description(self.system) if self.system.endswith(".toml") else find(self.system)
+        from ridgeback.symbolic.systems.door import as_oscillator
 
-
-def _moved(oscillator: Oscillator, about: str) -> Oscillator:
-    """The same equation with the unknown measured from another equilibrium."""
-    from ridgeback.symbolic.systems.description import from_text
-
-    return from_text(
-        oscillator.equation,
-        about=about,
-        parameters=oscillator.parameters,
-        name=oscillator.name,
-        title=f"{oscillator.title}, about {about}",
-        reference=oscillator.reference,
-        unit=oscillator.unit,
-    )
+        return as_oscillator(self.system, parameters=values, about=self.about)
 
 
 def choosing(command: Command) -> Command:

@@ -16,6 +16,7 @@ from ridgeback.symbolic.enclosure.enclosure import Enclosure, enclose, rounded_u
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, ball_row
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.resummation import Resummation
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 Formula: TypeAlias = Expansion | BallExpansion | Resummation
@@ -108,7 +109,7 @@ def reading(oscillator: Oscillator, formula: Formula, amplitude: Fraction, *, bi
 
 
 def readings(
-    oscillator: Oscillator, formula: Formula, amplitudes: Sequence[Fraction], *, bits: int = 128
+    oscillator: OscillatorLike, formula: Formula, amplitudes: Sequence[Fraction], *, bits: int = 128
 ) -> tuple[Reading, ...]:
     """Enclose omega0 at each amplitude, in the formula's own definition, and the formula with its error.
 
@@ -121,4 +122,5 @@ def readings(
     >>> row["omega0"], row["relative_error"]
     ('0.937792258051', '1.71087e-7')
     """
+    oscillator = as_oscillator(oscillator)
     return tuple(reading(oscillator, formula, amplitude, bits=bits) for amplitude in amplitudes)

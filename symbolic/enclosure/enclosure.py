@@ -27,7 +27,7 @@ from ridgeback.symbolic.enclosure.turning_points import Orbit, orbit
 from ridgeback.symbolic.enclosure.walk import UndecidedError, decided
 from ridgeback.symbolic.enclosure.well import Well, well_of
 from ridgeback.symbolic.grammar.tokens import parse_number
-from ridgeback.symbolic.systems.oscillator import Oscillator
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 
 __all__ = ["Amplitude", "Enclosure", "Separatrix", "enclose", "separatrix"]
 
@@ -90,7 +90,7 @@ class Enclosure:
 
 
 def enclose(
-    oscillator: Oscillator,
+    oscillator: OscillatorLike,
     amplitude: Amplitude,
     *,
     definition: str = "peak",
@@ -112,6 +112,7 @@ def enclose(
         ...
     ridgeback.common.errors.InputError: duffing-softening: peak amplitude 1 is at or beyond the separatrix ...
     """
+    oscillator = as_oscillator(oscillator)
     return enclose_in(well_of(oscillator), amplitude, definition=definition, bits=bits, method=method)
 
 

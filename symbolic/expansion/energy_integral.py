@@ -24,14 +24,15 @@ from ridgeback.symbolic.series.program import Program
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Scalar, space_for
 from ridgeback.symbolic.series.trigonometric import constant
-from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.oscillator import U, V
 from ridgeback.symbolic.systems.structure import free_names
 
 ALLOWED = ("peak", "trough", "action", "energy")
 
 
 def energy_integral(
-    oscillator: Oscillator, order: int, *, amplitude: str = "peak", budget: Budget | None = None
+    oscillator: OscillatorLike, order: int, *, amplitude: str = "peak", budget: Budget | None = None
 ) -> Expansion:
     """Expand omega0 in the amplitude through the power ``order``.
 
@@ -43,6 +44,7 @@ def energy_integral(
     >>> energy_integral(find("pendulum"), 4).frequency
     (1, 0, -1/16, 0, 1/3072)
     """
+    oscillator = as_oscillator(oscillator)
     order = check_order(order)
     check_amplitude(oscillator, amplitude, ALLOWED)
     natural = oscillator.normalised()

@@ -27,6 +27,7 @@ from ridgeback.symbolic.expansion.limit_cycle import limit_cycle
 from ridgeback.symbolic.expansion.recursion import March, Watch, compiled, normalise, residual, unwatched
 from ridgeback.symbolic.series.spaces import Space, is_zero, space_for
 from ridgeback.symbolic.series.trigonometric import constant, cosine, solve_oscillator
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 from ridgeback.symbolic.systems.structure import free_names
 
@@ -35,7 +36,7 @@ DIRECT = ("peak", "fundamental")
 
 
 def lindstedt(
-    oscillator: Oscillator, order: int, *, amplitude: str = "peak", budget: Budget | None = None
+    oscillator: OscillatorLike, order: int, *, amplitude: str = "peak", budget: Budget | None = None
 ) -> Expansion:
     """Expand omega0 in the amplitude (conservative) or in eps (limit cycle), through the power ``order``.
 
@@ -46,6 +47,7 @@ def lindstedt(
     >>> lindstedt(find("van-der-pol"), 4).frequency
     (1, 0, -1/16, 0, 17/3072)
     """
+    oscillator = as_oscillator(oscillator)
     order = check_order(order)
     check_amplitude(oscillator, amplitude, DIRECT if oscillator.kind == "limit-cycle" else DEFINITIONS)
     budget = budget or Budget()

@@ -36,14 +36,15 @@ from ridgeback.symbolic.series.program import Program
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Parametric, Scalar
 from ridgeback.symbolic.series.trigonometric import Trig, constant, cosine, harmonic, sine, solve_oscillator
-from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.oscillator import U, V
 
 COEFFICIENT: Final = 2
 """What a symbolic coefficient counts when the cost is predicted: that of u^3 comes with a^2 each time."""
 
 
 def multiple_scales(
-    oscillator: Oscillator,
+    oscillator: OscillatorLike,
     order: int,
     *,
     weight: int = 2,
@@ -64,6 +65,7 @@ def multiple_scales(
     >>> multiple_scales(own, 2, weights={"d": 1, "c": 1}).damping_expression()
     -c/2
     """
+    oscillator = as_oscillator(oscillator)
     order = check_order(order)
     check_name(oscillator, "a")
     natural = ordered(oscillator, weight=weight, weights=weights)

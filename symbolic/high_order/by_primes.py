@@ -29,6 +29,7 @@ from ridgeback.symbolic.expansion.lindstedt import DIRECT, march_family
 from ridgeback.symbolic.high_order.residues import Gathered, Residues, read, write
 from ridgeback.symbolic.series.spaces import Modular, Scalar
 from ridgeback.symbolic.series.trigonometric import at_zero
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 from ridgeback.symbolic.systems.structure import free_names
 
@@ -76,7 +77,7 @@ def _residue(value: Scalar, prime: int) -> int:
 
 
 def lindstedt_by_primes(
-    oscillator: Oscillator,
+    oscillator: OscillatorLike,
     order: int,
     *,
     amplitude: str = "peak",
@@ -98,6 +99,7 @@ def lindstedt_by_primes(
     >>> lindstedt_by_primes(find("van-der-pol"), 4).frequency
     (1, 0, -1/16, 0, 17/3072)
     """
+    oscillator = as_oscillator(oscillator)
     order = check_order(order)
     check_amplitude(oscillator, amplitude, DIRECT)
     natural = oscillator.normalised()

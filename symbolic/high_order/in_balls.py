@@ -32,6 +32,7 @@ from ridgeback.symbolic.series.harmonic_basis import Balls
 from ridgeback.symbolic.series.relaxed_product import RelaxedProduct, Waiting
 from ridgeback.symbolic.series.spaces import Parts
 from ridgeback.symbolic.series.trigonometric import at_zero
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 from ridgeback.symbolic.systems.structure import free_names
 
@@ -50,7 +51,7 @@ MAX_DIGITS: Final = 10_000
 
 
 def lindstedt_in_balls(
-    oscillator: Oscillator,
+    oscillator: OscillatorLike,
     order: int,
     *,
     digits: int = 30,
@@ -70,6 +71,7 @@ def lindstedt_in_balls(
     >>> lindstedt_in_balls(find("van-der-pol"), 4).coefficients[4].str(20, radius=False)
     '0.0055338541666666666667'
     """
+    oscillator = as_oscillator(oscillator)
     order = check_order(order)
     check_amplitude(oscillator, amplitude, DIRECT)
     _check_digits(digits)

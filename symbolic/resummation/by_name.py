@@ -11,6 +11,7 @@ from ridgeback.symbolic.resummation.elliptic_nome import nome
 from ridgeback.symbolic.resummation.pade import mapped, mapping_for, pade
 from ridgeback.symbolic.resummation.resummation import Resummation
 from ridgeback.symbolic.singularities.limits import settled_limits
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 Kind: TypeAlias = Literal["pade", "map", "nome"]
@@ -18,7 +19,7 @@ KINDS: tuple[Kind, ...] = ("pade", "map", "nome")
 
 
 def resummed(
-    oscillator: Oscillator,
+    oscillator: OscillatorLike,
     series: Expansion,
     kind: str,
     *,
@@ -38,6 +39,7 @@ def resummed(
     >>> resummed(find("pendulum"), lindstedt(find("pendulum"), 8), "pade").method
     'Pade [2/2]'
     """
+    oscillator = as_oscillator(oscillator)
     if kind not in KINDS:
         raise InputError(f"no resummation {kind!r}; there are {', '.join(KINDS)}")
     if growth and kind != "map":

@@ -82,6 +82,24 @@ def from_text(
         raise InputError(f"about {about}: {reason}") from None
 
 
+def moved_to(oscillator: Oscillator, about: str) -> Oscillator:
+    """The same equation with the unknown measured from another equilibrium; raises InputError as ``from_text``.
+
+    >>> well = Oscillator.from_equation("u'' + u - u**2 = 0")
+    >>> moved_to(well, "0").equation == well.equation
+    True
+    """
+    return from_text(
+        oscillator.equation,
+        about=about,
+        parameters=oscillator.parameters,
+        name=oscillator.name,
+        title=f"{oscillator.title}, about {about}",
+        reference=oscillator.reference,
+        unit=oscillator.unit,
+    )
+
+
 def _moved(node: Node, place: Node) -> Node:
     """Replace the unknown by the unknown plus its place; derivatives are unchanged."""
     match node:
