@@ -1,4 +1,4 @@
-"""A recording from a file: uniformly sampled signals without gaps, and openly what was done to make them so.
+"""A recording from a file or from arrays: uniformly sampled, without gaps, and openly what was done to make it so.
 
 A file gives one signal per channel (column) and run (file, or value of a run column).  Where values or times are
 missing a signal falls into stretches, each uniform and without a gap; nothing is filled in unless it is asked for.
@@ -20,12 +20,14 @@ from ridgeback.numeric.arrays import Array, Mask, frozen, frozen_mask
 from ridgeback.numeric.files.column_choice import (
     SECONDS,
     find_column,
+    is_time,
     name_and_units,
     signal_indices,
     time_index,
     time_unit,
 )
 from ridgeback.numeric.files.columns import FILE_BUDGET, Columns
+from ridgeback.numeric.files.in_memory import Samples, columns_of
 from ridgeback.numeric.files.readers import READERS
 from ridgeback.numeric.recording.stretches import Rows, stamped
 from ridgeback.numeric.recording.treatment import FEWEST_SAMPLES, Treatment, treated
@@ -67,6 +69,69 @@ class Recording:
             flags = getattr(self, name)
             object.__setattr__(self, name, frozen_mask(flags if flags.size else np.zeros(self.values.size)))
         object.__setattr__(self, "facts", MappingProxyType(dict(self.facts)))
+
+    @classmethod
+    def from_arrays(
+        cls,
+        x: Samples,
+        rate: float | None = None,
+        *,
+        time: Samples = None,
+        column: str | int | None = None,
+        name: str = "",
+        units: str = "",
+        resample: float | None = None,
+        fill: float | None = None,
+        detrend: str = "none",
+    ) -> Recording:
+        """Make a recording of samples in memory; of a signal with gaps the longest stretch, and ``notes`` says so.
+
+        Parameters
+        ----------
+        x : array_like, masked array, Series, DataFrame, DataArray or Dataset
+            The samples, one-dimensional and real.  NaN, ``None`` and masked samples are missing.
+        rate : float, optional
+            Samples per time unit.
+        time : array_like, optional
+            The time of each sample, numbers or dates, in place of a rate.  The index of a pandas object and the
+            coordinate of an xarray object are used where neither is given.
+        column : str or int, optional
+            The signal of a DataFrame or Dataset with several.
+        name, units : str, optional
+            What the samples are called and measured in.
+        resample, fill, detrend : optional
+            As for :func:`read_recordings`.
+
+        Returns
+        -------
+        Recording
+            The uniformly sampled signal.
+
+        Raises
+        ------
+        InputError
+            Without a rate or times, with both, and for what :func:`read_recordings` refuses.
+
+        Examples
+        --------
+        >>> x = np.ma.array(np.cos(0.3 * np.arange(40)), mask=np.arange(40) == 7)
+        >>> recording = Recording.from_arrays(x, 10.0, fill=0.2, units="mm")
+        >>> recording.channel, recording.rate, int(recording.filled.sum())
+        ('x [mm]', 10.0, 1)
+        """
+        return longest_of(
+            recordings_from_arrays(
+                x,
+                rate,
+                time=time,
+                column=column,
+                name=name,
+                units=units,
+                resample=resample,
+                fill=fill,
+                detrend=detrend,
+            )
+        )
 
     @property
     def channel(self) -> str:
@@ -125,11 +190,52 @@ def read_recording(
     found = read_recordings(
         [path], columns=column, time_column=time_column, rate=rate, resample=resample, fill=fill, detrend=detrend
     )
+    return longest_of(found)
+
+
+def longest_of(found: Sequence[Recording]) -> Recording:
+    """The longest stretch, with a note where there are others."""
     longest = max(found, key=lambda recording: recording.values.size)
     if len(found) == 1:
         return longest
     note = f"The longest of {len(found)} stretches is taken: {span(longest.time[0], longest.time[-1])}."
     return Recording(**{**vars(longest), "notes": (*longest.notes, note)})
+
+
+def recordings_from_arrays(
+    x: Samples,
+    rate: float | None = None,
+    *,
+    time: Samples = None,
+    column: Wanted = None,
+    name: str = "",
+    units: str = "",
+    resample: float | None = None,
+    fill: float | None = None,
+    detrend: str = "none",
+) -> tuple[Recording, ...]:
+    """Every stretch of samples in memory; parameters and errors as for :meth:`Recording.from_arrays`.
+
+    ``column`` may name several columns of a table, or ``"all"``.
+
+    >>> x = np.sin(np.arange(80.0))
+    >>> x[40] = np.nan
+    >>> [part.values.size for part in recordings_from_arrays(x, 4.0)]
+    [40, 39]
+    """
+    if rate is not None and time is not None:
+        raise InputError(f"both a rate, {rate:g}, and times are given; keep one of them")
+    columns = columns_of(x, time=time, name=name, units=units)
+    timed = any(is_time(header) for header in columns.names)
+    if rate is None and not timed:
+        raise InputError("the samples have no times; give the sampling rate, or time= with the time of each sample")
+    clock = time_index(columns, None, rate) if timed else None
+    found: list[Recording] = []
+    for index in signal_indices(columns, column, (clock,)):
+        values = columns.values(index)
+        signal = Signal(columns, index, clock, np.arange(values.size), "", hashlib.sha256(values.tobytes()).hexdigest())
+        found.extend(recordings_of(signal, rate, Treatment(resample, fill, detrend)))
+    return tuple(found)
 
 
 def read_recordings(
