@@ -1,6 +1,7 @@
 """The exact frequency that an expansion is held against: closed form and quadrature, or the periodic orbit.
 
-Where u' enters the conserved energy otherwise than as u'^2/2 it is the certified enclosure.
+Where u' enters the conserved energy otherwise than as u'^2/2 it is the certified enclosure; where no energy of a known
+form is conserved, one cycle is integrated at high precision.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import numpy as np
 
 from ridgeback.compare.binding.bind import bind
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.motion.closed_orbit import closed_orbit
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.motion.limit_cycle import periodic_orbit
 from ridgeback.numeric.orbits.period import exact_frequency
@@ -51,6 +53,16 @@ def enclosed_reference(oscillator: Oscillator, peaks: Array) -> Exact:
     omega = np.array([float(ball.mid()) for ball in found])
     error = np.array([float(ball.rad() / ball) for ball in found]) + np.finfo(float).eps
     return Exact(omega, error, "certified enclosure")
+
+
+def integrated_reference(dynamics: Dynamics, peaks: Array) -> Exact:
+    """Frequency at peak amplitudes from one integrated cycle each, for families of orbits that nothing else gives.
+
+    Raises InputError where an orbit does not close; see ``ridgeback.numeric.motion.closed_orbit``.
+    """
+    found = [closed_orbit(dynamics, float(peak)) for peak in peaks]
+    omega, error = (np.array(values) for values in zip(*((o.omega, o.relative_error) for o in found), strict=True))
+    return Exact(omega, error, "one cycle integrated by Taylor series to 20 digits")
 
 
 def limit_cycle_reference(oscillator: Oscillator, strengths: Array) -> Exact:

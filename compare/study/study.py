@@ -16,20 +16,27 @@ from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
-from ridgeback.compare.study.reference import Exact, conservative_reference, enclosed_reference, limit_cycle_reference
+from ridgeback.compare.study.reference import (
+    Exact,
+    conservative_reference,
+    enclosed_reference,
+    integrated_reference,
+    limit_cycle_reference,
+)
 from ridgeback.compare.study.results import Range, Study
 from ridgeback.compare.study.truncations import METHODS, Method
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.orbits.potential import peak_limit
 from ridgeback.symbolic.enclosure.enclosure import separatrix
+from ridgeback.symbolic.enclosure.well import well_of
 from ridgeback.symbolic.flow.ordering import undamped
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, V, Value
 
 MAX_CELLS = 200_000
 MAX_ORBITS = 100
-"""Limit cycles: each value of eps costs one shooting, about half a second."""
+"""Limit cycles, and families of orbits without an energy: each costs an integration, up to half a second."""
 MAX_ENCLOSED = 2000
 """Forces with u': each amplitude costs one certified enclosure, some hundredths of a second."""
 
@@ -162,11 +169,29 @@ def _reference(oscillator: Oscillator, grid: Array) -> tuple[float | None, Exact
     if oscillator.kind == "limit-cycle":
         return None, limit_cycle_reference(oscillator, grid)
     dynamics = bind(oscillator)
-    if dynamics.restoring is None and oscillator.substituted_force.has(V):
-        return _enclosed(oscillator, grid)
+    if oscillator.substituted_force.has(V) or dynamics.restoring is None:  # f(u, 0) alone does not set the motion
+        return _enclosed(oscillator, grid) if _has_well(oscillator) else (None, _integrated(dynamics, grid))
     limit = peak_limit(dynamics)
     _check_inside(dynamics, grid, limit)
     return (limit if math.isfinite(limit) else None), conservative_reference(dynamics, grid)
+
+
+def _has_well(oscillator: Oscillator) -> bool:
+    """Whether an energy is known that certified enclosures can be made from."""
+    try:
+        well_of(oscillator)
+    except InputError:
+        return False
+    return True
+
+
+def _integrated(dynamics: Dynamics, grid: Array) -> Exact:
+    """The reference where no energy is known, one cycle integrated at each amplitude."""
+    if grid.size > MAX_ORBITS:
+        raise InputError(
+            f"{grid.size} amplitudes exceed {MAX_ORBITS} orbits to be integrated; use at most {MAX_ORBITS}"
+        )
+    return integrated_reference(dynamics, grid)
 
 
 def _enclosed(oscillator: Oscillator, grid: Array) -> tuple[float | None, Exact]:

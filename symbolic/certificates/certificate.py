@@ -99,16 +99,21 @@ def _residual(expansion: Expansion) -> Check:
 
 
 def _normalisation(expansion: Expansion) -> Check:
-    """The orbit's own amplitude, measured by its definition, must be the variable itself; u'(0) = 0 or no sin tau."""
+    """The orbit's own amplitude, measured by its definition, must be the variable itself.
+
+    tau = 0 must be the upper turning point, or for ``fundamental`` the phase of the first harmonic.
+    """
     waveform = expansion.waveform or ()
     if expansion.variable == "A":
         size = measured(expansion.amplitude, waveform, expansion.coefficients)
         sizes_right = all(value == (n == 1) for n, value in enumerate(size))
     else:
         sizes_right = True
-    slopes = [at_zero(p.derivative()) for p in waveform]
-    sines = [harmonic(p, 1)[1] for p in waveform]
-    phase_right = all(value == 0 for value in slopes) or all(value == 0 for value in sines)
+    if expansion.amplitude == "fundamental":
+        phases = [harmonic(p, 1)[1] for p in waveform]
+    else:
+        phases = [at_zero(p.derivative()) for p in waveform]
+    phase_right = all(value == 0 for value in phases)
     what = (
         f"the {expansion.amplitude} amplitude of u is A itself" if expansion.variable == "A" else "the phase is fixed"
     )

@@ -120,6 +120,12 @@ def _check_kind(oscillator: Oscillator) -> None:
             f"{name} loses energy, so no orbit has the exact frequency omega0(A) that an enclosure is of; "
             "use --method multiple-scales, or set its damping to 0"
         )
+    if oscillator.kind == "reversible":
+        raise InputError(
+            f"{name} closes its orbits by a symmetry under (u, t) -> (-u, -t) and not by an energy of the form "
+            "I(u)^2 u'^2/2 + V(u), so there is no enclosure; study holds the series against an integrated cycle (not "
+            "proved); leave out --at and --certified"
+        )
     unset = free_names(oscillator.substituted_force)
     if unset:
         raise InputError(f"{name}: an enclosure needs numbers, and {', '.join(unset)} has none; set it, e.g. to 1")

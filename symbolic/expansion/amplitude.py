@@ -2,9 +2,9 @@ r"""What "amplitude" means, five ways, and each as an exact series in any other.
 
 In units with k = 1, for a periodic orbit u(tau), tau = omega t:
 
-    peak         u(0), the positive turning point
-    trough       -u(pi), the size of the negative turning point
-    fundamental  the coefficient of cos tau in u
+    peak         u(tau_0) at u'(tau_0) = 0, tau_0 near 0: the positive turning point
+    trough       -u(tau_1) at u'(tau_1) = 0, tau_1 near pi: the size of the negative turning point
+    fundamental  the size of the first harmonic of u, cos and sin tau together
     action       sqrt(2 J),  J = (1/2 pi) * loop integral of u' du = omega * mean of (du/dtau)^2
     energy       sqrt(2 E),  E from dE = omega dJ
 
@@ -24,9 +24,10 @@ from flint import fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
+from ridgeback.symbolic.expansion.phase import of_first_harmonic, shifted, turning
 from ridgeback.symbolic.grammar.parse import V
 from ridgeback.symbolic.series.spaces import Scalar
-from ridgeback.symbolic.series.trigonometric import Trig, at_zero, constant, dot, harmonic
+from ridgeback.symbolic.series.trigonometric import Trig, constant, dot, harmonic
 
 if TYPE_CHECKING:
     from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -119,20 +120,15 @@ def measured(definition: str, waveform: Sequence[Trig], omega: Sequence[Scalar])
 
 
 def _peak(waveform: Sequence[Trig], omega: Sequence[Scalar]) -> list[Scalar]:  # noqa: ARG001 - one signature
-    return [at_zero(p) for p in waveform]
+    return turning(waveform, 0)[1]
 
 
 def _trough(waveform: Sequence[Trig], omega: Sequence[Scalar]) -> list[Scalar]:  # noqa: ARG001
-    """-u(pi): x = -1 there, so the odd part counts with its sign turned, and once more for the size."""
-    return [_at(p, 1) - _at(p, 0) for p in waveform]
-
-
-def _at(p: Trig, part: int) -> Scalar:
-    return sum(p.coefficients(part), fmpq(0))
+    return [-value for value in turning(waveform, 1)[1]]
 
 
 def _fundamental(waveform: Sequence[Trig], omega: Sequence[Scalar]) -> list[Scalar]:  # noqa: ARG001
-    return [harmonic(p, 1)[0] for p in waveform]
+    return of_first_harmonic(waveform)[1]
 
 
 def _action(waveform: Sequence[Trig], omega: Sequence[Scalar]) -> list[Scalar]:
@@ -162,6 +158,19 @@ _READERS: dict[str, Callable[[Sequence[Trig], Sequence[Scalar]], list[Scalar]]] 
     "action": _action,
     "energy": _energy,
 }
+
+
+def counted_from_its_own(definition: str, waveform: Sequence[Trig]) -> tuple[Trig, ...]:
+    """Return the orbit with tau counted as the definition does: no sin tau for ``fundamental``, else u'(0) = 0.
+
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> orbit = lindstedt(find("duffing"), 2).waveform
+    >>> counted_from_its_own("fundamental", orbit) == orbit
+    True
+    """
+    phase, _ = of_first_harmonic(waveform) if definition == "fundamental" else turning(waveform, 0)
+    return shifted(waveform, phase)
 
 
 def same_definition(first: str, second: str) -> str:

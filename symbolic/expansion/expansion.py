@@ -21,7 +21,13 @@ from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
 from ridgeback.symbolic.arithmetic.balls import natural_frequency
 from ridgeback.symbolic.arithmetic.rendering import as_sympy, long_integers, mathml
-from ridgeback.symbolic.expansion.amplitude import check_definition, check_velocity, measured, same_definition
+from ridgeback.symbolic.expansion.amplitude import (
+    check_definition,
+    check_velocity,
+    counted_from_its_own,
+    measured,
+    same_definition,
+)
 from ridgeback.symbolic.series.spaces import Scalar
 from ridgeback.symbolic.series.trigonometric import Trig, degree, harmonic
 
@@ -196,7 +202,7 @@ class Expansion:
             self,
             amplitude=definition,
             coefficients=tuple(truncated.compose(list(self.coefficients), old_of_new[: self.order + 1])),
-            waveform=substitute(self.waveform, old_of_new),
+            waveform=counted_from_its_own(definition, substitute(self.waveform, old_of_new)),
         )
 
     def difference(self, other: Expansion) -> tuple[sympy.Expr, ...]:

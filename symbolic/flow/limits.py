@@ -55,7 +55,7 @@ def flow_limits(oscillator: Oscillator, flow: SlowFlow) -> FlowLimits:
         if on_cycle:
             return FlowLimits(of, _settled(oscillator, flow.complete or 0, "peak"), "")
         undamped = oscillator.with_parameters(dict.fromkeys(flow.small_parameters, 0))
-        if not undamped.is_conservative:
+        if not undamped.closes:
             return FlowLimits(of, None, f"{flow.system} still loses or gains energy there")
         return FlowLimits(of, replace(_settled(undamped, flow.order, flow.amplitude), variable="a"), "")
     except InputError as refusal:

@@ -1,9 +1,10 @@
 r"""Which parameters of an oscillator are small, of what weight, and the equation in natural units that goes with it.
 
-Small by default is every parameter all of whose terms are odd in u' (linear damping under any name, cubic damping, the
-eps of van der Pol's equation), unless it only ever multiplies another one of them (the b of eps*(1 - b*u^2)*u'), and
-the expansion parameter of a limit cycle.  Weights given by name override this: a weight above 0 makes any parameter
-small, the weight 0 makes it a coefficient like the others, symbolic or with its value.
+Small by default is every parameter all of whose terms are odd in u' and not all odd in u (linear damping under any
+name, cubic damping, the eps of van der Pol's equation; not the b of b*u*u', which takes as much as it gives), unless it
+only ever multiplies another one of them (the b of eps*(1 - b*u^2)*u'), and the expansion parameter of a limit cycle.
+Weights given by name override this: a weight above 0 makes any parameter small, the weight 0 makes it a coefficient
+like the others, symbolic or with its value.
 
 Units: time is tau = k t, so that u' = k du/dtau.  A parameter m whose lowest term holds u'^q is measured in k^(2 - q):
 mu = k mu^ for linear damping, c3 = c3^ / k for cubic damping, alpha = k^2 alpha^ for stiffness.
@@ -19,7 +20,7 @@ import sympy
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
-from ridgeback.symbolic.systems.structure import divided, free_names, positive_root
+from ridgeback.symbolic.systems.structure import dissipative_names, divided, free_names, positive_root
 
 ROOT: Final = "k*"
 INVERSE: Final = "1/k*"
@@ -80,7 +81,8 @@ def small_parameters(oscillator: Oscillator) -> tuple[str, ...]:
     ('eps',)
     """
     force = oscillator.force
-    odd = [name for name in oscillator.parameters if _odd(force, _symbol(name))]
+    lossy = dissipative_names(force)
+    odd = [name for name in oscillator.parameters if name in lossy]
     known = [name for name in (oscillator.small, oscillator.damping) if name and name not in odd]
     kept = [name for name in odd if not any(_within(force, name, other, odd) for other in odd if other != name)]
     return tuple(name for name in oscillator.parameters if name in kept or name in known)
@@ -116,15 +118,6 @@ def _weights(oscillator: Oscillator, weight: int, given: dict[str, int]) -> dict
             raise InputError(f"{oscillator.name} has no parameter {name[:60]!r} to weigh; its parameters: {known}")
     merged = {**dict.fromkeys(small_parameters(oscillator), weight), **given}
     return {name: merged[name] for name in oscillator.parameters if merged.get(name, 0)}
-
-
-def _odd(force: sympy.Expr, symbol: sympy.Symbol) -> bool:
-    """Whether every term that depends on the parameter is odd in u' and vanishes with the parameter."""
-    change = force.diff(symbol)
-    if change == 0 or sympy.expand(change + change.subs(V, -V)) != 0:
-        return False
-    rest = force.subs(symbol, 0)
-    return not rest.has(sympy.zoo, sympy.nan, sympy.oo)
 
 
 def _within(force: sympy.Expr, name: str, other: str, order: list[str]) -> bool:
@@ -193,12 +186,14 @@ def _check(force: sympy.Expr, oscillator: Oscillator, small: tuple[str, ...], sc
 
 
 def undamped(oscillator: Oscillator) -> Oscillator:
-    """Return the oscillator with its damping set to zero: the one that has a backbone curve; limit cycles as they are.
+    """Return the oscillator with its damping set to zero: the one that has a backbone curve.
+
+    Limit cycles, and oscillators whose orbits close as they are, are returned unchanged.
 
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> undamped(find("damped-pendulum")).is_conservative
     True
     """
-    if oscillator.kind == "limit-cycle":
+    if oscillator.kind != "damped":
         return oscillator
     return oscillator.with_parameters(dict.fromkeys(small_parameters(oscillator), 0))

@@ -24,6 +24,7 @@ from ridgeback.symbolic.systems.potential import checked_potential, potential_of
 from ridgeback.symbolic.systems.structure import (
     SQUARED_INVERSE,
     damping_name,
+    dissipative_names,
     divided,
     in_natural_units,
     positive_root,
@@ -33,7 +34,8 @@ from ridgeback.symbolic.systems.structure import (
 
 __all__ = ["Kind", "Normalised", "Oscillator", "U", "V", "Value", "W"]
 
-Kind: TypeAlias = Literal["conservative", "damped", "limit-cycle"]
+Kind: TypeAlias = Literal["conservative", "reversible", "damped", "limit-cycle"]
+"""``reversible``: orbits close by a symmetry under (u, t) -> (-u, -t), without an energy."""
 
 
 class NoLinearForceError(InputError):
@@ -176,8 +178,10 @@ class Oscillator:
 
     @cached_property
     def substituted_potential(self) -> sympy.Expr | None:
-        """The potential with every parameter that has a value inserted."""
-        return None if self.potential is None else self._inserted(self.potential)
+        """The potential with every parameter that has a value inserted; integrated where these leave no u' at all."""
+        if self.potential is None:
+            return None if self.substituted_force.has(V) else potential_of(self.substituted_force)
+        return self._inserted(self.potential)
 
     @cached_property
     def is_conservative(self) -> bool:
@@ -185,13 +189,28 @@ class Oscillator:
         force = self.substituted_force
         return bool(sympy.expand(force - force.subs(V, -V)) == 0)
 
+    @cached_property
+    def is_reversible(self) -> bool:
+        """Whether the force is odd in u at fixed u', so that (u, t) -> (-u, -t) maps motions to motions.
+
+        An orbit that crosses u = 0 twice is its own image then and closes, as of u'' + u u' + u = 0 (R. L. Devaney,
+        Reversible diffeomorphisms and flows, Transactions of the AMS 218 (1976) 89-113).
+        """
+        force = self.substituted_force
+        return bool(sympy.expand(force + force.subs(U, -U)) == 0)
+
+    @property
+    def closes(self) -> bool:
+        """Whether a symmetry closes every orbit near the origin, so that there is a frequency for each amplitude."""
+        return self.is_conservative or self.is_reversible
+
     @property
     def kind(self) -> Kind:
         """``limit-cycle`` when there is an expansion parameter or negative linear damping, else by the force."""
         if self.small is not None:
             return "limit-cycle"
-        if self.is_conservative:
-            return "conservative"
+        if self.closes:
+            return "conservative" if self.is_conservative else "reversible"
         slope = sign_at_origin(self.force.diff(V), self.parameters)
         return "limit-cycle" if slope is not None and slope < 0 else "damped"
 
@@ -279,7 +298,7 @@ def _rebuilt(cls: type[Oscillator], values: dict[str, Any]) -> Oscillator:
 
 
 def _potential(force: sympy.Expr, given: str | None, unknown: str) -> tuple[sympy.Expr | None, str]:
-    """The potential of f(u, 0) and, when there is none, why."""
+    """The potential of f(u, 0) and, when that does not set the undamped motion, why."""
     restoring = force.subs(V, 0)
     velocity = force - restoring
     checked = None
@@ -287,6 +306,9 @@ def _potential(force: sympy.Expr, given: str | None, unknown: str) -> tuple[symp
         checked = checked_potential(to_sympy(parse_expression(given, unknown=unknown)), restoring)
     if sympy.expand(velocity + velocity.subs(V, -V)) != 0:
         return None, "the force has velocity terms that do not dissipate"
+    lossless = velocity.subs({_symbol(name): 0 for name in dissipative_names(force)})
+    if sympy.expand(lossless - lossless.subs(U, -U)) != 0:
+        return None, f"{brief(lossless)} neither dissipates nor comes of a potential"
     if small_name(force) is not None:
         return None, "a limit cycle is not set by its potential"
     if checked is not None:

@@ -113,6 +113,27 @@ def small_name(force: sympy.Expr) -> str | None:
     return None
 
 
+def dissipative_names(force: sympy.Expr) -> tuple[str, ...]:
+    """The parameters that vanish with all of their terms, which are odd in u' and not all odd in u, sorted.
+
+    Terms odd in u', such as damping, spoil the reversal of time, unless they are odd in u as well: u u' takes as much
+    on one side of u = 0 as it gives on the other.
+
+    >>> c, b = (sympy.Symbol(name, real=True) for name in "cb")
+    >>> dissipative_names(c * V**3 + b * U * V + U)
+    ('c',)
+    """
+    return tuple(name for name in free_names(force) if _dissipates(force, sympy.Symbol(name, real=True)))
+
+
+def _dissipates(force: sympy.Expr, symbol: sympy.Symbol) -> bool:
+    change = force.diff(symbol)
+    odd_in_u = sympy.expand(change + change.subs(U, -U)) == 0
+    if change == 0 or odd_in_u or sympy.expand(change + change.subs(V, -V)) != 0:
+        return False
+    return not force.subs(symbol, 0).has(sympy.zoo, sympy.nan, sympy.oo)
+
+
 def free_names(force: sympy.Expr) -> tuple[str, ...]:
     """Return the names of the parameters in a force, sorted; u and u' are not among them.
 
