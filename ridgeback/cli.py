@@ -11,6 +11,7 @@ from importlib import import_module
 import click
 
 from ridgeback.console.failure import Exit, say, verdict
+from ridgeback.console.stops import stoppable
 
 # The matrices here are small: threads of the linear algebra library only wait for each other (measured: a report takes
 # 2.7 times the processor time with them).  It must be said before NumPy is imported; the user's own word comes first.
@@ -20,7 +21,7 @@ VERBS = ("systems", "derive", "generate", "simulate", "estimate", "identify", "s
 
 EPILOG = """\b
 Exit codes: 0 done; 2 bad input; 3 finished, but partial or not certified;
-4 the environment (files, disk, memory); 70 a fault of ridgeback; 130 interrupted.
+4 the environment (files, disk, memory); 70 a fault of ridgeback; 130 interrupted (Ctrl-C, SIGTERM, SIGHUP).
 RIDGEBACK_DEBUG=1 shows the traceback of any failure."""
 
 
@@ -99,7 +100,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     sys.set_int_max_str_digits(max(LONGEST_INTEGER, sys.get_int_max_str_digits()))
     try:
         # Not `cli.main`, which turns a broken pipe into exit code 1 before anybody can see it.
-        with cli.make_context("ridgeback", list(given), obj=tuple(given)) as context:
+        with stoppable(), cli.make_context("ridgeback", list(given), obj=tuple(given)) as context:
             cli.invoke(context)
         sys.stdout.flush()
     except click.exceptions.Exit as stop:

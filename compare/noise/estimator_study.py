@@ -11,15 +11,15 @@ import dataclasses
 import hashlib
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.files import write_whole
 from ridgeback.common.progress import Progress, silent
+from ridgeback.common.signed import reading_signed, write_signed
 from ridgeback.compare.noise.monte_carlo import monte_carlo
 from ridgeback.compare.noise.results import NoiseCell, NoiseStudy, read_study
 from ridgeback.compare.noise.truth import Truth, dynamics_truth
@@ -39,6 +39,8 @@ METHODS = (
     "wigner",
 )
 TRIALS = 6
+FORMAT = "ridgeback estimator study"
+VERSION = 2
 
 
 @dataclass(frozen=True)
@@ -163,7 +165,8 @@ def estimator_study(
 ) -> EstimatorStudy:
     """Run every method on every case.
 
-    ``checkpoint`` names a file that holds the cases done: it is written whole after each, and read when it exists.  An
+    ``checkpoint`` names a file that holds the cases done: it is written whole after each, proves itself whole by a
+    digest, and is read when it exists.  An
     interrupt (KeyboardInterrupt) returns the cases done with ``complete=False``, or passes through before the first.
     Raises InputError for what ``monte_carlo`` refuses, and for a checkpoint of another study.
 
@@ -172,7 +175,7 @@ def estimator_study(
     ['wigner', 'hilbert']
     """
     wanted = cases() if chosen is None else tuple(chosen)
-    settings = {"methods": list(methods), "trials": trials, "seed": seed, "version": 1}
+    settings = {"methods": list(methods), "trials": trials, "seed": seed}
     done = {} if checkpoint is None else _read(Path(checkpoint), settings)
     results: list[CaseResult] = []
     try:
@@ -182,7 +185,7 @@ def estimator_study(
                 share = _part(progress, i / len(wanted), 1.0 / len(wanted), case.label)
                 done[key] = _run(case, methods, trials, seed, executor, share)
                 if checkpoint is not None:
-                    _write(Path(checkpoint), {"settings": settings, "done": {k: s.as_dict() for k, s in done.items()}})
+                    write_signed(Path(checkpoint), _lines(settings, done))
             results.append(CaseResult(case, tuple(sorted(done[key].cells, key=_rank))))
     except KeyboardInterrupt:
         if not results:
@@ -228,18 +231,22 @@ def _read(path: Path, settings: Mapping[str, Any]) -> dict[str, NoiseStudy]:
     """The cases done, none when there is no file yet."""
     if not path.exists():
         return {}
-    try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-        found, done = record["settings"], {key: read_study(value) for key, value in record["done"].items()}
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(
-            f"{path.name} is not a checkpoint of an estimator study ({error}); name another file or remove it"
-        ) from None
-    if found != settings:
-        raise InputError(f"{path.name} was made with {found}, not {settings}; name another file or remove it")
+    with reading_signed(path, FORMAT, VERSION) as (head, lines):
+        if head["settings"] != settings:
+            raise InputError(f"{path} was made with {head['settings']}, not {settings}; name another file or remove it")
+        done = {key: read_study(next(lines)) for key in head["done"]}
+    if not all(_made_with(study, settings) for study in done.values()):
+        raise InputError(f"{path} claims other settings than its own cases have; remove it and begin anew")
     return done
 
 
-def _write(path: Path, record: Mapping[str, Any]) -> None:
-    """Put the finished file in its place in one step."""
-    write_whole(path, [json.dumps(record, allow_nan=False).encode()])
+def _made_with(study: NoiseStudy, settings: Mapping[str, Any]) -> bool:
+    """Whether the numbers of a case are those of the settings."""
+    own = {"methods": list(study.methods), "trials": study.trials, "seed": study.seed}
+    return own == settings and all(cell.trials == study.trials for cell in study.cells)
+
+
+def _lines(settings: Mapping[str, Any], done: Mapping[str, NoiseStudy]) -> Iterator[str]:
+    """What was asked for and which cases are done, then the cases, one a line."""
+    yield json.dumps({"format": FORMAT, "version": VERSION, "settings": settings, "done": list(done)}) + "\n"
+    yield from (json.dumps(study.as_dict(), allow_nan=False) + "\n" for study in done.values())

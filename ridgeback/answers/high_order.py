@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from ridgeback.common.files import remove_through
+from ridgeback.console.failure import say
 from ridgeback.options.budget import Watch
 from ridgeback.options.derivation import Request, refuse_weights
 
@@ -80,6 +84,23 @@ def by_primes(oscillator: Oscillator, request: Request, workers: int, checkpoint
                 )
         except KeyboardInterrupt:
             raise KeyboardInterrupt(interrupted(f"after {watch.last or '0 bits of modulus'}", path)) from None
+
+
+@contextmanager
+def kept_until_written(checkpoint: str | None) -> Iterator[None]:
+    """Remove the checkpoint when the block has written the result; else say, when there is one, that it is there."""
+    try:
+        yield
+    except OSError:
+        if checkpoint is not None and Path(checkpoint).exists():
+            say(f"the state is in {checkpoint}: the same command goes on from there when the output can be written")
+        raise
+    except KeyboardInterrupt as stop:
+        if not str(stop) and checkpoint is not None:
+            raise KeyboardInterrupt(interrupted("before the result was written", Path(checkpoint))) from None
+        raise
+    if checkpoint is not None:
+        remove_through(Path(checkpoint))
 
 
 def interrupted(when: str, path: Path | None) -> str:

@@ -12,7 +12,7 @@ from ridgeback.answers.at import as_csv as at_csv
 from ridgeback.answers.at import as_text as at_text
 from ridgeback.answers.at import complete, read_at, read_strong, rows, strong
 from ridgeback.answers.expansion_text import as_text, certified, expressions, joined, limit_rows, range_of_use
-from ridgeback.answers.high_order import by_primes, in_balls
+from ridgeback.answers.high_order import by_primes, in_balls, kept_until_written
 from ridgeback.answers.motion import fixed_rows, harmonic_output, transient_output
 from ridgeback.answers.resummation import formula_text, resummed_from
 from ridgeback.console.failure import PartialError
@@ -79,13 +79,14 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
         write_text(output, strong(oscillator, found, request, demand))
         complete(found)
         return
-    result = derived_as(oscillator, request, demand)
-    formula = formula_of(oscillator, result, demand)
-    found = read_at(oscillator, formula, demand) if demand.at else ()
-    checks = certificate(oscillator, result) if demand.verify else None
-    write_text(
-        output, made_of(oscillator, formula, found, demand) or printed(oscillator, result, found, demand, checks)
-    )
+    with kept_until_written(demand.checkpoint):
+        result = derived_as(oscillator, request, demand)
+        formula = formula_of(oscillator, result, demand)
+        found = read_at(oscillator, formula, demand) if demand.at else ()
+        checks = certificate(oscillator, result) if demand.verify else None
+        write_text(
+            output, made_of(oscillator, formula, found, demand) or printed(oscillator, result, found, demand, checks)
+        )
     if checks and not all(check.passed for check in checks if check.passed is not None):
         raise PartialError("the certificate does not hold; the output says which check failed")
     complete(found)

@@ -13,6 +13,7 @@ import math
 import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial, reduce
 from itertools import islice
@@ -26,7 +27,7 @@ from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order, first_harmonic
 from ridgeback.symbolic.expansion.limit_cycle import march_cycle
 from ridgeback.symbolic.expansion.lindstedt import DIRECT, march_family
-from ridgeback.symbolic.high_order.residues import Gathered, Residues, read, write
+from ridgeback.symbolic.high_order.residues import Gathered, Residues, check_numbers, read, write
 from ridgeback.symbolic.series.spaces import Modular, Scalar
 from ridgeback.symbolic.series.trigonometric import at_zero
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
@@ -35,8 +36,8 @@ from ridgeback.symbolic.systems.structure import free_names
 
 CHECKS = 2
 """Primes kept back to test the result."""
-SAVE_EVERY = 300
-"""Seconds between checkpoints."""
+SAVE_EVERY = 60
+"""Seconds between checkpoints, and a batch of primes at most."""
 
 
 def primes() -> Iterator[int]:
@@ -91,9 +92,10 @@ def lindstedt_by_primes(
 
     ``executor`` (such as ``processes``) runs the primes, ``workers`` of them at a time; ``progress`` is
     told the bits of the modulus so far and whether they sufficed.  With ``checkpoint`` the residues are saved there
-    every few minutes and on KeyboardInterrupt, the work goes on from there if the file exists, and the file is removed
-    when it is done.  Raises InputError as ``lindstedt`` does, for symbolic parameters, and for a checkpoint that is
-    damaged or belongs to another computation; OSError for the file.
+    every minute, on KeyboardInterrupt and at the end, and the work goes on from there if the file exists; it is the
+    caller's to remove once the result is stored.  Raises InputError as ``lindstedt`` does, for symbolic parameters, and
+    for a checkpoint that is damaged, belongs to another computation or claims what its numbers deny; OSError for the
+    file.
 
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> lindstedt_by_primes(find("van-der-pol"), 4).frequency
@@ -109,10 +111,8 @@ def lindstedt_by_primes(
         raise InputError(f"{oscillator.name}: {held} is no rational number; the primes need one for each parameter")
     check(law(oscillator), order, budget or Budget(), workers=workers)
     identity, work = _identity(oscillator, order, amplitude), partial(residues, oscillator, order, amplitude)
-    saved = read(checkpoint, identity) if checkpoint is not None and checkpoint.exists() else Gathered(())
+    saved = _resumed(checkpoint, identity, work)
     found = _Collection(work, executor, identity, checkpoint, saved).rationals(max(2, 2 * workers), progress)
-    if checkpoint is not None:
-        checkpoint.unlink(missing_ok=True)
     return Expansion(
         system=oscillator.name,
         method="lindstedt",
@@ -146,6 +146,15 @@ def law(oscillator: Oscillator) -> str:
     return "primes of a limit-cycle" if oscillator.kind == "limit-cycle" else "primes"
 
 
+def _resumed(path: Path | None, identity: dict[str, str], work: Callable[[int], Residues]) -> Gathered:
+    """What a checkpoint holds, with the first of the residues kept back found anew; nothing where there is none."""
+    if path is None or not path.exists():
+        return Gathered(())
+    saved = read(path, identity)
+    check_numbers(path, saved, list(islice(primes(), CHECKS + saved.used)), work(next(primes())))
+    return saved
+
+
 @dataclass
 class _Collection:
     """Residues being gathered: the only thing here that changes."""
@@ -171,6 +180,8 @@ class _Collection:
         except KeyboardInterrupt:
             self._save(every=0)
             raise
+        with suppress(OSError):  # the result is there, and worth more than its checkpoint
+            self._save(every=0)
         return found
 
     def _enough(self, progress: Callable[[int, bool], None] | None) -> list[fmpq] | None:

@@ -6,7 +6,6 @@ lines before.  Balls stand as hexadecimal mantissas and decimal exponents, ``mid
 
 from __future__ import annotations
 
-import hashlib
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -16,12 +15,15 @@ from typing import Any, Final
 from flint import arb, arb_poly
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.files import write_whole
+from ridgeback.common.signed import reading_signed, write_signed
+from ridgeback.symbolic.series.relaxed_product import waiting_orders
 from ridgeback.symbolic.series.spaces import Parts
 
 FORMAT: Final = "ridgeback march in balls"
 VERSION: Final = 1
 _RADIUS_BITS: Final = 30
+SPARE: Final = 40
+"""Bits that a march may drop before its first inexact product (``in_balls.GUARD``)."""
 
 
 @dataclass(frozen=True)
@@ -72,21 +74,7 @@ def ball_from(text: str) -> arb:
 
 def write(path: Path, checkpoint: Checkpoint) -> None:
     """Write a checkpoint whole or not at all.  Raises OSError."""
-    write_lines(path, _lines(checkpoint))
-
-
-def write_lines(path: Path, lines: Iterable[str]) -> None:
-    """Write lines and their digest whole or not at all.  Raises OSError."""
-    write_whole(path, _signed(lines))
-
-
-def _signed(lines: Iterable[str]) -> Iterator[bytes]:
-    digest = hashlib.sha256()
-    for line in lines:
-        data = line.encode("ascii")
-        digest.update(data)
-        yield data
-    yield (json.dumps({"sha256": digest.hexdigest()}) + "\n").encode("ascii")
+    write_signed(path, _lines(checkpoint))
 
 
 def _lines(checkpoint: Checkpoint) -> Iterator[str]:
@@ -108,36 +96,50 @@ def read(path: Path, identity: Mapping[str, str]) -> Checkpoint:
 
     Raises InputError when the file is damaged, of another version, or of another computation, and OSError.
     """
-    with path.open(encoding="ascii") as file:
-        head = checked_head(path, file, FORMAT, VERSION, identity)
-        tapes = tuple(_tape(map(json.loads, file)) for _ in range(head["products"]))
-    return Checkpoint(head["identity"], head["bits"], head["order"], tapes)
+    with reading_signed(path, FORMAT, VERSION) as (head, lines):
+        check_identity(path, head["identity"], identity)
+        tapes = tuple(_tape(lines) for _ in range(head["products"]))
+        return Checkpoint(head["identity"], int(head["bits"]), int(head["order"]), tapes)
 
 
-def checked_head(path: Path, file: Iterator[str], form: str, version: int, identity: Mapping[str, str]) -> Any:
-    """The first line of a file that is whole, of this format and version, and of this computation.
+def check_identity(path: Path, found: Mapping[str, str], mine: Mapping[str, str]) -> None:
+    """Raise InputError where a checkpoint is of another computation."""
+    for key, value in mine.items():
+        if found.get(key) != value:
+            raise InputError(f"{path} belongs to the {key} {found.get(key)}, not {value}; give another file")
 
-    Raises InputError for any other.
+
+def check_numbers(path: Path, saved: Checkpoint, last: int, least_bits: int) -> None:
+    """Hold what a checkpoint claims against its own numbers; a file may be whole and yet not what it says.
+
+    A march to the order ``last - 1`` has between one product and the next a tape of nearly as many values as orders,
+    waiting blocks that are cut at ``last`` and nowhere else, at least the ``least_bits`` that its digits need, and
+    inexact balls with about the bits that it began with.  Raises InputError.
     """
-    _check_digest(path)
-    head = json.loads(next(file))
-    if not isinstance(head, dict) or head.get("format") != form or head.get("version") != version:
-        raise InputError(f"{path} is not a checkpoint of this version ({form}, version {version}); begin anew")
-    for key, mine in identity.items():
-        if (found := head["identity"].get(key)) != mine:
-            raise InputError(f"{path} belongs to the {key} {found}, not {mine}; give another file")
-    return head
+    claims = {
+        "order": 1 <= saved.order <= last and all(_of_order(tape, saved.order, last) for tape in saved.tapes),
+        "precision": saved.bits >= least_bits and _has_bits(saved),
+    }
+    for what, held in claims.items():
+        if not held:
+            raise InputError(f"{path} claims another {what} than its own numbers have; remove it and begin anew")
 
 
-def _check_digest(path: Path) -> None:
-    """Raise InputError unless the last line is the digest of all lines before."""
-    digest, last = hashlib.sha256(), b""
-    with path.open("rb") as file:
-        for line in file:
-            digest.update(last)
-            last = line
-    if last != (json.dumps({"sha256": digest.hexdigest()}) + "\n").encode("ascii"):
-        raise InputError(f"{path} is no checkpoint, or damaged: its digest does not match; remove it and begin anew")
+def _of_order(tape: Tape, order: int, last: int) -> bool:
+    length = len(tape.values)
+    return max(order - 2, 0) <= length <= order and set(tape.waiting) == set(waiting_orders(length - 1, last))
+
+
+def _has_bits(saved: Checkpoint) -> bool:
+    """Whether the longest mantissa fits in the bits and, where balls are inexact, nearly fills them."""
+    balls = [x for tape in saved.tapes for parts in tape.values for p in parts if p is not None for x in p.coeffs()]
+    longest = max((_length(x) for x in balls), default=0)
+    inexact = max((_length(x) for x in balls if not x.is_exact()), default=saved.bits)
+    return longest <= saved.bits < inexact + SPARE
+
+
+def _length(x: arb) -> int:
+    return int(x.mid().man_exp()[0]).bit_length()
 
 
 def _tape(lines: Iterator[Any]) -> Tape:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
@@ -45,8 +46,8 @@ PILOT: Final = 32
 _LOSS: Final = 8
 """Bits per order with which the pilot begins."""
 ATTEMPTS: Final = 4
-SAVE_EVERY: Final = 300.0
-"""Seconds between checkpoints."""
+SAVE_EVERY: Final = 60.0
+"""Most seconds between checkpoints, or one order, which cannot be cut."""
 MAX_DIGITS: Final = 10_000
 
 
@@ -63,9 +64,10 @@ def lindstedt_in_balls(
     """Expand omega0 like ``lindstedt``, with every coefficient in a ball of at least ``digits`` certain digits.
 
     ``progress`` is told the order about to be found and the last one.  With ``checkpoint`` the march is saved there
-    every few minutes and on KeyboardInterrupt, goes on from there if the file exists, with the same balls bit by bit,
-    and removes it when done.  Raises InputError as ``lindstedt`` does, for symbolic parameters, for a checkpoint that
-    is damaged or belongs to another computation, and for balls that stay too wide; OSError for the file.
+    every minute, on KeyboardInterrupt and at the end, and goes on from there if the file exists, with the same balls
+    bit by bit; the file is the caller's to remove once the result is stored.  Raises InputError as ``lindstedt`` does,
+    for symbolic parameters, for a checkpoint that is damaged, belongs to another computation or claims what its numbers
+    deny, and for balls that stay too wide; OSError for the file.
 
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> lindstedt_in_balls(find("van-der-pol"), 4).coefficients[4].str(20, radius=False)
@@ -78,20 +80,28 @@ def lindstedt_in_balls(
     _check_numbers(oscillator)
     check("balls", order, budget or Budget())
     task = Task(oscillator, order, amplitude, digits, progress)
-    saved = file.read(checkpoint, task.identity()) if checkpoint is not None and checkpoint.exists() else None
-    bits = saved.bits if saved is not None else predicted_bits(task)
+    bits = predicted_bits(task)
+    saved = resumed(task, checkpoint, bits)
+    bits = bits if saved is None else saved.bits
     for _ in range(ATTEMPTS):
         found = _Run(task, bits, checkpoint, saved).result()
         missing = missing_bits((*found.coefficients, *(found.amplitude_coefficients or ())), digits)
         if not missing:
-            if checkpoint is not None:
-                checkpoint.unlink(missing_ok=True)
             return found
         bits, saved = bits + missing + GUARD, None
     raise InputError(
         f"{oscillator.name}: balls of {bits} bits do not give {digits} digits at order {order}; a coefficient may "
         "vanish without a symmetry that shows it, so use the exact series"
     )
+
+
+def resumed(task: Task, path: Path | None, least_bits: int) -> Checkpoint | None:
+    """The checkpoint of this task, held against its own numbers; None where there is none."""
+    if path is None or not path.exists():
+        return None
+    saved = file.read(path, task.identity())
+    file.check_numbers(path, saved, task.order + 1, least_bits)
+    return saved
 
 
 @dataclass(frozen=True)
@@ -129,6 +139,7 @@ class _Run:
     path: Path | None
     saved: Checkpoint | None
     last_save: float = field(default_factory=time.monotonic)
+    last_order: float = field(default_factory=time.monotonic)
     state: Callable[[], Checkpoint] | None = None
     begun: bool = False
 
@@ -142,6 +153,8 @@ class _Run:
             except KeyboardInterrupt:
                 self.save()
                 raise
+        with suppress(OSError):  # the result is there, and worth more than its checkpoint
+            self.save()
         with ctx.workprec(self.bits):
             return _expansion(self.task, self.bits, march)
 
@@ -156,8 +169,10 @@ class _Run:
         if self.saved is None or n >= self.saved.order:
             marks = [(node, len(node.tape), node.waiting.after) for node in products]
             self.state = lambda: self._checkpoint(n, marks)
-            if time.monotonic() - self.last_save > SAVE_EVERY:
+            now = time.monotonic()
+            if 2.0 * now - self.last_order - self.last_save >= SAVE_EVERY:  # the next order takes as long as this one
                 self.save()
+            self.last_order = time.monotonic()
         if self.task.progress is not None:
             self.task.progress(n, self.task.order + 1)
         ctx.prec = min(ctx.prec, _worthwhile(march))

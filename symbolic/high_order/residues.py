@@ -7,12 +7,15 @@ residues of all coefficients modulo the product of the primes used so far.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ridgeback.symbolic.high_order.checkpoint import checked_head, write_lines
+from ridgeback.common.errors import InputError
+from ridgeback.common.signed import reading_signed, write_signed
+from ridgeback.symbolic.high_order.checkpoint import check_identity
 
 FORMAT: Final = "ridgeback residues of primes"
 VERSION: Final = 1
@@ -57,7 +60,7 @@ class Gathered:
 
 def write(path: Path, identity: Mapping[str, str], state: Gathered) -> None:
     """Write the state whole or not at all.  Raises OSError."""
-    write_lines(path, _lines(identity, state))
+    write_signed(path, _lines(identity, state))
 
 
 def _lines(identity: Mapping[str, str], state: Gathered) -> Iterator[str]:
@@ -69,8 +72,25 @@ def _lines(identity: Mapping[str, str], state: Gathered) -> Iterator[str]:
 
 def read(path: Path, identity: Mapping[str, str]) -> Gathered:
     """Read the state of the computation ``identity``; raises InputError and OSError as ``checkpoint.read``."""
-    with path.open(encoding="ascii") as file:
-        head = checked_head(path, file, FORMAT, VERSION, identity)
-        kept = tuple(Residues(p, tuple(f), tuple(a)) for p, f, a in json.loads(next(file)))
-        values = tuple(int(json.loads(next(file)), 16) for _ in range(head["values"]))
-    return Gathered(kept, head["used"], int(head["modulus"], 16), values)
+    with reading_signed(path, FORMAT, VERSION) as (head, lines):
+        check_identity(path, head["identity"], identity)
+        kept = tuple(Residues(p, tuple(f), tuple(a)) for p, f, a in next(lines))
+        values = tuple(int(next(lines), 16) for _ in range(head["values"]))
+        return Gathered(kept, int(head["used"]), int(head["modulus"], 16), values)
+
+
+def check_numbers(path: Path, saved: Gathered, primes: Sequence[int], own: Residues) -> None:
+    """Hold what a checkpoint claims against its own numbers, and against the residues modulo one prime, found anew.
+
+    ``primes`` are those kept back and those used, in their order.  Raises InputError.
+    """
+    width, checks = len(own.all), len(saved.kept)
+    claims = {
+        "order": len(saved.values) == width and all(len(kept.all) == width for kept in saved.kept),
+        "number of primes": saved.modulus == math.prod(primes[checks:])
+        and [kept.prime for kept in saved.kept] == list(primes[:checks]),
+        "computation": own in saved.kept and all(0 <= value < saved.modulus for value in saved.values),
+    }
+    for what, held in claims.items():
+        if not held:
+            raise InputError(f"{path} claims another {what} than its own numbers have; remove it and begin anew")

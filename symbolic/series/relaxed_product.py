@@ -41,6 +41,18 @@ def blocks(n: int) -> Iterator[tuple[int, bool]]:
         length *= 2
 
 
+def waiting_orders(n: int, last: int) -> range:
+    """The orders above n, up to ``last``, to which the blocks of the orders up to n have contributed.
+
+    The blocks of length l due at order m reach from m to m + 2 l - 2.
+
+    >>> waiting_orders(8, 100), waiting_orders(16, 25), waiting_orders(2, 25)
+    (range(9, 15), range(17, 26), range(3, 3))
+    """
+    reach = max((m + 2 * length - 2 for m in range(2, n + 1) for length, _ in blocks(m)), default=n)
+    return range(n + 1, max(min(reach, last), n) + 1)
+
+
 class RelaxedProduct(Product):
     """x y over balls; every value found is kept on a tape, so that an interrupted march can be replayed.
 

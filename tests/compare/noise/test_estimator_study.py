@@ -12,6 +12,7 @@ from scipy.special import ellipk
 
 from ridgeback.answers.estimator_table import row_of, study_text
 from ridgeback.common.errors import InputError
+from ridgeback.common.signed import write_signed
 from ridgeback.compare.noise.estimator_study import AXES, Case, CaseResult, cases, estimator_study
 from ridgeback.compare.noise.results import Trial, cell_of
 
@@ -48,7 +49,7 @@ def test_an_interrupted_study_goes_on_from_its_checkpoint(tmp_path: Path) -> Non
     part = estimator_study(SMALL, methods=METHODS, trials=2, checkpoint=path, progress=interrupt)
     assert not part.complete
     assert part.results == whole.results[:1]
-    assert len(json.loads(path.read_text())["done"]) == 1
+    assert len(json.loads(path.read_text().splitlines()[0])["done"]) == 1
     steps: list[str] = []
     again = estimator_study(
         SMALL, methods=METHODS, trials=2, checkpoint=path, progress=lambda _, step: steps.append(step)
@@ -59,6 +60,17 @@ def test_an_interrupted_study_goes_on_from_its_checkpoint(tmp_path: Path) -> Non
     assert [entry.name for entry in tmp_path.iterdir()] == ["study.json"]
     with pytest.raises(InputError, match="was made with"):
         estimator_study(SMALL, methods=METHODS, trials=3, checkpoint=path)
+    head, *cases, _ = path.read_text().splitlines(keepends=True)
+    write_signed(path, [head.replace('"trials": 2', '"trials": 3'), *cases])
+    with pytest.raises(InputError, match="claims other settings than its own cases have"):
+        estimator_study(SMALL, methods=METHODS, trials=3, checkpoint=path)
+    for damaged in (place for place in range(0, path.stat().st_size, 97)):
+        text = bytearray(path.read_bytes())
+        text[damaged] ^= 1
+        other = tmp_path / "damaged"
+        other.write_bytes(text)
+        with pytest.raises(InputError, match=r"damaged|begin anew"):
+            estimator_study(SMALL, methods=METHODS, trials=2, checkpoint=other)
     path.write_text('{"settings": 1}')
     with pytest.raises(InputError, match="not a checkpoint"):
         estimator_study(SMALL, methods=METHODS, trials=2, checkpoint=path)

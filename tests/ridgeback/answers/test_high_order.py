@@ -12,6 +12,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,11 @@ from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.systems.catalogue import find
 
 Ridgeback = Callable[..., Any]  # the fixture of conftest.py
+SPEAKING = (
+    "import sys, ridgeback.cli as cli, ridgeback.options.budget as run\n"
+    "run.EVERY = 0.0\n"  # progress at every step, so that a test knows when the work is under way
+    "if __name__ == '__main__': sys.exit(cli.main(sys.argv[1:]))\n"
+)
 
 
 @pytest.fixture(autouse=True)
@@ -224,18 +230,14 @@ def test_primes_go_on_from_a_checkpoint(ridgeback: Ridgeback, monkeypatch: pytes
     monkeypatch.setattr(modular, "residues", counted)
     resumed = ridgeback(*words, "--checkpoint", str(state))
     assert resumed.out == exact_series.out
-    assert used[0] == list(itertools.islice(modular.primes(), 11))[-1]  # two kept back, four batches of two are in
+    order = list(itertools.islice(modular.primes(), 11))
+    assert used[:2] == [order[0], order[-1]]  # the first to test the file; two kept back, four batches of two are in
     assert not state.exists()
 
 
 def test_an_interrupt_ends_the_pool_without_a_traceback(tmp_path: Path) -> None:
     """Ctrl-C goes to the whole group of processes; only one line may come of it, and no process may stay."""
-    script = (
-        "import sys, ridgeback.cli as cli, ridgeback.options.budget as run\n"
-        "run.EVERY = 0.0\n"  # progress on every batch, so that the test knows when the pool works
-        "if __name__ == '__main__': sys.exit(cli.main(sys.argv[1:]))\n"
-    )
-    (tmp_path / "run.py").write_text(script)
+    (tmp_path / "run.py").write_text(SPEAKING)
     command = [
         sys.executable,
         "run.py",
@@ -263,6 +265,95 @@ def test_an_interrupt_ends_the_pool_without_a_traceback(tmp_path: Path) -> None:
     head = json.loads((tmp_path / "state").read_text().splitlines()[0])
     assert head["used"] >= 4
     assert all(line.startswith("ridgeback: ") for line in said.splitlines()), said
+    assert gone(process.pid)
+
+
+@pytest.mark.parametrize(
+    ("arithmetic", "output"), [(("--digits", "5"), "/dev/full"), (("--workers", "1"), "closed pipe")]
+)
+def test_a_checkpoint_outlives_an_output_that_cannot_be_written(
+    arithmetic: tuple[str, str], output: str, tmp_path: Path
+) -> None:
+    command = [sys.executable, "-m", "ridgeback", "derive", "van-der-pol", "--order", "20", *arithmetic]
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[3])}
+    run = partial(subprocess.run, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    wanted = run(command).stdout
+    (tmp_path / "disk").mkdir()
+    (tmp_path / "link").symlink_to("disk/state")
+    command += ["--checkpoint", "link"]
+    if output == "closed pipe":
+        with subprocess.Popen(
+            command, cwd=tmp_path, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        ) as process:
+            assert process.stdout is not None
+            assert process.stderr is not None
+            process.stdout.close()
+            said = process.stderr.read()
+            assert process.wait(60) == 141
+    else:
+        lost = run([*command, "-o", output])
+        assert lost.returncode == 4
+        said = lost.stderr
+    assert "the state is in link" in said
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "disk/state").is_file()
+    again = run(command)
+    assert (again.returncode, again.stdout) == (0, wanted)
+    assert (tmp_path / "link").is_symlink()
+    assert list((tmp_path / "disk").iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("stop", "arithmetic"),
+    [
+        (signal.SIGTERM, ("--workers", "2")),
+        (signal.SIGTERM, ("--digits", "20")),
+        (signal.SIGHUP, ("--digits", "20")),
+    ],
+)
+def test_every_request_to_stop_leaves_a_state_and_no_process(
+    stop: signal.Signals, arithmetic: tuple[str, str], tmp_path: Path
+) -> None:
+    """To the process alone, as a shell's kill sends it."""
+    (tmp_path / "run.py").write_text(SPEAKING)
+    command = [
+        sys.executable,
+        "run.py",
+        "derive",
+        "van-der-pol",
+        "--order",
+        "100",
+        *arithmetic,
+        "--checkpoint",
+        "state",
+    ]
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[3])}
+    with subprocess.Popen(
+        command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as process:
+        assert process.stderr is not None
+        while not re.search("bits of modulus|order [2-9] of", process.stderr.readline()):
+            assert process.poll() is None
+        process.send_signal(stop)
+        said = process.stderr.read()
+        assert process.wait(60) == 130
+    assert "the state is in state: run the same command again" in said.splitlines()[-1]
+    assert (tmp_path / "state").is_file()
+    assert gone(process.pid)
+
+
+def test_workers_end_with_their_parent(tmp_path: Path) -> None:
+    (tmp_path / "run.py").write_text(SPEAKING)
+    command = [sys.executable, "run.py", "derive", "van-der-pol", "--order", "100", "--workers", "2"]
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[3])}
+    with subprocess.Popen(
+        command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as process:
+        assert process.stderr is not None
+        while "bits of modulus" not in process.stderr.readline():
+            assert process.poll() is None
+        process.kill()
+        process.wait(60)
     assert gone(process.pid)
 
 

@@ -16,7 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ridgeback.cli import main
-from ridgeback.common.files import current_umask
+from ridgeback.common.files import current_umask, locked_beside
 from ridgeback.console import output, tables
 
 
@@ -42,6 +42,17 @@ def test_an_interrupt_leaves_nothing_behind(tmp_path: Path, monkeypatch: pytest.
     with pytest.raises(KeyboardInterrupt):
         output.write_text(str(tmp_path / "out.csv"), "text")
     assert not list(tmp_path.iterdir())
+
+
+def test_what_a_killed_writer_left_is_cleared_and_a_living_ones_is_not(tmp_path: Path) -> None:
+    target, other = tmp_path / "out.csv", tmp_path / ".else.csv.12.part"
+    other.write_text("of another target")
+    (tmp_path / ".out.csv.dead0.part").write_text("half")
+    with locked_beside(target) as (_, alive):
+        output.write_text(str(target), "whole")
+        assert sorted(tmp_path.iterdir()) == sorted([other, alive, target])
+        alive.unlink()
+    assert target.read_text() == "whole"
 
 
 def test_links_and_modes_are_kept(tmp_path: Path) -> None:

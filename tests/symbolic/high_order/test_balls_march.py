@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import pytest
 from flint import arb, arb_poly, ctx, fmpq
@@ -14,6 +16,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.signed import write_signed
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, holds, missing_bits
 from ridgeback.symbolic.expansion.cost import Budget, predict
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -178,7 +181,9 @@ def test_a_resumed_march_gives_the_same_balls_bit_by_bit(name: str, order: int, 
     assert checkpoint_file.read(path, {}).order == order
     resumed = lindstedt_in_balls(find(name), 24, checkpoint=path)
     assert exact_text(resumed) == exact_text(lindstedt_in_balls(find(name), 24))
-    assert list(tmp_path.iterdir()) == []  # done: the checkpoint and every temporary file are gone
+    assert list(tmp_path.iterdir()) == [path]  # the caller's to remove; no temporary file is left
+    again = lindstedt_in_balls(find(name), 24, checkpoint=path)
+    assert exact_text(again) == exact_text(resumed)
 
 
 def test_an_interrupt_in_the_middle_of_an_order_falls_back_to_its_beginning(
@@ -274,6 +279,61 @@ def test_a_checkpoint_of_another_version_is_refused(saved: Path, monkeypatch: py
     monkeypatch.setattr(checkpoint_file, "VERSION", 2)
     with pytest.raises(InputError, match="version 2"):
         lindstedt_in_balls(find(VDP), 12, checkpoint=saved)
+
+
+def forged(path: Path, **claims: Any) -> None:
+    """Change what the head of a checkpoint claims, and sign it anew."""
+    head, *lines, _ = path.read_text().splitlines(keepends=True)
+    claimed = json.loads(head)
+    for name, value in claims.items():
+        (claimed["identity"] if name in claimed["identity"] else claimed)[name] = value
+    write_signed(path, [json.dumps(claimed) + "\n", *lines])
+
+
+@pytest.mark.parametrize(
+    ("claims", "order", "digits", "what"),
+    [
+        ({"order": "40"}, 40, 30, "order"),  # the waiting blocks are cut at 25
+        ({"order": "20"}, 20, 30, "order"),
+        ({"precision": "300 digits"}, 24, 300, "precision"),
+        ({"precision": "300 digits", "bits": 1293}, 24, 300, "precision"),  # bits that its balls do not have
+        ({"bits": 200}, 24, 30, "precision"),
+    ],
+)
+@pytest.mark.parametrize("name", [VDP, "helmholtz-duffing"])
+def test_a_forged_claim_is_caught_by_the_numbers(
+    name: str, claims: dict[str, Any], order: int, digits: int, what: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "march"
+    with pytest.raises(KeyboardInterrupt):
+        lindstedt_in_balls(find(name), 24, checkpoint=path, progress=interrupted_at(18))
+    forged(path, **claims)
+    with pytest.raises(InputError, match=f"claims another {what}"):
+        lindstedt_in_balls(find(name), order, digits=digits, checkpoint=path)
+
+
+def test_a_forged_place_or_content_is_refused(saved: Path) -> None:
+    lines = saved.read_text().splitlines(keepends=True)[:-1]
+    head = json.loads(lines[0])
+    for wrong in ({**head, "order": 11}, {**head, "order": 99}, {**head, "products": 7}, {**head, "bits": "many"}):
+        write_signed(saved, [json.dumps(wrong) + "\n", *lines[1:]])
+        with pytest.raises(InputError, match="begin anew"):
+            lindstedt_in_balls(find(VDP), 12, checkpoint=saved)
+
+
+def test_the_pace_of_saving_counts_the_order_that_is_coming(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Orders of 25 s each on a clock of our own: saved after two of them, since a third would end beyond 60 s."""
+    begun = time.monotonic()
+    clock, at = [begun], list[float]()
+    monkeypatch.setattr(ball_march.time, "monotonic", lambda: clock[0])
+    monkeypatch.setattr(ball_march.file, "write", lambda *_: at.append(clock[0]))
+
+    def order_done(*_: int) -> None:
+        clock[0] += 25.0
+
+    lindstedt_in_balls(find(VDP), 12, checkpoint=tmp_path / "march", progress=order_done)
+    assert max(b - a for a, b in pairwise([begun, *at])) < 61.0
+    assert len(at) <= 8
 
 
 def test_a_failed_write_leaves_the_old_checkpoint(saved: Path, monkeypatch: pytest.MonkeyPatch) -> None:

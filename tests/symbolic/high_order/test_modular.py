@@ -1,13 +1,18 @@
 """Many primes make the same rationals as exact arithmetic, in one process or several."""
 
+import json
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from fractions import Fraction
+from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.signed import write_signed
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes, primes, rational, residues
 from ridgeback.symbolic.systems.catalogue import find
@@ -73,3 +78,69 @@ def test_rational_reconstruction_inverts_reduction(value: Fraction) -> None:
 def test_symbolic_parameters_are_refused() -> None:
     with pytest.raises(InputError, match="is no rational number; the primes need one"):
         lindstedt_by_primes(Oscillator.from_equation("u'' + u + c*u**3"), 4)
+
+
+Lines = list[Any]
+
+
+def one_more_prime(lines: Lines) -> None:
+    lines[0]["used"] += 1
+
+
+def another_residue(lines: Lines) -> None:
+    lines[1][0][1][2] += 1
+
+
+def a_value_beyond_its_modulus(lines: Lines) -> None:
+    lines[2] = lines[0]["modulus"]
+
+
+def a_coefficient_less(lines: Lines) -> None:
+    lines[0]["values"] -= 1
+
+
+def another_order(lines: Lines) -> None:
+    lines[0]["identity"]["order"] = "31"
+
+
+@pytest.mark.parametrize(
+    ("forge", "order", "what"),
+    [
+        (one_more_prime, 30, "number of primes"),
+        (another_residue, 30, "computation"),
+        (a_value_beyond_its_modulus, 30, "computation"),
+        (a_coefficient_less, 30, "order"),
+        (another_order, 31, "order"),
+    ],
+)
+def test_a_forged_claim_is_caught_by_the_numbers(
+    forge: Callable[[Lines], None], order: int, what: str, tmp_path: Path
+) -> None:
+    path, vdp = tmp_path / "state", find("van-der-pol")
+
+    def interrupt(bits: int, _: bool) -> None:
+        if bits > 300:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        lindstedt_by_primes(vdp, 30, checkpoint=path, progress=interrupt)
+    lines = [json.loads(line) for line in path.read_text().splitlines()[:-1]]
+    forge(lines)
+    write_signed(path, [json.dumps(line) + "\n" for line in lines])
+    with pytest.raises(InputError, match=f"claims another {what}"):
+        lindstedt_by_primes(vdp, order, checkpoint=path)
+
+
+def test_a_finished_run_leaves_its_state_to_the_caller(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import ridgeback.symbolic.high_order.by_primes as module
+
+    path, vdp, used = tmp_path / "state", find("van-der-pol"), list[int]()
+    first = lindstedt_by_primes(vdp, 20, checkpoint=path)
+
+    def counted(*given: Any) -> Any:
+        used.append(given[-1])
+        return residues(*given)
+
+    monkeypatch.setattr(module, "residues", counted)
+    assert lindstedt_by_primes(vdp, 20, checkpoint=path).frequency == first.frequency
+    assert used == [next(primes())]  # found anew to test the file; everything else is in it
