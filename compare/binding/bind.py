@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR, evaluator
-from ridgeback.compare.binding.taylor_jet import solution_jet
+from ridgeback.compare.binding.taylor_jet import force_jet
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics, agm
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
@@ -49,7 +49,7 @@ def bind(oscillator: OscillatorLike, *, values: Mapping[str, Value] | None = Non
         restoring=None if potential is None else _vectorised(sympy.diff(potential, U)),
         closed_form=None if potential is None else closed_form(force.subs(V, 0)),
         precise_force=lambda u, v: precise((u, v)),
-        jet=solution_jet(force, U, V),
+        jet=force_jet(force),
     )
 
 

@@ -9,19 +9,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import mpmath as mp
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.recurrences import Fixed, Input, Node, Product, Sum, wave_pair
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.motion.precise_ring import PRECISE, Jet, Precise, solution_jet
 from ridgeback.numeric.motion.roots import bracketed_newton
-
-Precise = Any  # an mpmath.mpf: mpmath ships no types
-Jet = Callable[[Precise, Precise, int], list[Precise]]
-Coefficient = Callable[[Sequence[Precise], Sequence[Precise], int], Precise]
 
 
 @dataclass(frozen=True)
@@ -66,18 +63,14 @@ def agm(a: ArrayLike, b: ArrayLike) -> Array:
     return np.asarray(0.5 * (x + y))
 
 
-def _series(acceleration: Coefficient, u0: Precise, v0: Precise, degree: int) -> list[Precise]:
-    """Return the coefficients of u; ``acceleration`` gives that of u'' at n from u to n + 1, u' to n."""
-    u, v = [mp.mpf(u0), mp.mpf(v0)], [mp.mpf(v0)]
-    for n in range(degree - 1):
-        v.append(acceleration(u, v, n) / (n + 1))
-        u.append(v[n + 1] / (n + 2))
-    return u[: degree + 1]
+def _with_damping(rest: Node, v: Node, mu: float) -> Node:
+    """2 mu u' + the rest of the force."""
+    return Sum(PRECISE, [_multiple(2 * mp.mpf(mu), v), rest]) if mu else rest
 
 
-def _cauchy(a: Sequence[Precise], b: Sequence[Precise], n: int) -> Precise:
-    """Return coefficient n of the product of two power series."""
-    return mp.fdot(zip(a[: n + 1], b[n::-1], strict=True))
+def _multiple(factor: Precise, node: Node) -> Node:
+    """A number times a power series."""
+    return node if factor == 1 else Product(PRECISE, Fixed(PRECISE, mp.mpf(factor)), node)
 
 
 def linear(k: float = 1.0, mu: float = 0.0) -> Dynamics:
@@ -99,17 +92,9 @@ def pendulum(k: float = 1.0, mu: float = 0.0) -> Dynamics:
     """
     _check(k=k, mu=mu)
 
-    def jet(u0: Precise, v0: Precise, degree: int) -> list[Precise]:
-        """S = sin u and C = cos u obey S' = C u', C' = -S u' (Jorba and Zou 2005, section 2)."""
-        sine, cosine = [mp.sin(u0)], [mp.cos(u0)]
-
-        def acceleration(_: Sequence[Precise], v: Sequence[Precise], n: int) -> Precise:
-            if n:
-                sine.append(_cauchy(cosine, v, n - 1) / n)
-                cosine.append(-_cauchy(sine, v, n - 1) / n)
-            return -2 * mp.mpf(mu) * v[n] - mp.mpf(k) ** 2 * sine[n]
-
-        return _series(acceleration, u0, v0, degree)
+    def series(u: Input, v: Input) -> Node:
+        sine, _ = wave_pair(PRECISE, u)
+        return _with_damping(_multiple(mp.mpf(k) ** 2, sine), v, mu)
 
     return Dynamics(
         name="pendulum",
@@ -120,7 +105,7 @@ def pendulum(k: float = 1.0, mu: float = 0.0) -> Dynamics:
         restoring=lambda u: k * k * np.sin(np.asarray(u, dtype=float)),
         closed_form=lambda A: k * agm(1.0, np.cos(0.5 * np.asarray(A, dtype=float))),
         precise_force=lambda u, v: 2 * mp.mpf(mu) * v + mp.mpf(k) ** 2 * mp.sin(u),
-        jet=jet,
+        jet=solution_jet(series),
     )
 
 
@@ -191,26 +176,20 @@ def polynomial(
         restoring=lambda u: np.asarray(np.polynomial.polynomial.polyval(np.asarray(u, dtype=float), rising)),
         closed_form=closed_form,
         precise_force=precise_force,
-        jet=_polynomial_jet(c, mu),
+        jet=solution_jet(lambda u, v: _with_damping(_polynomial(c, u), v, mu)),
     )
 
 
-def _polynomial_jet(c: Sequence[float], mu: float) -> Jet:
-    """Powers of u by repeated Cauchy products, one coefficient at a time."""
+def _polynomial(c: Sequence[float], u: Node) -> Node:
+    """c_1 u + c_2 u^2 + ..., each power the product of two shorter ones."""
+    powers = {1: u}
 
-    def jet(u0: Precise, v0: Precise, degree: int) -> list[Precise]:
-        weights = [mp.mpf(x) for x in c]
-        powers: list[list[Precise]] = [[] for _ in c[1:]]
+    def power(n: int) -> Node:
+        if n not in powers:
+            powers[n] = Product(PRECISE, power(n // 2), power(n - n // 2))
+        return powers[n]
 
-        def acceleration(u: Sequence[Precise], v: Sequence[Precise], n: int) -> Precise:
-            for i, power in enumerate(powers):
-                power.append(_cauchy(powers[i - 1] if i else u, u, n))
-            total = sum(w * p[n] for w, p in zip(weights, [u, *powers], strict=True))
-            return -2 * mp.mpf(mu) * v[n] - total
-
-        return _series(acceleration, u0, v0, degree)
-
-    return jet
+    return Sum(PRECISE, [_multiple(x, power(n)) for n, x in enumerate(c, start=1) if x])
 
 
 def van_der_pol(eps: float = 1.0) -> Dynamics:
@@ -221,21 +200,16 @@ def van_der_pol(eps: float = 1.0) -> Dynamics:
     """
     _check(k=1.0, eps=eps)
 
-    def jet(u0: Precise, v0: Precise, degree: int) -> list[Precise]:
-        growth: list[Precise] = []
-
-        def acceleration(u: Sequence[Precise], v: Sequence[Precise], n: int) -> Precise:
-            growth.append((1 if n == 0 else 0) - _cauchy(u, u, n))
-            return mp.mpf(eps) * _cauchy(growth, v, n) - u[n]
-
-        return _series(acceleration, u0, v0, degree)
+    def series(u: Input, v: Input) -> Node:
+        growth = Product(PRECISE, Product(PRECISE, u, u), v)
+        return Sum(PRECISE, [_multiple(-eps, v), _multiple(eps, growth), u])
 
     return Dynamics(
         name="van-der-pol",
         force=lambda u, v: u - eps * (1 - u * u) * v,
         natural_frequency=1.0,
         precise_force=lambda u, v: u - mp.mpf(eps) * (1 - u * u) * v,
-        jet=jet,
+        jet=solution_jet(series),
     )
 
 
@@ -249,21 +223,16 @@ def rayleigh(eps: float = 1.0) -> Dynamics:
     """
     _check(k=1.0, eps=eps)
 
-    def jet(u0: Precise, v0: Precise, degree: int) -> list[Precise]:
-        square: list[Precise] = []
-
-        def acceleration(u: Sequence[Precise], v: Sequence[Precise], n: int) -> Precise:
-            square.append(_cauchy(v, v, n))
-            return mp.mpf(eps) * (v[n] - _cauchy(square, v, n) / 3) - u[n]
-
-        return _series(acceleration, u0, v0, degree)
+    def series(u: Input, v: Input) -> Node:
+        cube = Product(PRECISE, Product(PRECISE, v, v), v)
+        return Sum(PRECISE, [_multiple(-eps, v), _multiple(mp.mpf(eps) / 3, cube), u])
 
     return Dynamics(
         name="rayleigh",
         force=lambda u, v: u - eps * (v - v * v * v / 3),
         natural_frequency=1.0,
         precise_force=lambda u, v: u - mp.mpf(eps) * (v - v**3 / 3),
-        jet=jet,
+        jet=solution_jet(series),
     )
 
 

@@ -15,7 +15,8 @@ import mpmath as mp
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.motion.dynamics import Dynamics, Precise
+from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.numeric.motion.precise_ring import Precise
 from ridgeback.numeric.motion.taylor import taylor_solution
 from ridgeback.numeric.motion.trajectory import Trajectory, integrate
 

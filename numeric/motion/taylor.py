@@ -17,7 +17,8 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, frozen, frozen_mask
-from ridgeback.numeric.motion.dynamics import Dynamics, Precise, well
+from ridgeback.numeric.motion.dynamics import Dynamics, well
+from ridgeback.numeric.motion.precise_ring import Precise
 from ridgeback.numeric.motion.trajectory import (
     CrossingEvents,
     Interpolant,

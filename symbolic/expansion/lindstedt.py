@@ -95,7 +95,7 @@ def march_family(
     """
     force = oscillator.normalised().rational
     program = compiled(force, space.names, constant(space, fmpq(0)))
-    if program.root.slope_v:
+    if program.root.slopes()[1]:
         raise InputError(_no_family(oscillator))
     march = March(program, [constant(space, fmpq(0)), cosine(space)], space)
     program.supply(U, march.u[1])

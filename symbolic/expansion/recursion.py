@@ -12,10 +12,10 @@ import sympy
 from flint import fmpq
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.recurrences import Element
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.grammar.parse import U, V
 from ridgeback.symbolic.series.program import Program
-from ridgeback.symbolic.series.recurrences import Element
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Scalar, Space, is_zero
 from ridgeback.symbolic.series.trigonometric import Trig, at_zero, constant, cosine, harmonic, sine

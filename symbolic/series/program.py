@@ -10,16 +10,16 @@ derivation, multiple-precision floats for a Taylor integrator.  Nothing here kno
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import Any, Final, Protocol
 
 import sympy
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.series.recurrences import (
+from ridgeback.common.recurrences import (
     Element,
-    Exponential,
     Fixed,
+    Function,
     Input,
     Logarithm,
     Node,
@@ -28,8 +28,29 @@ from ridgeback.symbolic.series.recurrences import (
     Ring,
     Scaled,
     Sum,
-    Wave,
+    Tangent,
+    wave_pair,
 )
+
+# The derivatives of the functions that are integrals of algebraic ones (DLMF 4.24.7 to 4.24.9, 4.40.7 to 4.40.11).
+_DERIVATIVES: Final[dict[str, Callable[[sympy.Expr], sympy.Expr]]] = {
+    "asin": lambda x: (1 - x**2) ** sympy.Rational(-1, 2),
+    "acos": lambda x: -((1 - x**2) ** sympy.Rational(-1, 2)),
+    "atan": lambda x: 1 / (1 + x**2),
+    "asinh": lambda x: (1 + x**2) ** sympy.Rational(-1, 2),
+    "acosh": lambda x: (x**2 - 1) ** sympy.Rational(-1, 2),
+    "atanh": lambda x: 1 / (1 - x**2),
+}
+_PAIRS: Final = {"sin": ("sin", "cos"), "cos": ("sin", "cos"), "sinh": ("sinh", "cosh"), "cosh": ("sinh", "cosh")}
+KNOWN: Final = (*_PAIRS, "tan", "tanh", "exp", "log", *_DERIVATIVES)
+"""The functions that have a recurrence."""
+
+
+class ExpressionRing(Ring, Protocol):
+    """A ring into which the numbers of a SymPy expression can be brought."""
+
+    def number(self, value: sympy.Expr) -> Element:
+        """Return a number (a rational; in a numeric ring any real number) as a member."""
 
 
 class Program:
@@ -52,8 +73,8 @@ class Program:
     def __init__(
         self,
         expression: sympy.Expr,
-        ring: Ring,
-        inputs: Mapping[sympy.Symbol, list[Element]],
+        ring: ExpressionRing,
+        inputs: Mapping[sympy.Symbol, Sequence[Element] | Input],
         u: sympy.Symbol,
         v: sympy.Symbol,
         fixed: Mapping[sympy.Symbol, list[Element]] | None = None,
@@ -62,16 +83,12 @@ class Program:
         self.nodes: dict[Any, Node] = {}
         self._fixed = dict(fixed or {})
         self._moving = (u, v)
-        self.inputs: dict[sympy.Symbol, Input] = {}
-        for symbol, start in inputs.items():
-            node = Input(ring)
-            node.known = list(start)
-            self.inputs[symbol] = node
-        one = ring.number(sympy.S.One)
-        if u in self.inputs:
-            self.inputs[u].slope_u = one
-        if v in self.inputs:
-            self.inputs[v].slope_v = one
+        zero, one = ring.rational(0), ring.rational(1)
+        slopes = {u: (one, zero), v: (zero, one)}
+        self.inputs = {
+            symbol: start if isinstance(start, Input) else Input(ring, start, slopes.get(symbol))
+            for symbol, start in inputs.items()
+        }
         self.root = self._compile(expression)
         self.uses_velocity = bool(expression.has(v))
 
@@ -82,8 +99,9 @@ class Program:
     def correct(self, n: int, change_u: Element, change_v: Element) -> None:
         """Mend coefficient n everywhere after u_n and v_n changed by the given amounts."""
         for node in {*self.nodes.values(), *self.inputs.values()}:  # a node may stand under two names
-            if len(node.known) > n and (node.slope_u or node.slope_v):
-                node.known[n] = node.known[n] + node.slope_u * change_u + node.slope_v * change_v
+            along_u, along_v = node.slopes() if len(node.known) > n else (None, None)
+            if along_u or along_v:
+                node.correct(n, along_u * change_u + along_v * change_v)
 
     def forget(self, n: int) -> None:
         """Drop what has been computed from order n on; it is computed again when asked for."""
@@ -100,7 +118,7 @@ class Program:
     def _build(self, e: sympy.Expr) -> Node:
         if e in self._fixed:
             return Fixed(self.ring, *self._fixed[e])
-        if e.is_Number or e is sympy.pi:
+        if e.is_Number or e.is_NumberSymbol:
             return Fixed(self.ring, self.ring.number(e))
         if e.is_Add:
             return Sum(self.ring, [self._compile(term) for term in e.args])
@@ -113,58 +131,76 @@ class Program:
     def _build_product(self, e: sympy.Expr) -> Node:
         factor, rest = e.as_coeff_Mul(rational=True)
         if factor != 1:
-            return Scaled(self.ring, self._compile(rest), factor)
+            return Scaled(self.ring, self._compile(rest), int(factor.p), int(factor.q))
         numerator, denominator = _split_quotient(e)
         if denominator is not sympy.S.One:
             return Quotient(self.ring, self._compile(numerator), self._compile(denominator))
-        head, *tail = sorted(e.args, key=lambda f: f.has(*self._moving))  # small parameters first: see convolve
+        head, *tail = sorted(e.args, key=lambda f: f.has(*self._moving))  # small parameters first: see convolution
         return self.ring.product(self._compile(head), self._compile(sympy.Mul(*tail, evaluate=False)))
 
     def _build_power(self, base: sympy.Expr, exponent: sympy.Expr) -> Node:
         if base is sympy.E:
-            return Exponential(self.ring, self._compile(exponent))
+            return Function(self.ring, "exp", self._compile(exponent))
         if not exponent.is_Rational:
-            raise InputError(f"the power {base}**({exponent}) has no rational exponent; write it with exp and log")
+            return self._compile(sympy.exp(exponent * sympy.log(base), evaluate=False))
         if exponent.is_Integer and exponent < 0:
-            one = Fixed(self.ring, self.ring.number(sympy.S.One))
+            one = Fixed(self.ring, self.ring.rational(1))
             return Quotient(self.ring, one, self._compile(sympy.Pow(base, -exponent)))
         if exponent.is_Integer and exponent <= 64:
             half = int(exponent) // 2
             low, high = self._compile(base**half), self._compile(base ** (int(exponent) - half))
             return self.ring.product(low, high)
-        return Power(self.ring, self._compile(base), exponent)
+        return Power(self.ring, self._compile(base), int(exponent.p), int(exponent.q))
 
     def _build_function(self, e: sympy.Expr) -> Node:
         name = getattr(e.func, "__name__", str(e))
-        if name == "exp":
-            return Exponential(self.ring, self._compile(e.args[0]))
+        check_expandable(e, {*self.inputs, *self._fixed})
+        argument = self._compile(e.args[0])
+        if name in _PAIRS:
+            return self._build_wave(e.args[0], argument, name)
         if name == "log":
-            return Logarithm(self.ring, self._compile(e.args[0]))
-        if name in ("sin", "cos", "sinh", "cosh"):
-            return self._build_wave(e.args[0], name)
+            return Logarithm(self.ring, argument)
         if name in ("tan", "tanh"):
-            pair = ("sin", "cos") if name == "tan" else ("sinh", "cosh")
-            top, bottom = (self._wave(e.args[0], which) for which in pair)
-            return Quotient(self.ring, top, bottom)
-        if isinstance(e, sympy.Symbol):
-            raise InputError(f"the parameter {e} has no value here; give it one, e.g. --set {e}=1")
-        raise InputError(f"{name} has no series rule; use sin, cos, tan, sinh, cosh, tanh, exp, log, sqrt or powers")
+            return Tangent(self.ring, name, argument)
+        derivative = self._compile(_DERIVATIVES[name](e.args[0])) if name in _DERIVATIVES else None
+        return Function(self.ring, name, argument, derivative)
 
-    def _wave(self, argument: sympy.Expr, name: str) -> Node:
-        key = (name, argument)
-        if key not in self.nodes:
-            self._build_wave(argument, name)
-        return self.nodes[key]
-
-    def _build_wave(self, argument: sympy.Expr, name: str) -> Node:
-        pair = ("sin", "cos") if name in ("sin", "cos") else ("sinh", "cosh")
+    def _build_wave(self, argument: sympy.Expr, y: Node, name: str) -> Node:
+        pair = _PAIRS[name]
         if (name, argument) not in self.nodes:
-            y = self._compile(argument)
-            first, second = Wave(self.ring, y, pair[0]), Wave(self.ring, y, pair[1])
-            first.join(second)
-            second.join(first)
-            self.nodes[(pair[0], argument)], self.nodes[(pair[1], argument)] = first, second
+            both = wave_pair(self.ring, y, hyperbolic=name not in ("sin", "cos"))
+            self.nodes.update({(which, argument): node for which, node in zip(pair, both, strict=True)})
         return self.nodes[(name, argument)]
+
+
+def check_expandable(expression: sympy.Expr, symbols: Collection[sympy.Symbol]) -> None:
+    """Refuse an expression that no power series can be taken of, whatever its arguments.
+
+    Parameters
+    ----------
+    expression
+        To be compiled by ``Program``.
+    symbols
+        Those that will have coefficients.
+
+    Raises
+    ------
+    InputError
+        For a further symbol and for a function without a recurrence.
+
+    Examples
+    --------
+    >>> check_expandable(abs(sympy.Symbol("u")), [sympy.Symbol("u")])
+    Traceback (most recent call last):
+        ...
+    ridgeback.common.errors.InputError: Abs has no series rule; use sin, cos, ..., sqrt or powers
+    """
+    for symbol in sorted(expression.free_symbols - set(symbols), key=str):
+        raise InputError(f"the parameter {symbol} has no value here; give it one, e.g. --set {symbol}=1")
+    for function in sorted(expression.atoms(sympy.Function), key=str):
+        name = type(function).__name__
+        if name not in KNOWN or len(function.args) != 1:
+            raise InputError(f"{name} has no series rule; use {', '.join(KNOWN)}, sqrt or powers")
 
 
 def _split_quotient(e: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:

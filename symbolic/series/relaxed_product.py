@@ -13,9 +13,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ridgeback.common.recurrences import Fixed, Node, Product, Ring
 from ridgeback.symbolic.series.harmonic_basis import EMPTY, Balls, plus
 from ridgeback.symbolic.series.laurent import products
-from ridgeback.symbolic.series.recurrences import Fixed, Node, Product, Ring
 from ridgeback.symbolic.series.spaces import Parts
 from ridgeback.symbolic.series.trigonometric import Trig
 
@@ -54,7 +54,7 @@ def waiting_orders(n: int, last: int) -> range:
 
 
 class RelaxedProduct(Product):
-    """x y over balls; every value found is kept on a tape, so that an interrupted march can be replayed.
+    """x y over balls; every value found is kept on a tape, so that an interrupted recursion can be replayed.
 
     A factor that is given (a small parameter) is multiplied plainly, so that the other may lag behind it.
     """

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import sympy
 from flint import arb, fmpq, nmod
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.recurrences import Node, Product
 from ridgeback.symbolic.series.harmonic_basis import Balls
-from ridgeback.symbolic.series.recurrences import Node, Product
 from ridgeback.symbolic.series.relaxed_product import RelaxedProduct
 from ridgeback.symbolic.series.spaces import Space
 from ridgeback.symbolic.series.trigonometric import NOTHING, Trig, constant, dot
 
 # Values at the only arguments where an elementary function of a rational is rational.
-_AT_ZERO = {"sin": 0, "cos": 1, "sinh": 0, "cosh": 1, "exp": 1}
+_AT_ZERO = {
+    **{"sin": 0, "cos": 1, "tan": 0, "sinh": 0, "cosh": 1, "tanh": 0, "exp": 1},
+    **{"asin": 0, "atan": 0, "asinh": 0, "atanh": 0},
+}
 
 
 class TrigRing:
@@ -30,7 +35,10 @@ class TrigRing:
     def number(self, value: sympy.Expr) -> Trig:
         if not value.is_Rational:
             raise InputError(f"{value} is not rational, and the derivation is exact; use a fraction or a decimal")
-        return constant(self.space, fmpq(int(value.p), int(value.q)))
+        return self.rational(int(value.p), int(value.q))
+
+    def rational(self, numerator: int, denominator: int = 1) -> Trig:
+        return constant(self.space, fmpq(numerator, denominator))
 
     def parameter(self, name: str) -> Trig:
         """Return a named parameter as a constant of the ring."""
@@ -42,8 +50,9 @@ class TrigRing:
     def absent(self, element: Trig) -> bool:
         return element.parts == NOTHING
 
-    def dot(self, left: list[Trig], right: list[Trig]) -> Trig:
-        return dot(self.space, left, right)
+    def dot(self, left: Sequence[Trig], right: Sequence[Trig]) -> Trig:
+        present = [(x, y) for x, y in zip(left, right, strict=True) if NOTHING not in (x.parts, y.parts)]
+        return dot(self.space, [x for x, _ in present], [y for _, y in present])
 
     def product(self, x: Node, y: Node) -> Node:
         """Return the node of a product: in blocks for balls, where products are long and additions cheap."""
@@ -81,7 +90,8 @@ class TrigRing:
             "has irrational coefficients; shift the argument or use the numeric verbs"
         )
 
-    def power(self, element: Trig, exponent: sympy.Rational) -> Trig:
+    def power(self, element: Trig, numerator: int, denominator: int) -> Trig:
+        exponent = sympy.Rational(numerator, denominator)
         value = self._constant(element)
         if isinstance(value, arb) and value.is_exact():
             value = value.fmpq()
