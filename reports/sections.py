@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 from urllib.parse import quote
 
+from ridgeback.common.numbers import number, relative
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.results import Provenance, Report
 from ridgeback.compare.study.results import Derivation, Formula, Range
@@ -25,7 +26,6 @@ from ridgeback.reports.text.tables import (
     standing_table,
     timing_table,
 )
-from ridgeback.reports.text.wording import number, relative
 
 DEFINED = (
     "These samples hold no noise, and the intervals are far narrower than ω₀(t) of a decay is defined: its crossings "

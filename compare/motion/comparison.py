@@ -8,6 +8,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.errors import InputError as NumericError
+from ridgeback.common.numbers import scientific
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.binding.heyoka import integrate_heyoka
 from ridgeback.compare.motion.error_budget import budget
@@ -21,7 +22,6 @@ from ridgeback.compare.motion.planes import spectrogram_image, wigner_image
 from ridgeback.compare.motion.reconstruction import reconstruct
 from ridgeback.compare.motion.results import Amplitudes, BudgetRow, Curve, DecayComparison, Image, Score
 from ridgeback.compare.study.derivation import Exact, derive
-from ridgeback.compare.wording import scientific
 
 HIGH_ORDER = 20
 TOP_MULTIPLE = 8

@@ -12,6 +12,8 @@ from functools import cached_property
 
 import numpy as np
 
+from ridgeback.common.numbers import decibels, offset, relative, scientific, signed
+from ridgeback.common.quantities import frequency, short_amplitude
 from ridgeback.compare.motion.error_norms import relative_error
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.order_analysis import MOST, Orders, Ripple, ripple
@@ -19,7 +21,6 @@ from ridgeback.compare.motion.overtones import Overtones, ratio_error, slope
 from ridgeback.compare.motion.reconstruction import known_motion, model_phase, relative_rms
 from ridgeback.compare.motion.results import Curve, Reconstruction, Score, Statement
 from ridgeback.compare.motion.wigner_bias import WignerCause, wigner_cause
-from ridgeback.compare.wording import frequency, in_pi, offset, relative, scientific
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.orbits.energy import amplitude_from_energy, energy_of
 
@@ -60,12 +61,11 @@ class Evidence:
     def rms(self, name: str) -> str:
         """Interior rms of a curve in words."""
         score = self.scores.get(name)
-        return relative(score.rms_interior if score else None)
+        return relative(score.rms_interior if score else None, missing="no value")
 
     def size(self, value: float) -> str:
         """Amplitude in units of pi for an angle."""
-        unit = self.motion.setting.oscillator.unit
-        return in_pi(value) if unit == "rad" else f"{value:.4g} {unit}".strip()
+        return short_amplitude(value, self.motion.setting.oscillator.unit)
 
     def hertz(self, omega: float) -> str:
         """Frequency in the case's own unit."""
@@ -112,7 +112,7 @@ def _oscillation(e: Evidence) -> Statement:
 def _spectrogram(e: Evidence) -> Statement:
     levels = e.overtones.of_u
     loud = [m for m in range(2, MOST + 1) if levels.level_db(m) > -60]
-    heard = ", ".join(f"{m} at {_db(levels.level_db(m))}" for m in loud) or "none above −60 dB"
+    heard = ", ".join(f"{m} at {decibels(levels.level_db(m))}" for m in loud) or "none above −60 dB"
     even = max(levels.level_db(m) for m in range(2, MOST + 1, 2))
     return Statement(
         figure=2,
@@ -120,7 +120,7 @@ def _spectrogram(e: Evidence) -> Statement:
         paper="A fundamental of high energy and five weaker components whose slope increases with their order.",
         measured=(
             f"The fundamental holds {100 * levels.share[1]:.2f} % of the energy{_offset(levels)}; overtones re the "
-            f"fundamental: {heard}. The strongest even multiple is at {_db(even)}.{_slopes(e)}"
+            f"fundamental: {heard}. The strongest even multiple is at {decibels(even)}.{_slopes(e)}"
         ),
     )
 
@@ -221,14 +221,6 @@ def _frequency(e: Evidence) -> Statement:
     )
 
 
-def _db(level: float) -> str:
-    return f"{level:.0f} dB".replace("-", "−")
-
-
-def _signed(value: float) -> str:
-    return f"{value:+.4f}".replace("-", "−")
-
-
 def _unit(e: Evidence) -> str:
     unit = e.motion.setting.oscillator.unit
     return f" {unit}" if unit else ""
@@ -236,7 +228,8 @@ def _unit(e: Evidence) -> str:
 
 def _zones(e: Evidence, name: str) -> str:
     score = e.scores[name]
-    return f"{score.label}: {', '.join(relative(x) for x in (score.rms_start, score.rms_interior, score.rms_end))}"
+    zones = (score.rms_start, score.rms_interior, score.rms_end)
+    return f"{score.label}: {', '.join(relative(x, missing='no value') for x in zones)}"
 
 
 def _accidental(e: Evidence) -> str:
@@ -282,7 +275,7 @@ def _drift(e: Evidence) -> str:
     phase = model_phase(e.motion, e.motion.exact_at_energy)
     at = np.interp(e.motion.rising, e.motion.time, phase)
     drift = float(at[-1] - at[0] - 2 * np.pi * (e.motion.rising.size - 1))
-    return f" Its phase (23) drifts by {_signed(drift)} rad over {e.motion.rising.size - 1} cycles."
+    return f" Its phase (23) drifts by {signed(drift)} rad over {e.motion.rising.size - 1} cycles."
 
 
 def _wigner(e: Evidence) -> Statement:
@@ -358,7 +351,7 @@ def _harmonics(e: Evidence) -> Statement:
     slip = ""
     if first == 3 and e.motion.setting.is_pendulum:
         level = e.overtones.of_u.level_db(2)
-        slip = f" The text's factor 2 is a slip: multiple 2 is at {_db(level)}, multiple 3 is meant."
+        slip = f" The text's factor 2 is a slip: multiple 2 is at {decibels(level)}, multiple 3 is meant."
     return Statement(
         figure=9,
         title="A higher harmonic against its multiple of the fundamental",

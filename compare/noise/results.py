@@ -16,6 +16,15 @@ OUTLIER = 0.1
 """A trial whose relative rms error exceeds this has lost the ridge: a gross error, not a spread."""
 
 
+def estimator_of(method: str) -> str:
+    """The estimator of a method of a study, without the scope that may stand behind it.
+
+    >>> estimator_of("harmonic-least-squares/local"), estimator_of("wigner")
+    ('harmonic-least-squares', 'wigner')
+    """
+    return method.partition("/")[0]
+
+
 @dataclass(frozen=True)
 class NoiseCell:
     """One method at one signal-to-noise ratio; None where no trial gave a value, or a method claims no interval."""

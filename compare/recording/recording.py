@@ -12,13 +12,13 @@ from pathlib import Path
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.numbers import relative
 from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion.estimate_curves import curve_of
 from ridgeback.compare.motion.planes import spectrogram_image
 from ridgeback.compare.motion.results import Curve
 from ridgeback.compare.recording.backbone_fit import fit_backbone, formula_of
 from ridgeback.compare.recording.results import RecordingComparison
-from ridgeback.compare.wording import relative
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.orbits.period import exact_frequency

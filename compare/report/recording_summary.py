@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ridgeback.common.numbers import relative, signed
+from ridgeback.common.quantities import frequency
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.results import Card
-from ridgeback.compare.wording import frequency, relative
 from ridgeback.numeric.arrays import Array
 
 
@@ -19,10 +20,6 @@ def _ends(found: RecordingComparison) -> tuple[int, int]:
 
 def _hertz(value: float) -> str:
     return frequency(value, "s")
-
-
-def _signed(value: float) -> str:
-    return f"{value:+.4f}".replace("-", "−")
 
 
 def _sense(found: RecordingComparison) -> str:
@@ -59,8 +56,8 @@ def _sentences(found: RecordingComparison) -> Iterator[str]:
     )
     yield f"The backbone's relative standard deviation is {relative(_middle(_relative_sd(found)))} in the median."
     yield (
-        f"The amplitude changes at a′/a = {_signed(found.damping[high])} per second at the largest amplitude and "
-        f"{_signed(found.damping[low])} at the smallest."
+        f"The amplitude changes at a′/a = {signed(found.damping[high])} per second at the largest amplitude and "
+        f"{signed(found.damping[low])} at the smallest."
     )
     yield from found.notes
 
@@ -81,7 +78,7 @@ def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
     damping = float(np.median(found.damping))
     return (
         Card("Fundamental frequency", span, f"Amplitudes {amplitudes} (first harmonic): {_sense(found)}."),
-        Card("Damping", f"{_signed(damping)} per s", "Median of a′/a over the backbone; see the figure."),
+        Card("Damping", f"{signed(damping)} per s", "Median of a′/a over the backbone; see the figure."),
         Card(
             "Uncertainty",
             relative(_middle(_relative_sd(found))),

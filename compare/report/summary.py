@@ -6,19 +6,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ridgeback.common.numbers import offset, relative, rounded_down, scientific
+from ridgeback.common.quantities import amplitude, frequency, nanoseconds, short_amplitude
 from ridgeback.compare.motion.results import DecayComparison, Score
 from ridgeback.compare.report.results import Card
 from ridgeback.compare.study.results import Range, Study, Timing
-from ridgeback.compare.wording import (
-    amplitude,
-    frequency,
-    in_pi,
-    nanoseconds,
-    offset,
-    relative,
-    rounded_down,
-    scientific,
-)
 
 
 def study_title(study: Study, found: Range) -> str:
@@ -143,16 +135,12 @@ def _motion_sentence(decay: DecayComparison) -> str:
     smooth = next((curve for curve in decay.curves if curve.name == "averaged-action"), decay.reference)
     valid = smooth.omega[smooth.valid]
     unit, time_unit = decay.case.unit, decay.case.time_unit
-    start, end = (_size(float(x), unit) for x in (decay.amplitudes.energy[0], decay.amplitudes.energy[-1]))
+    start, end = (short_amplitude(float(x), unit) for x in (decay.amplitudes.energy[0], decay.amplitudes.energy[-1]))
     text = f"The amplitude goes from {start} to {end}"
     if not valid.size:
         return text + "."
     first, last = (frequency(float(x), time_unit) for x in (valid[0], valid[-1]))
     return f"{text} while the frequency goes from {first} to {last}."
-
-
-def _size(value: float, unit: str) -> str:
-    return in_pi(value) if unit == "rad" else amplitude(value, unit)
 
 
 def _reference_sentence(decay: DecayComparison) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
+from ridgeback.common.quantities import symbol
 from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion.comparison import HIGH_ORDER, compare_decay
 from ridgeback.compare.motion.model_curves import LOW_ORDERS
@@ -26,7 +27,6 @@ from ridgeback.compare.study.derivation import Exact, derivation, derive
 from ridgeback.compare.study.results import Range, Study, Timing
 from ridgeback.compare.study.study import ranges, study
 from ridgeback.compare.study.timing import timings
-from ridgeback.compare.wording import symbol
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.potential import peak_limit
 from ridgeback.symbolic.flow.ordering import undamped

@@ -14,8 +14,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
+from ridgeback.common.numbers import number, power_of_ten
 from ridgeback.reports.drawing.theme import Variant, sentinel
-from ridgeback.reports.text.wording import number, power_of_ten
 
 Array = NDArray[np.float64]
 

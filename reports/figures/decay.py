@@ -7,13 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
+from ridgeback.common.numbers import listing, number, relative
 from ridgeback.compare.motion.results import BudgetRow, Curve, DecayComparison
 from ridgeback.reports.drawing.block import Block, Readout, Toggle, block
 from ridgeback.reports.drawing.canvas import Array, Canvas, Line, decades, draw, linear, padded, shade, titles
 from ridgeback.reports.drawing.labels import measured, place
 from ridgeback.reports.drawing.theme import SERIES, sentinel
 from ridgeback.reports.figures.over_time import Clock, curve_line, relative_to, traces_of, usable
-from ridgeback.reports.text.wording import listing, number, relative
 
 KINDS = ("model", "estimate", "expansion")
 PREFERRED = ("closed-form", "lindstedt-2", "wigner", "smoothed-pseudo-wigner", "harmonic-least-squares")

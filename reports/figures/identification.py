@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ridgeback.common.numbers import number, relative
 from ridgeback.compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
 from ridgeback.reports.drawing.block import Block, Readout, block
 from ridgeback.reports.drawing.canvas import Array, Canvas, Line, draw, linear, padded, titles
@@ -13,7 +14,6 @@ from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.theme import SERIES, sentinel
 from ridgeback.reports.figures.over_time import Clock, traces_of
 from ridgeback.reports.text.tables import Row, Table
-from ridgeback.reports.text.wording import number, relative
 
 CLOCK = Clock("s")
 CRITERIA = {"bic": "BIC", "aicc": "AICc"}

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ridgeback.common.numbers import NONE, number, relative, uncertain
 from ridgeback.compare.noise.results import OUTLIER, NoiseCell, NoiseStudy
 from ridgeback.reports.drawing.block import Block, Readout, block
 from ridgeback.reports.drawing.canvas import Array, Canvas, Line, Trace, decades, draw, linear, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.theme import SERIES, sentinel
 from ridgeback.reports.text.tables import Row, Table
-from ridgeback.reports.text.wording import NONE, number, relative
 
 EFFICIENT = 1.2
 """Ratio to the bound that an efficient estimator keeps."""
@@ -163,10 +163,6 @@ def _row(cell: NoiseCell, *, covered: bool) -> Row:
     named = (cell.method, f"{number(cell.snr_db)} dB")
     if cell.rms is None:
         return Row((*named, *(NONE,) * (2 + len(counts)), str(cell.failures)), cell.reason, failed=True)
-    rms = _with(number(100 * cell.rms, 3), None if cell.rms_sd is None else number(100 * cell.rms_sd, 2))
-    ratio = _with(number(cell.ratio, 3), None if cell.ratio_sd is None else number(cell.ratio_sd, 2))
+    rms = uncertain(100 * cell.rms, None if cell.rms_sd is None else 100 * cell.rms_sd)
+    ratio = uncertain(cell.ratio, cell.ratio_sd)
     return Row((*named, f"{rms} %", relative(cell.bias, signed=True), ratio, *counts))
-
-
-def _with(value: str, deviation: str | None) -> str:
-    return value if deviation is None else f"{value} ± {deviation}"

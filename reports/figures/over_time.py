@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ridgeback.common.numbers import decibels, number
 from ridgeback.compare.motion.results import Curve, Image
 from ridgeback.reports.drawing.block import Block, Key, Readout, block
 from ridgeback.reports.drawing.canvas import Array, Canvas, Line, Trace, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.raster import plane_uri
 from ridgeback.reports.drawing.theme import SERIES
-from ridgeback.reports.text.wording import number
 
 TAU = 2 * np.pi
 
@@ -189,4 +189,4 @@ def _plane_markup(canvas: Canvas, key: str, low: float, high: float) -> str:
 
 
 def _level_keys(floor_db: float) -> tuple[Key, ...]:
-    return tuple(Key(f"ink{i}", f"{floor_db * (4 - i) / 4 + 0.0:.0f} dB".replace("-", "−")) for i in range(5))
+    return tuple(Key(f"ink{i}", decibels(floor_db * (4 - i) / 4)) for i in range(5))

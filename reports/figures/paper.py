@@ -8,12 +8,12 @@ from types import MappingProxyType
 
 import numpy as np
 
+from ridgeback.common.numbers import decibels, number, relative
 from ridgeback.compare.motion.results import Curve, DecayComparison, Statement
 from ridgeback.reports.drawing.block import Block, Readout, block
 from ridgeback.reports.drawing.canvas import Canvas, Line, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.figures.over_time import Clock, plane_block, traces_of, tracks_block
-from ridgeback.reports.text.wording import number, relative
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ def figure_3(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
 
 def _plane(decay: DecayComparison, key: str, note: str, *, title: str, which: str) -> Block:
     image = {"u": decay.spectrogram_u, "velocity": decay.spectrogram_velocity, "wigner": decay.wigner_u}[which]
-    caption = f"{image.name}, level in dB re its maximum, floor {image.floor_db:.0f} dB. {note}".replace("-", "−", 1)
+    caption = f"{image.name}, level in dB re its maximum, floor {decibels(image.floor_db)}. {note}"
     return plane_block(key, image, Clock(decay.case.time_unit), title=title, caption=caption)
 
 

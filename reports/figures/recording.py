@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from ridgeback.common.numbers import number
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.reports.drawing.block import Block, Readout, block
 from ridgeback.reports.drawing.canvas import Array, Canvas, Line, Trace, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.theme import sentinel
 from ridgeback.reports.figures.over_time import Clock, plane_block, traces_of, tracks_block
-from ridgeback.reports.text.wording import number
 
 CLOCK = Clock("s")
 

@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 from matplotlib.axes import Axes
 
+from ridgeback.common.numbers import listing, number, relative, rounded_down, threshold
 from ridgeback.compare.study.results import Range, Study
-from ridgeback.compare.wording import rounded_down
 from ridgeback.reports.drawing import cells
 from ridgeback.reports.drawing.block import Block, Key, Readout, Toggle, block
 from ridgeback.reports.drawing.canvas import (
@@ -29,7 +29,6 @@ from ridgeback.reports.drawing.canvas import (
 )
 from ridgeback.reports.drawing.labels import note, place
 from ridgeback.reports.drawing.theme import SERIES, sentinel
-from ridgeback.reports.text.wording import listing, number, relative, threshold
 
 FLOOR = 1e-17
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from ridgeback.common.numbers import NONE, number, relative, rounded_down, threshold
 from ridgeback.compare.motion.results import BudgetRow, Score
 from ridgeback.compare.report.results import Standing
 from ridgeback.compare.study.results import Certified, Range, Timing
-from ridgeback.compare.wording import rounded_down
-from ridgeback.reports.text.wording import NONE, number, relative, threshold
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ridgeback.answers.monte_carlo import uncertain
+from ridgeback.common.numbers import uncertain
 from ridgeback.console.output import json_text, output_path, write_text
 from ridgeback.console.progress import Progress
 from ridgeback.console.tables import aligned, csv_text
@@ -84,7 +84,7 @@ def study_text(study: EstimatorStudy, style: str) -> str:
     if style == "csv":
         rows = study.rows()
         return csv_text(list(rows[0]), rows)
-    rows = [row_of(result) for result in study.results]
+    rows = [row_of(result, plain=style != "markdown") for result in study.results]
     partial = "" if study.complete else f"\n{stopped(study).capitalize()}.\n"
     if style == "markdown":
         return markdown(list(rows[0]), rows) + partial
@@ -99,36 +99,40 @@ def heading(study: EstimatorStudy) -> str:
     )
 
 
-def row_of(result: CaseResult) -> dict[str, str]:
+def row_of(result: CaseResult, *, plain: bool = True) -> dict[str, str]:
     """One case: the best method and those as good, the flagship with its bound, and the best method of another kind."""
+    from ridgeback.compare.noise.results import estimator_of
+
     best, flagship = result.best, result.of(FLAGSHIP)
     equal = [cell.method for cell in result.tied() if cell is not best]
     bound = None if flagship is None else flagship.bound
-    other = next((cell for cell in result.cells if not cell.method.startswith(FLAGSHIP)), None)
+    other = next((c for c in result.cells if estimator_of(c.method) != FLAGSHIP and c.rms is not None), None)
     return {
         "case": result.case.label,
         "best": best.method if best.rms is not None else "none",
         "as good": ", ".join(equal) or "-",
-        FLAGSHIP: "-" if flagship is None else shown(flagship),
+        FLAGSHIP: "-" if flagship is None else shown(flagship, plain=plain),
         "its bound": "-" if bound is None else f"{bound:.2g}",
-        "best of another kind": "-" if other is None or other.rms is None else f"{other.method}: {shown(other)}",
+        "best of another kind": "-"
+        if other is None or other.rms is None
+        else f"{other.method}: {shown(other, plain=plain)}",
     }
 
 
-def shown(cell: NoiseCell) -> str:
+def shown(cell: NoiseCell, *, plain: bool) -> str:
     """The error of a cell, and how many records lost the ridge or were refused."""
     lost = cell.outliers + cell.failures
-    return uncertain(cell.rms, cell.rms_sd) + (f" ({lost} of {cell.trials} lost)" if lost else "")
+    return uncertain(cell.rms, cell.rms_sd, plain=plain) + (f" ({lost} of {cell.trials} lost)" if lost else "")
 
 
 def markdown(columns: list[str], rows: list[dict[str, str]]) -> str:
     """Rows as a Markdown table.
 
-    >>> print(markdown(["a", "b"], [{"a": "1", "b": "2 +- 1"}]), end="")
+    >>> print(markdown(["a", "b"], [{"a": "1", "b": "2 ± 1"}]), end="")
     | a | b |
     |---|---|
     | 1 | 2 ± 1 |
     """
-    lines = [columns, ["---"] * len(columns), *([row[name].replace("+-", "±") for name in columns] for row in rows)]
+    lines = [columns, ["---"] * len(columns), *([row[name] for name in columns] for row in rows)]
     text = "\n".join("| " + " | ".join(line) + " |" for line in lines)
     return text.replace("| --- " * len(columns), "|---" * len(columns)) + "\n"

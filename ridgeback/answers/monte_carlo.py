@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from ridgeback.common.numbers import uncertain
 from ridgeback.console.output import json_text, write_text
 from ridgeback.console.progress import Progress
 from ridgeback.console.tables import aligned, csv_text
@@ -172,10 +172,10 @@ def readable_cell(cell: NoiseCell) -> dict[str, Any]:
     return {
         "method": cell.method,
         "snr_db": cell.snr_db,
-        "rms_error": uncertain(cell.rms, cell.rms_sd),
-        "bias": uncertain(cell.bias, cell.bias_sd),
-        "rms/bound": uncertain(cell.ratio, cell.ratio_sd),
-        "coverage_95": uncertain(cell.coverage, cell.coverage_sd),
+        "rms_error": uncertain(cell.rms, cell.rms_sd, plain=True),
+        "bias": uncertain(cell.bias, cell.bias_sd, plain=True),
+        "rms/bound": uncertain(cell.ratio, cell.ratio_sd, plain=True),
+        "coverage_95": uncertain(cell.coverage, cell.coverage_sd, plain=True),
         "lost": cell.outliers,
         "refused": cell.failures,
         "trials": cell.trials,
@@ -186,21 +186,3 @@ def reasons(study: NoiseStudy) -> str:
     """Why methods refused, each reason once."""
     found = dict.fromkeys(cell.reason for cell in study.cells if cell.reason)
     return "".join(f"\nrefused: {reason}" for reason in found) + ("\n" if found else "")
-
-
-def uncertain(value: float | None, deviation: float | None) -> str:
-    """A value and its uncertainty, to two digits of the uncertainty.
-
-    >>> uncertain(0.0123456, 0.00034), uncertain(3.2e-6, 1.1e-7), uncertain(0.98, 0.05), uncertain(None, None)
-    ('0.01235 +- 0.00034', '(3.20 +- 0.11)e-6', '0.980 +- 0.050', '-')
-    """
-    if value is None:
-        return "-"
-    if deviation is None or not deviation > 0.0:
-        return f"{value:.4g}"
-    size = max(abs(value), deviation)
-    exponent = math.floor(math.log10(size)) if size < 1e-3 or size >= 1e5 else 0
-    scale = 10.0**exponent
-    digits = max(0, 1 - math.floor(math.log10(deviation / scale)))
-    text = f"{value / scale:.{digits}f} +- {deviation / scale:.{digits}f}"
-    return text if exponent == 0 else f"({text})e{exponent}"

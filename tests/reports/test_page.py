@@ -248,7 +248,7 @@ def test_an_identification_without_a_prediction_still_renders() -> None:
 def test_a_noise_study_shows_each_cell_with_its_uncertainty_and_the_refusals(tree: Element) -> None:
     rows = _cells(tree, "noise")
     assert rows[0] == [
-        *("harmonic-least-squares", "0 dB", "2.1 ± 0.084 %", "−2 × 10⁻⁵", "1.05 ± 0.05", "95 %", "0", "0")
+        *("harmonic-least-squares", "0 dB", "2.100 ± 0.084 %", "−2.0 × 10⁻⁵", "1.050 ± 0.050", "95 %", "0", "0")
     ]
     assert rows[-1] == ["the record is too short"]
     assert _cells(tree, "estimators")[1][5:7] == ["–", "–"]

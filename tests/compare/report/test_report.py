@@ -9,13 +9,14 @@ import pytest
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.errors import InputError as NumericError
+from ridgeback.common.numbers import relative
+from ridgeback.common.quantities import amplitude
 from ridgeback.compare.motion.motion import setting
 from ridgeback.compare.report.provenance import settings_hash
 from ridgeback.compare.report.recording_report import assemble_recording
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.report.system_report import assemble_system, paper_case
 from ridgeback.compare.study.study import ranges
-from ridgeback.compare.wording import amplitude, relative
 from ridgeback.numeric.estimators.estimate import METHODS
 from ridgeback.symbolic.systems.catalogue import find
 

@@ -1,0 +1,170 @@
+"""How numbers are written for a reader: no SI prefixes, relative errors in per cent or as powers of ten.
+
+Text is Unicode (a true minus, superscripts).  A missing number is a dash unless the caller says otherwise.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+NONE = "–"
+"""What stands for a missing number."""
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_PER_CENT = 1e-4
+"""Relative errors from here on are written in per cent, smaller ones as powers of ten."""
+
+
+def minus(text: str) -> str:
+    """Text with a true minus for every hyphen.
+
+    >>> minus(f"{-3.5:g} dB")
+    '−3.5 dB'
+    """
+    return text.replace("-", "−")
+
+
+def power_of_ten(exponent: int) -> str:
+    """A power of ten.
+
+    >>> power_of_ten(-6)
+    '10⁻⁶'
+    """
+    return "10" + str(exponent).translate(_SUPERSCRIPTS)
+
+
+def scientific(value: float, *, digits: int = 2) -> str:
+    """A number as a mantissa of so many digits and a power of ten.
+
+    >>> scientific(5.93e-9), scientific(-2e-14, digits=1)
+    ('5.9 × 10⁻⁹', '−2 × 10⁻¹⁴')
+    """
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    return f"{minus(mantissa)} × {power_of_ten(int(exponent))}"
+
+
+def number(value: float | None, digits: int = 4) -> str:
+    """A number with so many significant digits, as a power of ten from 10^6 on and below 10^-4.
+
+    >>> number(12.566370614), number(6.02e23, 3), number(-0.00002, 2), number(None), number(0.0)
+    ('12.57', '6.02 × 10²³', '−2 × 10⁻⁵', '–', '0')
+    """
+    if value is None or math.isnan(value):
+        return NONE
+    if math.isinf(value):
+        return "∞" if value > 0 else "−∞"
+    if value == 0:
+        return "0"
+    if 1e-4 <= abs(value) < 1e6:
+        text = f"{value:.{digits}g}"
+        return minus(text if "e" not in text else f"{value:.0f}")
+    mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
+    return f"{minus(mantissa)} × {power_of_ten(int(exponent))}"
+
+
+def two_digits(value: float) -> str:
+    """Two significant digits without an exponent.
+
+    >>> two_digits(0.1934), two_digits(12.3), two_digits(1.04), two_digits(9.96)
+    ('0.19', '12', '1.0', '10')
+    """
+    mantissa, exponent = f"{value:.1e}".split("e")
+    return minus(f"{float(mantissa) * 10 ** int(exponent):.{max(0, 1 - int(exponent))}f}")
+
+
+def relative(value: float | None, *, signed: bool = False, missing: str = NONE) -> str:
+    """A relative error to two digits: per cent down to 0.01 %, below that a power of ten.
+
+    >>> relative(0.0019), relative(-0.0102, signed=True), relative(1.7e-5), relative(None), relative(0.0)
+    ('0.19 %', '−1.0 %', '1.7 × 10⁻⁵', '–', '0')
+    """
+    if value is None or math.isnan(value):
+        return missing
+    sign = "+" if signed and value > 0 else ""
+    if value == 0 or math.isinf(value):
+        return sign + number(value)
+    return sign + (f"{two_digits(100 * value)} %" if abs(value) >= _PER_CENT else scientific(value))
+
+
+def offset(value: float | None) -> str:
+    """A signed relative error as a size and a direction.
+
+    >>> offset(-0.008), offset(0.021), offset(None)
+    ('0.80 % low', '2.1 % high', 'no value')
+    """
+    if value is None or not math.isfinite(value):
+        return "no value"
+    return f"{relative(abs(value))} {'low' if value < 0 else 'high'}"
+
+
+def threshold(value: float) -> str:
+    """A round limit of a relative error.
+
+    >>> threshold(0.1), threshold(1e-3), threshold(1e-4), threshold(1e-6), threshold(0.0025)
+    ('10 %', '0.1 %', '10⁻⁴', '10⁻⁶', '0.25 %')
+    """
+    exponent = round(math.log10(value))
+    if value < 5e-4 and math.isclose(value, 10.0**exponent, rel_tol=1e-9):
+        return power_of_ten(exponent)
+    return f"{100 * value:.2g} %" if value >= _PER_CENT else relative(value)
+
+
+def signed(value: float, digits: int = 4) -> str:
+    """A number with its sign and so many decimals.
+
+    >>> signed(-0.05), signed(0.12345)
+    ('−0.0500', '+0.1235')
+    """
+    return minus(f"{value:+.{digits}f}")
+
+
+def decibels(level: float) -> str:
+    """A level to the decibel.
+
+    >>> decibels(-35.4)
+    '−35 dB'
+    """
+    return minus(f"{level + 0.0:.0f} dB")
+
+
+def rounded_down(value: float, digits: int) -> float:
+    """A positive limit rounded down to significant digits, so that what is printed still holds.
+
+    >>> rounded_down(2.1991, 3), rounded_down(0.5, 3), rounded_down(2.64, 3)
+    (2.19, 0.5, 2.64)
+    """
+    scale = 10.0 ** (digits - 1 - math.floor(math.log10(value)))
+    return math.floor(value * scale * (1 + 1e-12)) / scale
+
+
+def uncertain(value: float | None, deviation: float | None, *, plain: bool = False) -> str:
+    """A value and its standard deviation, to two digits of that; ``plain`` keeps to ASCII, as a terminal may have to.
+
+    >>> uncertain(0.0123456, 0.00034), uncertain(3.2e-6, 1.1e-7), uncertain(0.98, 0.05), uncertain(None, None)
+    ('0.01235 ± 0.00034', '(3.20 ± 0.11) × 10⁻⁶', '0.980 ± 0.050', '–')
+    >>> uncertain(-3.2e-6, 1.1e-7, plain=True), uncertain(1.5, None, plain=True), uncertain(None, 1.0, plain=True)
+    ('(-3.20 +- 0.11)e-6', '1.5', '-')
+    """
+    if value is None:
+        return "-" if plain else NONE
+    if deviation is None or not deviation > 0.0:
+        return f"{value:.4g}" if plain else number(value)
+    size = max(abs(value), deviation)
+    exponent = math.floor(math.log10(size)) if size < 1e-3 or size >= 1e5 else 0
+    scale = 10.0**exponent
+    digits = max(0, 1 - math.floor(math.log10(deviation / scale)))
+    mean, spread = f"{value / scale:.{digits}f}", f"{deviation / scale:.{digits}f}"
+    text = f"{mean} +- {spread}" if plain else f"{minus(mean)} ± {spread}"
+    if exponent == 0:
+        return text
+    return f"({text})e{exponent}" if plain else f"({text}) × {power_of_ten(exponent)}"
+
+
+def listing(items: Sequence[str]) -> str:
+    """Names joined as a sentence does.
+
+    >>> listing(["a"]), listing(["a", "b", "c"]), listing([])
+    ('a', 'a, b and c', '')
+    """
+    return " and ".join(part for part in (", ".join(items[:-1]), *items[-1:]) if part)

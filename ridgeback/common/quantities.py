@@ -1,0 +1,75 @@
+"""How amplitudes, frequencies, times and symbols are written for a reader, with their units."""
+
+from __future__ import annotations
+
+import math
+import re
+
+# fmt: off
+_GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
+    "theta": "θ", "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π",
+    "rho": "ρ", "sigma": "σ", "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
+    "eps": "ε", "varepsilon": "ε", "vartheta": "θ", "varphi": "φ",
+}
+# fmt: on
+_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def in_pi(value: float, *, digits: int = 3) -> str:
+    """An angle in units of π.
+
+    >>> in_pi(0.6589 * math.pi)
+    '0.659 π'
+    """
+    return f"{value / math.pi:.{digits}f} π"
+
+
+def amplitude(value: float, unit: str) -> str:
+    """An amplitude with its unit, an angle also in units of π.
+
+    >>> amplitude(2.1, "rad"), amplitude(2.1, "")
+    ('2.1 rad (0.668 π)', '2.1')
+    """
+    text = f"{value:.4g}"
+    return f"{text} rad ({in_pi(value)})" if unit == "rad" else f"{text} {unit}".strip()
+
+
+def short_amplitude(value: float, unit: str) -> str:
+    """An amplitude with its unit, an angle in units of π only.
+
+    >>> short_amplitude(2.1, "rad"), short_amplitude(2.1, "mm")
+    ('0.668 π', '2.1 mm')
+    """
+    return in_pi(value) if unit == "rad" else amplitude(value, unit)
+
+
+def frequency(omega: float, time_unit: str) -> str:
+    """Angular frequency as a reader meets it: hertz when time is in seconds, else rad per time unit.
+
+    >>> frequency(2 * math.pi, "s"), frequency(2.0, "")
+    ('1.0000 Hz', '2.0000')
+    """
+    if time_unit == "s":
+        return f"{omega / (2 * math.pi):.4f} Hz"
+    return f"{omega:.4f} rad/{time_unit}" if time_unit else f"{omega:.4f}"
+
+
+def nanoseconds(value: float) -> str:
+    """A time per value, three digits.
+
+    >>> nanoseconds(6.234), nanoseconds(1234.0)
+    ('6.23 ns', '1230 ns')
+    """
+    return f"{float(f'{value:.3g}'):g} ns"
+
+
+def symbol(name: str) -> str:
+    r"""The name of a parameter or of an unknown as it is printed in text; LaTeX names lose their backslash.
+
+    >>> symbol("mu"), symbol("alpha3"), symbol("c_1"), symbol(r"\theta"), symbol("x_{1}")
+    ('μ', 'α₃', 'c₁', 'θ', 'x₁')
+    """
+    plain = re.sub(r"[\\{}]|_(?=\{?\d)", "", name)
+    stem = plain.rstrip("0123456789")
+    return _GREEK.get(stem, stem) + plain[len(stem) :].translate(_SUBSCRIPTS)
