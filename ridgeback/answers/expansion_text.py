@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from ridgeback.symbolic.certificates.certificate import Check
     from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
     from ridgeback.symbolic.expansion.expansion import Expansion
+    from ridgeback.symbolic.flow.fixed_points import FixedPoint
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -127,20 +128,32 @@ def without_cycle(oscillator: Oscillator) -> str:
 
 
 def limit_cycles(oscillator: Oscillator, flow: SlowFlow) -> str:
-    """The fixed points of a self-excited slow flow that belong to a series, at the oscillator's own parameters."""
+    """The fixed points of a self-excited slow flow at the oscillator's own parameters.
+
+    Those that belong to a series, or else lie within the reach of the order; of the others that they do not.
+    """
     if oscillator.kind != "limit-cycle" or any(oscillator.parameters.get(name) is None for name in flow.weights):
         return ""
     if without_cycle(oscillator):
         return no_cycle(oscillator)
     from ridgeback.symbolic.flow.fixed_points import fixed_points
+    from ridgeback.symbolic.flow.limits import flow_limits
 
     values = {name: oscillator.parameters[name] for name in flow.weights}
-    found = [point for point in fixed_points(flow, values) if point.square_series is not None]
+    points = fixed_points(flow, values, limits=flow_limits(oscillator, flow).limits)
+    series = [point for point in points if point.square_series is not None]
     at = ", ".join(f"{name} = {value}" for name, value in values.items())
-    return complete_powers(flow) + "".join(
-        f"\nlimit cycle of this order at {at}: a = {float(p.amplitude.mid()):.10g}, "
-        f"omega0 = {float(p.frequency.mid()):.10g}, {_STABILITY[p.stable]}\n"
-        for p in found
+    return complete_powers(flow) + "".join(cycle_line(point, at) for point in series or points)
+
+
+def cycle_line(point: FixedPoint, at: str) -> str:
+    """One fixed point in words; beyond the reach of the order no number of it is worth printing but its place."""
+    amplitude = float(point.amplitude.mid())
+    if point.reach.beyond:
+        return f"\na'/a of this order vanishes at {at}, a = {amplitude:.4g}: beyond its reach, {point.reach.why}\n"
+    return (
+        f"\nlimit cycle of this order at {at}: a = {amplitude:.10g}, "
+        f"omega0 = {float(point.frequency.mid()):.10g}, {_STABILITY[point.stable]}\n"
     )
 
 

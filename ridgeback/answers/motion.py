@@ -13,6 +13,7 @@ from ridgeback.options.demand import Demand
 
 if TYPE_CHECKING:
     from ridgeback.answers.expansion_text import Result
+    from ridgeback.symbolic.flow.reach import Reach
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.flow.transient import ClosedForm
     from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -35,13 +36,15 @@ def transient_output(oscillator: Oscillator, result: Result, demand: Demand) -> 
 
     flow = flow_to_follow(oscillator, result)
     rows, formula = transient_rows(oscillator, flow, demand), closed_form(flow)
+    reach = transient_reach(oscillator, flow, rows)
     if demand.style == "csv":
         return csv_text(COLUMNS, rows)
     if demand.style == "json":
         exact = None if formula is None else {"amplitude": str(formula.amplitude), "phase": str(formula.phase)}
-        more = {"closed_form": exact, "transient": rows, **fixed_rows(oscillator, result)}
+        more = {"closed_form": exact, "transient": rows, "beyond_reach": reach.beyond}
+        more |= {**({"why": reach.why} if reach.beyond else {}), **fixed_rows(oscillator, result)}
         return json_text({**flow.to_dict(), **limit_rows(oscillator, result), **more})
-    below = f"\n\n{aligned(COLUMNS, rows)}\n" + range_of_use(oscillator, result)
+    below = f"\n\n{aligned(COLUMNS, rows)}\n" + reach_line(reach) + range_of_use(oscillator, result)
     return heading(oscillator, flow.to_dict()) + "\n\n" + formula_lines(formula) + below
 
 
@@ -75,6 +78,22 @@ def transient_rows(oscillator: Oscillator, flow: SlowFlow, demand: Demand) -> li
     ]
 
 
+def transient_reach(oscillator: Oscillator, flow: SlowFlow, rows: list[dict[str, float]]) -> Reach:
+    """The reach of the order along a transient: of the amplitude, which rises or falls throughout, at both ends."""
+    from ridgeback.symbolic.flow.limits import flow_limits
+    from ridgeback.symbolic.flow.reach import reach_of
+
+    limits = flow_limits(oscillator, flow).limits
+    small = [float(value) for value in flow.values(oscillator.parameters)]
+    ends = [reach_of(flow, row["amplitude"], small, limits=limits) for row in (rows[0], rows[-1])]
+    return max(ends, key=lambda end: end.beyond)
+
+
+def reach_line(reach: Reach) -> str:
+    """What is said below a transient that leaves the reach of its order; nothing where it stays within."""
+    return f"\nThe motion runs beyond the reach of this order: {reach.why}.\n" if reach.beyond else ""
+
+
 def formula_lines(formula: ClosedForm | None) -> str:
     """The closed form in lines, or why there is none."""
     if formula is None:
@@ -93,8 +112,10 @@ def fixed_rows(oscillator: Oscillator, result: Any) -> dict[str, object]:
     if any(value is None for value in values.values()):
         return more
     from ridgeback.symbolic.flow.fixed_points import fixed_points
+    from ridgeback.symbolic.flow.limits import flow_limits
 
-    return {**more, "fixed_points": [point.to_dict() for point in fixed_points(result, values)]}
+    found = fixed_points(result, values, limits=flow_limits(oscillator, result).limits)
+    return {**more, "fixed_points": [point.to_dict() for point in found]}
 
 
 def harmonic_output(oscillator: Oscillator, result: Result, style: str) -> str:

@@ -1,7 +1,8 @@
 r"""Limit cycles as fixed points of the amplitude equation: the zeros s = a^2 > 0 of a'/a = delta(s, m).
 
 With rational values m the right-hand side is an exact polynomial in s and FLINT isolates all its zeros with proof.
-They are zeros of the *truncated* equation: far out, where the dropped terms count, they mean nothing.  What the
+They are zeros of the *truncated* equation: far out, where the dropped terms count, they mean nothing, and are said to
+be beyond the reach of the order (``reach``), of no stability.  What the
 expansion itself asserts is the exact series s(m) of the zero that stays in reach as m -> 0; which of the zeros it
 belongs to is proved by following that zero from m = 0 to the value, with interval Newton steps.  Where the terms of a
 power of m come to an end (``SlowFlow.complete``), only the powers that have all of theirs enter: a is not small then.
@@ -26,7 +27,9 @@ from ridgeback.symbolic.arithmetic import truncated
 from ridgeback.symbolic.arithmetic.balls import rational, whole_power
 from ridgeback.symbolic.enclosure.turning_points import real_roots
 from ridgeback.symbolic.expansion.ball_expansion import ball_row
+from ridgeback.symbolic.flow.reach import Reach, reach_of
 from ridgeback.symbolic.flow.slow_flow import SlowFlow, Term
+from ridgeback.symbolic.singularities.limits import Limits
 from ridgeback.symbolic.systems.parameters import Value, merged
 
 BITS: Final = 128
@@ -52,9 +55,11 @@ class FixedPoint:
     slope: arb
     """d(a')/da there, per time unit: the rate at which neighbouring amplitudes part or meet."""
     stable: bool | None
-    """Whether the slope is negative; None when its ball holds 0."""
+    """Whether the slope is negative; None when its ball holds 0, and beyond the reach of the order."""
     square_series: tuple[sympy.Expr, ...] | None
     """a^2 in powers of the small parameter, exact for the oscillator itself; None when no such series ends here."""
+    reach: Reach
+    """Whether this zero of the truncated equation tells of the oscillator at all."""
 
     @property
     def amplitude_series(self) -> tuple[sympy.Expr, ...] | None:
@@ -62,20 +67,31 @@ class FixedPoint:
         return None if self.square_series is None else root_series(self.square_series)
 
     def to_dict(self) -> dict[str, object]:
-        """The public JSON form: balls as decimals with their radii; the series of a^2 is null when none ends here."""
+        """The public JSON form: balls as decimals with their radii; the series of a^2 is null when none ends here.
+
+        The radii are those of the zero of the truncated equation.  ``last_change`` is the relative change by the
+        terms of the last two orders; beyond the reach of this one ``beyond_reach`` is true, with the reason, and the
+        slope null.
+        """
         row: dict[str, object] = {}
         with ctx.workprec(BITS):
             for name in ("amplitude", "frequency", "slope"):
                 printed = ball_row(getattr(self, name), DIGITS)
                 row |= {name: printed["coefficient"], f"{name}_radius": printed["radius"]}
         series = None if self.square_series is None else [str(c) for c in self.square_series]
-        return {**row, "stable": self.stable, "square_series": series}
+        row |= {"stable": self.stable, "square_series": series, "last_change": self.reach.change}
+        if not self.reach.beyond:
+            return row | {"beyond_reach": False}
+        return row | {"slope": None, "slope_radius": None, "beyond_reach": True, "why": self.reach.why}
 
 
-def fixed_points(flow: SlowFlow, values: Mapping[str, Value]) -> tuple[FixedPoint, ...]:
+def fixed_points(
+    flow: SlowFlow, values: Mapping[str, Value], *, limits: Limits | None = None
+) -> tuple[FixedPoint, ...]:
     """Every limit cycle of the truncated amplitude equation at rational values of the small parameters.
 
-    ``values`` names them; floats and text count as the decimals they print as.  In rising order of the amplitude.
+    ``values`` names them; floats and text count as the decimals they print as.  ``limits`` are those of the frequency
+    that the flow contains (``flow.limits``): a zero outside them is beyond its reach.  In rising order of amplitude.
     Raises InputError for a missing or unknown name, a parameter that is symbolic, and an amplitude equation whose
     coefficients are not rational.
 
@@ -94,15 +110,20 @@ def fixed_points(flow: SlowFlow, values: Mapping[str, Value]) -> tuple[FixedPoin
         polynomial = _polynomial(delta, flow)
         zeros = [s for s in real_roots(polynomial) if s > 0] if polynomial.degree() > 0 else []
         branches = tuple(_branches(flow, small[0])) if len(small) == 1 else ()
-        return tuple(_point(s, polynomial, omega, branches) for s in zeros)
+        numbers = tuple(float(value) for value in flow.values(given))
+        reaches = [reach_of(entire, float(s) ** 0.5, numbers, limits=limits) for s in zeros]
+        pairs = zip(zeros, reaches, strict=True)
+        return tuple(_point(s, polynomial, omega, branches, reach) for s, reach in pairs)
 
 
-def _point(s: arb, delta: fmpq_poly, omega: list[sympy.Expr], branches: tuple[tuple[arb, Series], ...]) -> FixedPoint:
+def _point(
+    s: arb, delta: fmpq_poly, omega: list[sympy.Expr], branches: tuple[tuple[arb, Series], ...], reach: Reach
+) -> FixedPoint:
     slope = 2 * s * _at(delta.derivative(), s)
     frequency = sum((_ball(c) * whole_power(s, n) for n, c in enumerate(omega)), arb(0))
-    stable = None if slope.contains(0) else bool(slope < 0)
+    stable = None if slope.contains(0) or reach.beyond else bool(slope < 0)
     series = [found for place, found in branches if place.overlaps(s)]
-    return FixedPoint(s.sqrt(), frequency, slope, stable, series[0] if series else None)
+    return FixedPoint(s.sqrt(), frequency, slope, stable, series[0] if series else None, reach)
 
 
 def _inserted(terms: tuple[Term, ...], small: tuple[fmpq, ...]) -> dict[int, sympy.Expr]:

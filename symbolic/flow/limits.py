@@ -8,6 +8,7 @@ more variables, no region of convergence is known.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Final
 
 from ridgeback.common.errors import InputError
@@ -54,7 +55,7 @@ def flow_limits(oscillator: Oscillator, flow: SlowFlow) -> FlowLimits:
     try:
         if on_cycle:
             return FlowLimits(of, _settled(oscillator, flow.complete or 0, "peak"), "")
-        undamped = oscillator.with_parameters(dict.fromkeys(flow.small_parameters, 0))
+        undamped = replace(oscillator.with_parameters(dict.fromkeys(flow.small_parameters, 0)), small=None)
         if not undamped.closes:
             return FlowLimits(of, None, f"{flow.system} still loses or gains energy there")
         return FlowLimits(of, replace(_settled(undamped, flow.order, flow.amplitude), variable="a"), "")
@@ -67,6 +68,7 @@ def _none_small(flow: SlowFlow) -> str:
     return f" with {names}" if names else ""
 
 
+@lru_cache(maxsize=8)
 def _settled(oscillator: Oscillator, order: int, amplitude: str) -> Limits:
     """The limits of the series of this order, by its coefficients far beyond; of symbolic ones nothing is known."""
     series = lindstedt(oscillator, max(order, 1), amplitude=amplitude)

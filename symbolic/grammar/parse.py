@@ -72,6 +72,12 @@ _INSTEAD: Final = {
     "arctanh": "atanh",
     "sh": "sinh",
 }
+_LAWS: Final = (
+    "a smooth stand-in such as tanh(20*u) has another law at small amplitudes.  To leading order, with k = 1, "
+    "c*abs(u')*u' gives a'/a = -4*c*a/(3*pi), F*sign(u') gives -2*F/(pi*a), and eps*u*abs(u) gives "
+    "omega0 = 1 + 4*eps*A/(3*pi)"
+)
+"""What is so of kinks, by averaging over u = a cos(tau)."""
 _KINKED: Final = ("abs", "Abs", "fabs", "sign", "sgn", "max", "min", "floor", "heaviside", "Heaviside")
 
 
@@ -306,7 +312,7 @@ class _Parser:
 def _unknown_function(token: Token, *, is_unknown: bool) -> InputError:
     name, where = token.text, f"{quoted(token.text)} at column {token.column}"
     if name in _KINKED:
-        return InputError(f"{where} is not analytic at the origin, so no expansion exists; smooth it, as in tanh(20*u)")
+        return InputError(f"{where} is not analytic at the origin, so no power series holds it; {_LAWS}")
     if is_unknown or token.primes:
         mark = "'" * token.primes
         return InputError(f"{where} is the unknown, not a function; write {name}{mark} or {name}{mark}*(...)")

@@ -107,6 +107,19 @@ def test_a_long_transient_ends_on_the_limit_cycle_printed_and_converges_to_the_t
     assert errors[-1][1] < 1e-4
 
 
+def test_a_transient_that_leaves_the_reach_of_its_order_says_so(ridgeback: Ridgeback) -> None:
+    hardened = ["derive", "--equation", "u'' - eps*(1 - 2*u**2)*u' + u + u**3 = 0", "--set", "eps=1/10"]
+    words = [*hardened, "--weight", "1", "--order", "8", "--transient", "0.1", "--until", "100"]
+    public = json.loads(ridgeback(*words, "--format", "json").out)
+    assert public["beyond_reach"] is True
+    assert public["fixed_points"][0]["beyond_reach"] is True
+    text = ridgeback(*words).out
+    assert "The motion runs beyond the reach of this order" in text
+    assert "stable" not in text
+    near = output(ridgeback, "damped-pendulum --order 4 --transient 0.5 --until 100")
+    assert (near["beyond_reach"], "why" in near) == (False, False)
+
+
 def true_cycle(eps: float) -> tuple[float, float]:
     """Amplitude of the fundamental and frequency of van der Pol's limit cycle."""
 

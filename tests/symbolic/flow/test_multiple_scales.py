@@ -19,8 +19,10 @@ from ridgeback.symbolic.codegen import generate
 from ridgeback.symbolic.expansion.cost import Budget, predict, weighted_monomials
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.fixed_points import cycle_series, fixed_points, frequency_series, root_series
+from ridgeback.symbolic.flow.limits import flow_limits
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.ordering import ordered, small_parameters
+from ridgeback.symbolic.flow.reach import reach_of
 from ridgeback.symbolic.flow.reconstruction import PHI, Reconstruction, along
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.flow.transient import PHASE, START, TIME, closed_form, transient
@@ -520,6 +522,55 @@ def test_no_cycle_and_no_numbers() -> None:
         fixed_points(flow, {})
     with pytest.raises(InputError, match="no parameter 'q'"):
         fixed_points(flow, {"m": 1, "q": 2})
+
+
+# -- the reach of an order -------------------------------------------------------------------------------------------
+
+
+def hardened(share: int) -> Oscillator:
+    """Van der Pol's excitation on a hardening spring; its cycle grows with 1/share."""
+    return Oscillator.from_equation(f"u'' - eps*(1 - {share}*u**2)*u' + u + u**3 = 0", parameters={"eps": "1/10"})
+
+
+@pytest.mark.parametrize("order", [4, 8, 12])
+def test_a_zero_beyond_the_reach_of_its_order_is_no_limit_cycle(order: int) -> None:
+    """The true cycle of share 2 has the first harmonic 1.3432 and omega0 1.5453; the zero is at a = 1.05, 1.35."""
+    (found,) = fixed_points(multiple_scales(hardened(2), order, weight=1), {"eps": "1/10"})
+    assert found.reach.beyond
+    assert found.stable is None
+    public = found.to_dict()
+    assert (public["beyond_reach"], public["stable"], public["slope"]) == (True, None, None)
+
+
+@pytest.mark.parametrize(("share", "omega"), [(12, 1.1139), (20, 1.0707)])
+def test_a_zero_within_reach_is_near_the_true_limit_cycle(share: int, omega: float) -> None:
+    (found,) = fixed_points(multiple_scales(hardened(share), 8, weight=1), {"eps": "1/10"})
+    assert not found.reach.beyond
+    assert found.stable is True
+    assert float(found.frequency) == pytest.approx(omega, rel=1e-3)
+
+
+def test_the_limits_of_the_frequency_are_the_limits_of_its_fixed_points() -> None:
+    own = find("van-der-pol").with_parameters({"eps": 3})
+    flow = multiple_scales(own, 4, weight=1)
+    assert not fixed_points(flow, {"eps": 3})[0].reach.beyond  # one power alone has nothing to judge by
+    (found,) = fixed_points(flow, {"eps": 3}, limits=flow_limits(own, flow).limits)
+    assert "outside the circle of convergence" in found.reach.why
+    assert found.stable is None
+
+
+def test_states_of_a_decay_are_judged_by_the_terms_that_change_them() -> None:
+    flow = multiple_scales(find("damped-pendulum"), 6)
+    assert not reach_of(flow, 1.0, (0.01,)).beyond
+    assert reach_of(flow, 3.0, (0.01,)).beyond
+    assert reach_of(multiple_scales(find("linear"), 4), 100.0, (0.0,)).change in (None, 0.0)
+
+
+def test_the_limits_of_a_self_excited_flow_are_those_of_its_conservative_part() -> None:
+    own = Oscillator.from_equation("u'' - eps*(1 - u**2)*u' + sin(u) = 0", parameters={"eps": "1/10"})
+    found = flow_limits(own, multiple_scales(own, 4, weight=1))
+    assert found.limits is not None
+    assert found.limits.radius == pytest.approx(4.0, rel=0.05)
 
 
 # -- transients ------------------------------------------------------------------------------------------------------

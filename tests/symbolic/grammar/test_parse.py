@@ -1,6 +1,7 @@
 """The grammar against Python's own, trees against their text, and bad input against its message."""
 
 import ast
+import math
 import sys
 from fractions import Fraction
 
@@ -270,6 +271,21 @@ REFUSED = [
     ("u'' + " + "u+" * 1000 + "u", "has 2007 characters"),
     ("u'' + " + "u-" * 900 + "u", "more than 1000 numbers, names and operations"),
 ]
+
+
+@pytest.mark.parametrize(
+    ("law", "growth"),
+    [
+        (lambda v: abs(v) * v, lambda a: -4 * a / (3 * math.pi)),  # c = 1
+        (lambda v: math.copysign(1.0, v), lambda a: -2 / (math.pi * a)),  # F = 1
+    ],
+)
+def test_the_laws_named_for_kinks_are_the_averages(law, growth):
+    """a' = <f(-a sin tau) sin tau> of u'' + f(u') + u = 0, by the midpoint rule."""
+    amplitude, count = 0.3, 20_000
+    angles = [2 * math.pi * (i + 0.5) / count for i in range(count)]
+    mean = sum(law(-amplitude * math.sin(x)) * math.sin(x) for x in angles) / count
+    assert mean / amplitude == pytest.approx(growth(amplitude), rel=1e-6)
 
 
 @pytest.mark.parametrize(("text", "said"), REFUSED, ids=lambda value: repr(value)[:30])
