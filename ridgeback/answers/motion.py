@@ -41,7 +41,7 @@ def transient_output(oscillator: Oscillator, result: Result, demand: Demand) -> 
         return csv_text(COLUMNS, rows)
     if demand.style == "json":
         exact = None if formula is None else {"amplitude": str(formula.amplitude), "phase": str(formula.phase)}
-        more = {"closed_form": exact, "transient": rows, "beyond_reach": reach.beyond}
+        more: dict[str, object] = {"closed_form": exact, "transient": rows, "beyond_reach": reach.beyond}
         more |= {**({"why": reach.why} if reach.beyond else {}), **fixed_rows(oscillator, result)}
         return json_text({**flow.to_dict(), **limit_rows(oscillator, result), **more})
     below = f"\n\n{aligned(COLUMNS, rows)}\n" + reach_line(reach) + range_of_use(oscillator, result)
