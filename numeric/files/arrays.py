@@ -65,7 +65,8 @@ class Lane:
         """The numbers, read now."""
         needed = math.prod(self.array.shape) * max(8, self.array.dtype.itemsize)
         checked_budget(needed, FILE_BUDGET, f"{self.array.name} in memory", "store the recording in smaller arrays")
-        matrix = np.asarray(self.array.load(), dtype=np.float64)
+        with np.errstate(invalid="ignore", over="ignore"):  # damaged numbers, which are none in the result either
+            matrix = np.asarray(self.array.load(), dtype=np.float64)
         if self.place is None:
             return matrix.reshape(-1)
         flat = matrix.reshape(self.array.lengths)

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import struct
+import tokenize
+import zipfile
+import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -9,6 +13,30 @@ from ridgeback.numeric.arrays import Array
 
 FILE_BUDGET = 1_000_000_000
 """Bytes that a file, unpacked, may hold."""
+DAMAGE = (
+    ValueError,
+    LookupError,
+    TypeError,
+    AttributeError,
+    ArithmeticError,
+    RuntimeError,
+    OSError,
+    MemoryError,
+    EOFError,
+    SyntaxError,
+    SystemError,
+    UnboundLocalError,
+    struct.error,
+    zlib.error,
+    tokenize.TokenError,
+    zipfile.BadZipFile,
+)
+"""What libraries raise on a file that is not what it says: it is a wrong file, whatever went wrong inside."""
+
+
+def first_line(error: BaseException) -> str:
+    """The error's own words, on one line."""
+    return " ".join(str(error).split()) or type(error).__name__
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.files.arrays import RATE_NAMES, STEP_NAMES, Stored, from_arrays, held
-from ridgeback.numeric.files.columns import Columns
+from ridgeback.numeric.files.columns import DAMAGE, Columns, first_line
 
 if TYPE_CHECKING:
     import h5py
@@ -39,7 +39,7 @@ def from_hdf5(data: bytes, source: str) -> Columns:
             stored = tuple(datasets(file, data, source))
     except InputError:
         raise
-    except (OSError, ValueError, KeyError, RuntimeError, TypeError) as error:
+    except DAMAGE as error:
         raise InputError(f"{source} is not a readable HDF5 file: {first_line(error)}") from None
     return from_arrays(stored, source, kind="HDF5 file")
 
@@ -53,11 +53,6 @@ def library(source: str) -> Any:
             f"reading {source} needs h5py, which is not installed; pip install 'ridgeback[hdf5]' brings it"
         ) from None
     return h5py
-
-
-def first_line(error: BaseException) -> str:
-    """The error's own words, on one line."""
-    return " ".join(str(error).split()) or type(error).__name__
 
 
 def datasets(file: h5py.File, data: bytes, source: str) -> Iterator[Stored]:
@@ -81,7 +76,7 @@ def read(data: bytes, path: str, source: str) -> NDArray[Any]:
     try:
         with library(source).File(io.BytesIO(data), "r") as file:
             return np.asarray(file[path][()])
-    except (OSError, ValueError, KeyError, RuntimeError) as error:
+    except DAMAGE as error:
         raise InputError(f"{source}, dataset {path} cannot be read: {first_line(error)}") from None
 
 

@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import io
-import struct
-import warnings
 import zipfile
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
-import numpy as np
-from numpy.typing import NDArray
-from scipy.io import wavfile
-
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.files.arrays import Stored, from_arrays, in_memory
-from ridgeback.numeric.files.columns import FILE_BUDGET, Columns
+from ridgeback.numeric.files.arrays import from_arrays, held, in_memory
+from ridgeback.numeric.files.columns import DAMAGE, FILE_BUDGET, Columns, first_line
 from ridgeback.numeric.files.hdf5 import from_hdf5
 from ridgeback.numeric.files.matlab import from_mat
+from ridgeback.numeric.files.npy import array_of
 from ridgeback.numeric.files.text import TEXT_BUDGET, parse_table
+from ridgeback.numeric.files.wav import from_wav
 from ridgeback.numeric.signal.samples import checked_budget
 
 
@@ -40,63 +35,21 @@ def from_npz(data: bytes, source: str) -> Columns:
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             unpacked = sum(entry.file_size for entry in archive.infolist())
-        checked_budget(unpacked, FILE_BUDGET, f"{source} unpacked", "cut the recording into parts")
-        with np.load(io.BytesIO(data), allow_pickle=False) as stored:
-            arrays = {name: stored[name] for name in stored.files}
+            checked_budget(unpacked, FILE_BUDGET, f"{source} unpacked", "cut the recording into parts")
+            members = {e.filename: archive.read(e) for e in archive.infolist() if e.filename.endswith(".npy")}
     except InputError:
         raise
-    except (ValueError, zipfile.BadZipFile, EOFError, KeyError, OSError, NotImplementedError, RuntimeError) as error:
-        raise InputError(f"{source} is not an NPZ archive of plain numbers: {error}") from None
+    except DAMAGE as error:
+        raise InputError(f"{source} is not an NPZ archive of plain numbers: {first_line(error)}") from None
+    arrays = {name.removesuffix(".npy"): array_of(data, f"{source}, {name}") for name, data in members.items()}
     return from_arrays(in_memory(arrays), source, kind="NPZ archive")
 
 
 def from_npy(data: bytes, source: str) -> Columns:
     """The one array of an NPY file; nothing pickled is loaded."""
-    try:
-        array = np.load(io.BytesIO(data), allow_pickle=False)
-    except (ValueError, EOFError, OSError) as error:
-        raise InputError(f"{source} is not an NPY file of plain numbers: {error}") from None
-    if not isinstance(array, np.ndarray):
+    if data.startswith(b"PK"):
         raise InputError(f"{source} is not an NPY file but an archive; name it .npz")
-    return from_arrays((Stored("x", array.shape, array.dtype, lambda: array),), source, kind="NPY file")
-
-
-def from_wav(data: bytes, source: str) -> Columns:
-    """The channels of a WAV file; integers are divided by full scale."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", wavfile.WavFileWarning)  # chunks beside the samples
-            rate, samples = wavfile.read(io.BytesIO(data))
-    except (ValueError, EOFError, struct.error) as error:
-        raise InputError(f"{source} is not a readable WAV file: {error}") from None
-    channels = samples.reshape(samples.shape[0], -1)
-    note = full_scale(channels[:0])[1]
-    names = tuple(f"channel {i + 1}" for i in range(channels.shape[1]))
-    return Columns(
-        names=names,
-        sizes=(channels.shape[0],) * len(names),
-        values=lambda i: full_scale(channels[:, i])[0],
-        place=lambda row: f"sample {row}",
-        source=source,
-        rate=float(rate),
-        units="full scale" if note else "",
-        note=note,
-    )
-
-
-# An unsigned 8-bit sample is centred on 128; scipy hands 24-bit samples over in the high bytes of 32.
-def full_scale(samples: NDArray[np.generic]) -> tuple[Array, str]:
-    """Integer samples as shares of full scale, -1 .. 1, and the sentence that says so; floats as they are.
-
-    >>> full_scale(np.array([-32768, 16384], dtype=np.int16))[0].tolist()
-    [-1.0, 0.5]
-    """
-    numbers = samples.astype(np.float64)
-    if samples.dtype.kind == "f":
-        return numbers, ""
-    bits = 8 * samples.dtype.itemsize
-    middle = 2.0 ** (bits - 1) if samples.dtype.kind == "u" else 0.0
-    return (numbers - middle) / 2.0 ** (bits - 1), f"{bits}-bit integer samples were divided by full scale"
+    return from_arrays((held("x", array_of(data, source)),), source, kind="NPY file")
 
 
 READERS: Mapping[str, Callable[[bytes, str], Columns]] = MappingProxyType(

@@ -51,7 +51,7 @@ class TextTable:
         Dates with times of day (ISO 8601) become seconds since the first of them.
         """
         first = next((cell for cell in self.cells(index) if cell.lower() not in MISSING), "")
-        read = since(first) if is_stamp(first) else (decimal_comma if self.decimal_comma else float)
+        read = since(first) if is_stamp(first) else (decimal_comma if self.decimal_comma else plain_number)
         values = np.empty(len(self.rows))
         for i, cell in enumerate(self.cells(index)):
             try:
@@ -65,13 +65,24 @@ class TextTable:
         return values
 
 
+def plain_number(cell: str) -> float:
+    """A number as instruments write it; Python's own ``1_05`` is none of them.
+
+    >>> plain_number("1.05e-3")
+    0.00105
+    """
+    if "_" in cell:
+        raise ValueError(cell)
+    return float(cell)
+
+
 def decimal_comma(cell: str) -> float:
     """A number whose decimal point may be a comma.
 
     >>> decimal_comma("1,5")
     1.5
     """
-    return float(cell.replace(",", "."))
+    return plain_number(cell.replace(",", "."))
 
 
 def is_stamp(cell: str) -> bool:
@@ -115,7 +126,7 @@ def is_number(cell: str) -> bool:
     (True, True, False, True)
     """
     try:
-        float(cell.replace(",", "."))
+        decimal_comma(cell)
     except ValueError:
         return cell.lower() in MISSING
     return True
@@ -156,6 +167,7 @@ def parse_table(text: str, *, source: str) -> TextTable:
     delimiter = find_delimiter(lines[0], lines[-1])
     check_quotes(lines, delimiter, source)
     top = next(cells_of(lines[:1], delimiter))
+    check_widths(numbered, len(top), delimiter, source)
     headed = not all(is_number(cell) or is_stamp(cell) for cell in top)
     first = 1 if headed else 0
     if len(lines) == first:
@@ -167,6 +179,15 @@ def parse_table(text: str, *, source: str) -> TextTable:
         delimiter=delimiter,
         source=source,
     )
+
+
+def check_widths(numbered: list[tuple[int, str]], width: int, delimiter: str, source: str) -> None:
+    """Refuse a row with more cells than the first; empty ones at its end are no cells."""
+    lines = (line for _, line in numbered)
+    for (number, _), cells in zip(numbered, cells_of(lines, delimiter), strict=True):
+        if len(cells) > width and any(cells[width:]):
+            hint = "; is a comma a decimal point there? then separate the cells by ;" if delimiter == "," else ""
+            raise InputError(f"{source}, line {number} has {len(cells)} cells, the first row {width}{hint}")
 
 
 def check_quotes(lines: tuple[str, ...], delimiter: str, source: str) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
@@ -16,6 +17,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.files import check_regular, read_regular
 from ridgeback.numeric.arrays import Array, Mask, frozen, frozen_mask
 from ridgeback.numeric.files.column_choice import (
     SECONDS,
@@ -31,7 +33,7 @@ from ridgeback.numeric.files.in_memory import Samples, columns_of
 from ridgeback.numeric.files.readers import READERS
 from ridgeback.numeric.recording.stretches import Rows, stamped
 from ridgeback.numeric.recording.treatment import FEWEST_SAMPLES, Treatment, treated
-from ridgeback.numeric.signal.samples import checked_budget, checked_rate, checked_swing
+from ridgeback.numeric.signal.samples import checked_rate, checked_swing
 
 Wanted = str | int | Sequence[str | int] | None
 MOST_SAMPLES = 50_000_000
@@ -284,11 +286,12 @@ def signals(
     file: Path, wanted: Wanted, time_column: str | int | None, rate: float | None, run: str | int | None, file_run: str
 ) -> Iterator[Signal]:
     """The channels and runs of one file, which is itself the run ``file_run`` when no column tells runs."""
+    with suppress(FileNotFoundError):  # of which the suffix may be wrong, too
+        check_regular(file)
     reader = READERS.get(file.suffix.lower())
     if reader is None:
         raise InputError(f"{file.name}: the suffix {file.suffix!r} is unknown; use one of {', '.join(READERS)}")
-    checked_budget(file.stat().st_size, FILE_BUDGET, file.name, "cut the recording into parts")
-    data = file.read_bytes()
+    data = read_regular(file, FILE_BUDGET, "cut the recording into parts")
     columns, digest = reader(data, file.name), hashlib.sha256(data).hexdigest()
     columns = replace(columns, values=lru_cache(maxsize=2)(columns.values))  # the times, for channel after channel
     clock = time_index(columns, time_column, rate)

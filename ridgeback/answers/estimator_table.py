@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ridgeback.common.numbers import uncertain
-from ridgeback.console.output import json_text, output_path, write_text
+from ridgeback.console.output import json_text, write_text
 from ridgeback.console.progress import Progress
 from ridgeback.console.tables import aligned, csv_text
+from ridgeback.options.budget import checkpoint_path
 
 if TYPE_CHECKING:
     from ridgeback.compare.noise.estimator_study import CaseResult, EstimatorStudy
@@ -26,7 +27,7 @@ def estimator_options(command: Decorated) -> Decorated:
     for option in (
         click.option(
             "--checkpoint",
-            type=output_path,
+            type=checkpoint_path,
             default=None,
             metavar="FILE",
             help="With --estimators: keep the cases done in this file, and go on from it.",

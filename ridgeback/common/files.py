@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import os
+import stat
 import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+
+from ridgeback.common.errors import InputError
 
 try:
     import fcntl
@@ -107,6 +110,50 @@ def settle(folder: Path) -> None:
             os.fsync(descriptor)
         finally:
             os.close(descriptor)
+
+
+def read_regular(path: Path, at_most: int, remedy: str) -> bytes:
+    """The bytes of a file on a disk; never those of a pipe or a device, which may have no end.
+
+    Parameters
+    ----------
+    path : Path
+        The file, or a link to it.
+    at_most : int
+        Bytes that it may have.
+    remedy : str
+        What to do about a larger one.
+
+    Raises
+    ------
+    InputError
+        For what is no file on a disk, at once, and for a larger one.
+    OSError
+        For a file that is not there or cannot be read.
+
+    Examples
+    --------
+    >>> read_regular(Path(os.devnull), 100, "shorten it")
+    Traceback (most recent call last):
+        ...
+    ridgeback.common.errors.InputError: /dev/null is a device, not a file; store what it gives in a file first
+    """
+    check_regular(path)
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        data = file.read(at_most + 1)
+    if len(data) > at_most:
+        raise InputError(f"{path.name} has {max(size, len(data)) / 1e6:.3g} MB, over {at_most / 1e6:.3g} MB; {remedy}")
+    return data
+
+
+def check_regular(path: Path) -> None:
+    """Raise InputError for a pipe, a device or a socket; a folder is left to the operating system to refuse."""
+    mode = path.stat().st_mode
+    if stat.S_ISREG(mode) or stat.S_ISDIR(mode):
+        return
+    kind = "a pipe" if stat.S_ISFIFO(mode) else "a socket" if stat.S_ISSOCK(mode) else "a device"
+    raise InputError(f"{path} is {kind}, not a file; store what it gives in a file first")
 
 
 def remove_through(path: Path) -> None:

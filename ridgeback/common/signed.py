@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.files import write_whole
+from ridgeback.common.files import check_regular, write_whole
 
 
 def write_signed(path: Path, lines: Iterable[str]) -> None:
@@ -49,6 +49,7 @@ def reading_signed(path: Path, form: str, version: int) -> Iterator[tuple[Mappin
 
 def check_whole(path: Path) -> None:
     """Raise InputError unless the last line is the digest of all lines before."""
+    check_regular(path)
     digest, last = hashlib.sha256(), b""
     with path.open("rb") as file:
         for line in file:

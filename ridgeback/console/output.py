@@ -6,8 +6,11 @@ import errno
 import json
 import math
 import os
+import re
+import stat
 import sys
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +19,7 @@ import click
 from ridgeback.common.files import write_whole
 
 STDOUT = "-"
+DESCRIPTORS = {"/dev/stdin": "/dev/fd/0", "/dev/stdout": "/dev/fd/1", "/dev/stderr": "/dev/fd/2"}
 
 
 class OutputPath(str):
@@ -46,17 +50,53 @@ def check_writable(path: str) -> None:
     """
     if path == STDOUT:
         return
-    target = Path(path).resolve()
+    if (descriptor := open_descriptor(path)) is not None:
+        os.fstat(descriptor)
+        return
+    if is_special(path):
+        if not os.access(path, os.W_OK):
+            raise PermissionError(errno.EACCES, "No permission to write", path)
+        return
+    target = resolved(path)
     if target.is_dir():
         raise IsADirectoryError(errno.EISDIR, "It is a folder, not a file", path)
     folder = target.parent
     if not folder.is_dir():
         raise FileNotFoundError(errno.ENOENT, "No such folder", str(Path(path).parent))
-    refused = target if target.exists() and not target.is_file() else folder
-    if not os.access(refused, os.W_OK):
+    if not os.access(folder, os.W_OK):
         raise PermissionError(errno.EACCES, "No permission to write", path)
     if target.is_file() and not target.stat().st_mode & 0o222:
         raise PermissionError(errno.EACCES, "The file is read-only; allow writing or name another", path)
+
+
+def resolved(path: str) -> Path:
+    """The file behind a name; links that lead to each other are the OSError that opening them would be.
+
+    >>> resolved("folder/../a.csv").name
+    'a.csv'
+    """
+    with suppress(FileNotFoundError):
+        os.stat(path)  # noqa: PTH116 - by Path.resolve a loop is another error in each version of Python
+    return Path(path).resolve()
+
+
+def open_descriptor(path: str) -> int | None:
+    """The open file that a name of the system stands for: what a shell's ``>(...)`` and /dev/stdout are.
+
+    >>> open_descriptor("/dev/stdout"), open_descriptor("/dev/fd/63"), open_descriptor("out.csv")
+    (1, 63, None)
+    """
+    found = re.fullmatch(r"/(?:dev|proc/self)/fd/(\d{1,9})", DESCRIPTORS.get(path, path), re.ASCII)
+    return int(found[1]) if found else None
+
+
+def is_special(path: str) -> bool:
+    """Whether a name is of a device, a pipe or a socket, to be written to and never replaced."""
+    try:
+        mode = os.stat(path).st_mode  # noqa: PTH116 - the name itself: what lies behind a pipe's link has none
+    except OSError:
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
 
 
 def keep_apart(written: Mapping[str, str | None], read: Iterable[str | None] = ()) -> None:
@@ -73,8 +113,7 @@ def keep_apart(written: Mapping[str, str | None], read: Iterable[str | None] = (
     for option, path in written.items():
         if path is None or path == STDOUT:
             continue
-        target = Path(path)
-        if target.exists() and not target.is_file():
+        if open_descriptor(path) is not None or is_special(path):
             continue
         for other, what in taken:
             if same_file(path, other):
@@ -89,7 +128,7 @@ def same_file(one: str, other: str) -> bool:
     (True, False)
     """
     try:
-        return Path(one).resolve() == Path(other).resolve() or Path(one).samefile(other)
+        return resolved(one) == resolved(other) or Path(one).samefile(other)
     except OSError:
         return False
 
@@ -98,23 +137,21 @@ def write_text(path: str, text: str) -> None:
     """Write the whole text, or leave what was there; ``-`` prints it, devices and pipes are written to."""
     if path == STDOUT:
         print_text(text)
-        return
-    check_writable(path)
-    target = Path(path).resolve()
-    if target.exists() and not target.is_file():
-        target.write_text(text, encoding="utf-8")
-        return
-    write_whole(target, [text.encode()])
+    else:
+        write_bytes(path, text.encode("utf-8", "backslashreplace"))
 
 
 def write_bytes(path: str, data: bytes) -> None:
     """Write the whole content, or leave what was there; devices and pipes are written to."""
     check_writable(path)
-    target = Path(path).resolve()
-    if target.exists() and not target.is_file():
-        target.write_bytes(data)
+    descriptor = open_descriptor(path)
+    if descriptor is None and not is_special(path):
+        write_whole(resolved(path), [data])
         return
-    write_whole(target, [data])
+    if descriptor is not None:
+        sys.stdout.flush()  # what was printed before comes before
+    with open(path if descriptor is None else os.dup(descriptor), "wb") as stream:  # noqa: PTH123 - or a descriptor
+        stream.write(data)
 
 
 def print_text(text: str) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 import click
 
 from ridgeback.console.failure import say
-from ridgeback.console.output import STDOUT, OutputPath, output_path
+from ridgeback.console.output import STDOUT, OutputPath, is_special, open_descriptor, output_path
 from ridgeback.console.progress import Progress, is_terminal
 from ridgeback.options.arguments import shown, written
 from ridgeback.options.shared import Decorated
@@ -52,7 +52,7 @@ def budget(text: str) -> Budget:
 
 def checkpoint_path(text: str) -> OutputPath:
     """A file for a checkpoint, refused before the work starts."""
-    if text == STDOUT:
+    if text == STDOUT or open_descriptor(text) is not None or is_special(text):
         raise click.BadParameter("a checkpoint is a file that is read again; give its name")
     return output_path(text)
 

@@ -28,6 +28,7 @@ from typing import Any
 import sympy
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.files import read_regular
 from ridgeback.symbolic.grammar.nodes import (
     Call,
     Name,
@@ -127,14 +128,13 @@ def read_description(path: str | Path) -> Oscillator:
     Raises InputError that names the file and what is wrong in it, OSError when it cannot be read.
     """
     file = Path(path)
-    if file.stat().st_size > MAX_BYTES:
-        raise InputError(
-            f"{file}: {file.stat().st_size} bytes is more than the {MAX_BYTES} that a description may have"
-        )
+    data = read_regular(file, MAX_BYTES, "a description is a few lines")
     try:
-        table = tomllib.loads(file.read_text(encoding="utf-8"))
+        table = tomllib.loads(data.decode("utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as reason:
         raise InputError(f"{file} is not TOML: {reason}") from None
+    except RecursionError:
+        raise InputError(f"{file} nests its values too deeply; a description is a table of texts and numbers") from None
     try:
         return from_table(table, name=file.stem)
     except NoLinearForceError as reason:

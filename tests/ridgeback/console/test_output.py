@@ -6,6 +6,8 @@ import json
 import math
 import os
 import stat
+import subprocess
+import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -169,3 +171,60 @@ def test_a_read_only_file_is_not_replaced(tmp_path: Path, capsys: pytest.Capture
     assert main(["systems", "-o", str(kept)]) == 4
     assert "read-only" in capsys.readouterr().err
     assert kept.read_text() == "kept"
+
+
+def test_names_of_open_files_are_written_to_and_never_replaced(tmp_path: Path) -> None:
+    script = """
+        write() { "$PYTHON" -c 'import sys; from ridgeback.console.output import write_text
+write_text(sys.argv[1], "text")' "$1"; }
+        write /dev/stdout > plain.txt
+        echo before > more.txt; write /dev/stdout >> more.txt
+        write /dev/stdout | cat > piped.txt
+        write >(cat > substituted.txt); sleep 1
+        write /dev/stderr 2> error.txt
+        mkfifo pipe; cat pipe > fifo.txt & write pipe; wait
+        write /dev/fd/77 2>/dev/null; echo $?
+    """
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[3]), "PYTHON": sys.executable}
+    done = subprocess.run(
+        ["bash", "-c", script], cwd=tmp_path, env=environment, stdout=subprocess.PIPE, text=True, check=False
+    )
+    for name in ("plain.txt", "piped.txt", "substituted.txt", "error.txt", "fifo.txt"):
+        assert (tmp_path / name).read_text() == "text", name
+    assert (tmp_path / "more.txt").read_text() == "before\ntext"
+    assert done.stdout.strip() == "1"
+
+
+def test_links_that_lead_to_each_other_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "a").symlink_to("b")
+    (tmp_path / "b").symlink_to("a")
+    (tmp_path / "a.toml").symlink_to("b.toml")
+    (tmp_path / "b.toml").symlink_to("a.toml")
+    for words in (
+        ["systems", "-o", str(tmp_path / "a")],
+        ["derive", "pendulum", "--digits", "5", "--checkpoint", str(tmp_path / "a")],
+        ["derive", str(tmp_path / "a.toml")],
+        ["derive", str(tmp_path / "a.toml"), "-o", str(tmp_path / "a")],
+        ["estimate", str(tmp_path / "a")],
+    ):
+        assert main(words) == 4
+        assert "Too many levels of symbolic links" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("suffix", [".toml", ".csv", ".mat", ""])
+def test_pipes_and_devices_are_no_input(suffix: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    verb = "derive" if suffix == ".toml" else "estimate"
+    endless, pipe = tmp_path / f"endless{suffix}", tmp_path / f"pipe{suffix}"
+    endless.symlink_to("/dev/zero")
+    os.mkfifo(pipe)
+    for path, kind in ((endless, "device"), (pipe, "pipe")) if suffix or verb == "estimate" else ():
+        assert main([verb, str(path)]) == 2
+        assert f"is a {kind}, not a file" in capsys.readouterr().err
+
+
+def test_a_checkpoint_is_no_pipe(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    words = ["derive", "van-der-pol", "--order", "4", "--digits", "5", "--checkpoint"]
+    for path in (tmp_path / "pipe", Path("/dev/zero"), Path("/dev/stdout")):
+        assert main([*words, str(path)]) == 2
+        assert "a checkpoint is a file that is read again" in capsys.readouterr().err

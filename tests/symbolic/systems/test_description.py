@@ -100,3 +100,20 @@ def test_a_missing_file_is_an_operating_system_error(tmp_path: Path) -> None:
 def test_parameters_stay_symbolic_when_they_are_given_no_value() -> None:
     own = from_text("u'' + u + c*u**3")
     assert lindstedt(own, 2).frequency[2] == sympy.Rational(3, 8) * sympy.Symbol("c", real=True)
+
+
+@pytest.mark.parametrize("opened", ["[", "{a="])
+def test_values_nested_beyond_measure_are_one_line(tmp_path: Path, opened: str) -> None:
+    file = tmp_path / "deep.toml"
+    file.write_text("[oscillator]\nequation = " + opened * 20_000)
+    with pytest.raises(InputError, match=r"too deeply|is not TOML"):
+        read_description(file)
+
+
+def test_a_description_is_a_file_of_bounded_size(tmp_path: Path) -> None:
+    (tmp_path / "large.toml").write_bytes(b"#" * 100_001)
+    (tmp_path / "endless.toml").symlink_to("/dev/zero")
+    with pytest.raises(InputError, match=r"over 0.1 MB"):
+        read_description(tmp_path / "large.toml")
+    with pytest.raises(InputError, match="is a device, not a file"):
+        read_description(tmp_path / "endless.toml")
