@@ -1,8 +1,11 @@
-"""The averaged decay of a linearly damped oscillator in any potential: omega0(t) without integrating the equation.
+"""The averaged motion of a damped oscillator in any potential: omega0(t) without integrating the equation.
 
-With E' = -2 mu u'^2 and the mean of u'^2 over an undamped cycle, omega0 J, averaging gives J' = -2 mu J: the action
-falls exactly exponentially, J(t) = J0 exp(-2 mu t), and omega0(t) = omega0(J(t)) (Bogoliubov and Mitropolsky,
-Asymptotic Methods in the Theory of Non-linear Oscillations, 1961).
+Linear damping has a closed form, given here; under any other damping force that is odd in u' the action is lost at the
+rate that ``ridgeback.numeric.orbits.action_loss`` tabulates.
+
+Linear damping.  With E' = -2 mu u'^2 and the mean of u'^2 over an undamped cycle, omega0 J, averaging gives
+J' = -2 mu J: the action falls exactly exponentially, J(t) = J0 exp(-2 mu t), and omega0(t) = omega0(J(t)) (Bogoliubov
+and Mitropolsky, Asymptotic Methods in the Theory of Non-linear Oscillations, 1961).
 
 The start.  Energy leaves in steps, so the action J* of the instantaneous energy ripples about the averaged J:
 J* = J + mu g(phi) + O(mu^2) with omega0 dg/dphi = -(2/omega0)(u'^2 - omega0 J) and zero mean over a cycle.
@@ -29,7 +32,8 @@ from numpy.typing import ArrayLike
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, frozen
 from ridgeback.numeric.motion.dynamics import Dynamics
-from ridgeback.numeric.orbits.energy import require_linear_damping
+from ridgeback.numeric.orbits.action_loss import averaged_action, cycles_of, require_odd_damping
+from ridgeback.numeric.orbits.energy import is_linearly_damped
 from ridgeback.numeric.orbits.period import exact_frequency, peak_of_action
 from ridgeback.numeric.orbits.waveform import OrbitPosition, orbit_position
 
@@ -40,7 +44,7 @@ class AveragedDecay:
 
     time: Array
     action: Array
-    """J(t) = J0 exp(-2 mu t)."""
+    """J(t): J0 exp(-2 mu t) for linear damping."""
     action_amplitude: Array
     """sqrt(2 J / k), which equals ``peak`` as the amplitude vanishes."""
     peak: Array
@@ -60,14 +64,13 @@ def averaged_decay(
     """Return J, A and omega0 at ``time`` after the state ``initial = (u, u')`` at t = 0.
 
     ``correct_start=False`` takes the action of the initial energy as it is.  Raises InputError without a
-    potential, for damping that is not 2 mu u', outside the well, and for times that are not finite.
+    potential, for velocity terms that are not odd in u', outside the well, and for times that are not finite.
 
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> decay = averaged_decay(linear(k=2.0, mu=0.1), (1.0, 0.0), [0.0, 10.0])
     >>> decay.peak.round(12).tolist(), decay.omega.round(12).tolist()
     ([1.0, 0.367879441171], [2.0, 2.0])
     """
-    require_linear_damping(dynamics)
     t = np.atleast_1d(np.asarray(time, dtype=float))
     if not np.all(np.isfinite(t)):
         raise InputError("times must be finite")
@@ -75,8 +78,13 @@ def averaged_decay(
     if not (math.isfinite(u) and math.isfinite(velocity)):
         raise InputError(f"initial state ({u}, {velocity}) must be finite")
     start = orbit_position(dynamics, u, velocity)
-    shift = 2 * dynamics.damping / start.omega * start.excess if correct_start else 0.0
-    J = (start.action + shift) * np.exp(-2 * dynamics.damping * t)
+    require_odd_damping(dynamics, start.peak)
+    if is_linearly_damped(dynamics, start.peak):
+        shift = 2 * dynamics.damping / start.omega * start.excess if correct_start else 0.0
+        J = (start.action + shift) * np.exp(-2 * dynamics.damping * t)
+    else:
+        shift = -cycles_of(dynamics, np.array([start.peak]))[0].ripple(start.phase) if correct_start else 0.0
+        J = averaged_action(dynamics, start.action + shift, t)
     table = exact_frequency(dynamics, peak_of_action(dynamics, J))
     return AveragedDecay(
         time=frozen(t),

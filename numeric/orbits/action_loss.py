@@ -1,0 +1,190 @@
+"""What a damping force takes from the action of an undamped orbit, averaged over its cycle.
+
+The damping force is d(u, u') = f(u, u') - V'(u), of any form that is odd in u'.  Energy falls as E' = -u' d, and the
+mean over the phase of the undamped orbit gives
+
+    J' = -P / omega0,   P = <u' d>,   or   (ln J)' = -R(J),   R = P / (omega0 J)
+
+(Bogoliubov and Mitropolsky, Asymptotic Methods in the Theory of Non-linear Oscillations, 1961).  d = 2 mu u' has
+R = 2 mu in any potential, since <u'^2> = omega0 J.  The action J* of the instantaneous energy ripples about J:
+J* = J + g(phi), omega0^2 dg/dphi = -(u' d - P), with zero mean over the cycle.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.interpolate import BarycentricInterpolator
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.numeric.orbits.period import action, exact_frequency, peak_of_action
+from ridgeback.numeric.orbits.potential import peak_limit, restoring_of
+from ridgeback.numeric.orbits.waveform import orbit_harmonics
+
+POINTS = 512
+"""Phases over one cycle: the mean of a smooth periodic function converges geometrically in their number."""
+HARMONICS = 120
+NODES = (17, 33, 65, 129)
+"""Chebyshev points in ln J; their number is doubled until R is interpolated to ``ACCURACY``."""
+ACCURACY = 1e-9
+SPAN = 4.0
+"""ln J below the start that the first table covers."""
+EDGE = 1 - 1e-6
+"""Share of the well's last amplitude up to which a motion that grows is followed."""
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """One undamped orbit over the phases 2 pi j / POINTS from its peak, and what damping does to it."""
+
+    omega: float
+    action: float
+    power: Array
+    """u' d(u, u') at the phases: the energy lost per time."""
+
+    @property
+    def mean(self) -> float:
+        """P, its mean over the phase."""
+        return float(self.power.mean())
+
+    @property
+    def rate(self) -> float:
+        """R = P / (omega0 J)."""
+        return self.mean / (self.omega * self.action)
+
+    def ripple(self, phase: float) -> float:
+        """Return g(phase): how far the action of the instantaneous energy lies above the averaged one."""
+        spectrum = np.fft.rfft(self.power - self.mean) / POINTS
+        m = np.arange(1, spectrum.size)
+        terms = spectrum[1:] / (1j * m) * np.exp(1j * m * phase)
+        return float(-2 * terms.real.sum() / self.omega**2)
+
+
+def damping_force(dynamics: Dynamics, u: Array, velocity: Array) -> Array:
+    """Return d(u, u') = f(u, u') - V'(u) at states, 1-D arrays of one length."""
+    whole = [dynamics.force(x, v) for x, v in zip(u.tolist(), velocity.tolist(), strict=True)]
+    return np.asarray(whole) - np.asarray(restoring_of(dynamics)(u))
+
+
+def require_odd_damping(dynamics: Dynamics, size: float) -> None:
+    """Raise InputError unless the force beside V'(u) is odd in u', checked at a few states within ``size`` of rest.
+
+    >>> from ridgeback.numeric.motion.dynamics import pendulum
+    >>> require_odd_damping(pendulum(mu=0.1), 1.0)
+    """
+    k = dynamics.natural_frequency
+    u, v = size * np.array([0.1, -0.2, 0.35, 0.5]), k * size * np.array([0.1, 0.3, 0.2, 0.6])
+    even = damping_force(dynamics, u, v) + damping_force(dynamics, u, -v)
+    if np.any(np.abs(even) > 1e-9 * k * (k * np.abs(u) + np.abs(v))):
+        raise InputError(
+            f"{dynamics.name}: the force holds velocity terms that do not change sign with u', so V(u) alone does not "
+            "set its undamped motion; use the cycle frequency of an integrated trajectory instead"
+        )
+
+
+def cycles_of(dynamics: Dynamics, peaks: Array) -> list[Cycle]:
+    """Return undamped orbits by their peak amplitudes, and the power that damping takes along each.
+
+    u is even and u' odd in the phase, so that the power of an odd damping force is even: half a cycle tells it.
+
+    >>> from ridgeback.numeric.motion.dynamics import pendulum
+    >>> (cycle,) = cycles_of(pendulum(mu=0.1), np.array([2.0]))
+    >>> bool(abs(cycle.rate - 0.2) < 1e-12)
+    True
+    """
+    table = exact_frequency(dynamics, peaks)
+    cosine = orbit_harmonics(dynamics, peaks, count=HARMONICS).cosine
+    m, phase = np.arange(HARMONICS + 1), np.arange(POINTS // 2 + 1) * (2 * np.pi / POINTS)
+    u = np.cos(np.outer(phase, m)) @ cosine
+    velocity = -np.sin(np.outer(phase, m)) @ (m[:, None] * cosine) * table.omega
+    lost = damping_force(dynamics, u.ravel(), velocity.ravel()).reshape(u.shape) * velocity
+    whole = np.concatenate((lost, lost[-2:0:-1]))
+    return [Cycle(float(w), float(J), p) for w, J, p in zip(table.omega, table.action, whole.T, strict=True)]
+
+
+def averaged_action(dynamics: Dynamics, start: float, time: Array) -> Array:
+    """Return J(t) at ``time`` of the averaged motion that has the action ``start`` at time 0.
+
+    Parameters
+    ----------
+    dynamics : Dynamics
+        An oscillator with a potential and a damping force odd in u'.
+    start : float
+        J at time 0, the averaged one.
+    time : ndarray, shape (n,)
+        Times in the oscillator's unit, in any order.
+
+    Raises
+    ------
+    InputError
+        Where the motion grows out of the well.
+
+    Examples
+    --------
+    >>> from ridgeback.numeric.motion.dynamics import polynomial
+    >>> free = polynomial((1.0,))
+    >>> bool(np.allclose(averaged_action(free, 0.5, np.array([0.0, 9.0])), 0.5))
+    True
+    """
+    top = _highest(dynamics, start)
+    span = SPAN
+    while True:
+        low = math.log(start) - span
+        table = _table(dynamics, low, math.log(top))
+        level = _followed(table, math.log(start), low, time)
+        if level is not None:
+            return np.asarray(np.exp(level))
+        span *= 2
+
+
+def _highest(dynamics: Dynamics, start: float) -> float:
+    """The highest action that the motion reaches: the start of a decay, else where growth has ended."""
+    limit = peak_limit(dynamics)
+    most = float(action(dynamics, [EDGE * limit])[0]) if math.isfinite(limit) else math.inf
+    top = start
+    while cycles_of(dynamics, peak_of_action(dynamics, [top]))[0].rate < 0:
+        if top >= most:
+            raise InputError(f"{dynamics.name}: the motion grows out of its well; start lower or take a shorter time")
+        top = min(2 * top, most)
+    return top if top > start else start * (1 + 1e-9)
+
+
+def _table(dynamics: Dynamics, low: float, high: float) -> BarycentricInterpolator:
+    """R over ln J as a polynomial through Chebyshev points, refined until the points between agree."""
+    known: dict[float, float] = {}
+
+    def rates(levels: Array) -> Array:
+        fresh = [x for x in levels.tolist() if x not in known]
+        if fresh:
+            cycles = cycles_of(dynamics, peak_of_action(dynamics, np.exp(fresh)))
+            known.update((x, cycle.rate) for x, cycle in zip(fresh, cycles, strict=True))
+        return np.array([known[x] for x in levels.tolist()])
+
+    before: BarycentricInterpolator | None = None
+    for count in NODES:
+        levels = low + (high - low) * 0.5 * (1 - np.cos(np.pi * np.arange(count) / (count - 1)))
+        values = rates(levels)
+        table = BarycentricInterpolator(levels, values)
+        if before is not None and np.abs(before(levels) - values).max() <= ACCURACY * np.abs(values).max():
+            return table
+        before = table
+    raise InputError(f"{dynamics.name}: the averaged loss of action changes too fast with amplitude to be tabulated")
+
+
+def _followed(table: BarycentricInterpolator, start: float, low: float, time: Array) -> Array | None:
+    """ln J at the times, or None when the motion leaves the table at its lower end."""
+    level = np.full(time.size, start)
+    for side in (time[time > 0], time[time < 0]):
+        if side.size:
+            end = float(side[np.argmax(np.abs(side))])
+            solution = solve_ivp(
+                lambda _, x: -table(np.maximum(x, low)), (0.0, end), [start], dense_output=True, rtol=1e-11, atol=1e-12
+            )
+            inside = (time > 0) if end > 0 else (time < 0)
+            level[inside] = solution.sol(time[inside])[0]
+    return None if level.min(initial=start) < low else level
