@@ -104,7 +104,7 @@ def peak_of_action(dynamics: Dynamics, value: ArrayLike) -> Array:
     """
     J = np.atleast_1d(np.asarray(value, dtype=float))
     restoring, limit = restoring_of(dynamics), peak_limit(dynamics)
-    most = float(action(dynamics, limit * (1 - 1e-12))[0]) if math.isfinite(limit) else math.inf
+    most = float(action(dynamics, limit * (1 - 1e-9))[0]) if math.isfinite(limit) else math.inf
     bad = J[~((J >= 0) & (most >= J))]
     if bad.size:
         raise InputError(f"{dynamics.name}: action {bad[0]:.9g} is outside 0 to {most:.9g}, that of the separatrix")
@@ -118,7 +118,7 @@ def peak_of_action(dynamics: Dynamics, value: ArrayLike) -> Array:
         return root - np.sqrt(target), restoring(A) / (2 * table.omega * root)
 
     guess = np.minimum(np.sqrt(2 * target / dynamics.natural_frequency), 0.9 * limit)
-    high = np.full_like(guess, limit * (1 - 1e-12)) if math.isfinite(limit) else guess.copy()
+    high = np.full_like(guess, limit * (1 - 1e-9)) if math.isfinite(limit) else guess.copy()
     while target.size and math.isinf(limit) and np.any(short := value_and_slope(high)[0] < 0):
         high = np.where(short, 2 * high, high)
     peak[moving] = bracketed_newton(value_and_slope, np.zeros_like(guess), high, guess=guess, rising=True)
