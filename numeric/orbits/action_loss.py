@@ -179,12 +179,16 @@ def _table(dynamics: Dynamics, low: float, high: float) -> BarycentricInterpolat
 def _followed(table: BarycentricInterpolator, start: float, low: float, time: Array) -> Array | None:
     """ln J at the times, or None when the motion leaves the table at its lower end."""
     level = np.full(time.size, start)
-    for side in (time[time > 0], time[time < 0]):
+    for side in (np.flatnonzero(time > 0), np.flatnonzero(time < 0)):
         if side.size:
-            end = float(side[np.argmax(np.abs(side))])
+            order = side[np.argsort(np.abs(time[side]))]
             solution = solve_ivp(
-                lambda _, x: -table(np.maximum(x, low)), (0.0, end), [start], dense_output=True, rtol=1e-11, atol=1e-12
+                lambda _, x: -table(np.maximum(x, low)),
+                (0.0, float(time[order[-1]])),
+                [start],
+                t_eval=time[order],
+                rtol=1e-11,
+                atol=1e-12,
             )
-            inside = (time > 0) if end > 0 else (time < 0)
-            level[inside] = solution.sol(time[inside])[0]
+            level[order] = solution.y[0]
     return None if level.min(initial=start) < low else level
