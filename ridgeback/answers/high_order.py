@@ -19,14 +19,11 @@ if TYPE_CHECKING:
     from ridgeback.symbolic.expansion.expansion import Expansion
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
-STEEPNESS = 3.5
-"""Power of the order that the time of a march follows (expansion.cost): what is left is said by it."""
-
 
 def in_balls(oscillator: Oscillator, request: Request, digits: int, checkpoint: str | None) -> BallExpansion:
     """Derive in balls, saying how far it is; an interrupt says how to go on.
 
-    Raises click.UsageError for options that balls do not have, InputError from the march, OSError for the checkpoint.
+    Raises click.UsageError for options that balls do not have, InputError from the derivation, OSError for the file.
     """
     if request.method not in (None, "lindstedt"):
         raise click.UsageError(f"--digits belongs to lindstedt, not to {request.method}; leave one of the two out")
@@ -44,7 +41,7 @@ def in_balls(oscillator: Oscillator, request: Request, digits: int, checkpoint: 
                 digits=digits,
                 amplitude=request.amplitude or "peak",
                 checkpoint=path,
-                progress=lambda n, last: watch((n / last) ** STEEPNESS, f"order {n} of {last - 1}"),
+                progress=watch,
                 budget=request.budget,
             )
         except KeyboardInterrupt:
@@ -61,14 +58,13 @@ def by_primes(oscillator: Oscillator, request: Request, workers: int, checkpoint
     refuse_weights(request, "--workers")
     from ridgeback.console.processes import processes
     from ridgeback.symbolic.expansion.cost import Budget, predict
-    from ridgeback.symbolic.high_order.by_primes import expected_bits, law, lindstedt_by_primes
+    from ridgeback.symbolic.high_order.by_primes import law, lindstedt_by_primes
 
     cost, path = (
         predict(law(oscillator), request.order, workers=workers),
         None if checkpoint is None else Path(checkpoint),
     )
     allowed = cost.within(request.budget or Budget())
-    last = expected_bits(oscillator, request.order)
     with Watch(f"order {request.order} modulo many primes", cost if allowed else None) as watch:
         try:
             with processes(workers) as executor:
@@ -78,7 +74,7 @@ def by_primes(oscillator: Oscillator, request: Request, workers: int, checkpoint
                     amplitude=request.amplitude or "peak",
                     executor=executor,
                     workers=workers,
-                    progress=lambda n, done: watch(1.0 if done else min(n / last, 0.99), f"{n} bits of modulus"),
+                    progress=watch,
                     checkpoint=path,
                     budget=request.budget,
                 )

@@ -123,7 +123,7 @@ def _normalisation(expansion: Expansion) -> Check:
 
 
 def _against_energy(oscillator: Oscillator, expansion: Expansion) -> Check:
-    if oscillator.normalised().bound.has(V):
+    if oscillator.normalised.bound.has(V):
         raise InputError("the force depends on u'")
     definition = "peak" if expansion.amplitude == "fundamental" else expansion.amplitude
     other = energy_integral(oscillator, expansion.order, amplitude=definition)

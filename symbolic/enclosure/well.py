@@ -81,11 +81,11 @@ def well_of(oscillator: Oscillator, *, mirrored: bool = False) -> Well:
     if mirrored:
         return well_of(oscillator).mirrored()
     _check_kind(oscillator)
-    force = oscillator.normalised().bound
+    force = oscillator.normalised.bound
     if force.has(V):
         potential, inertia = _with_velocity(oscillator, force)
     else:
-        known = oscillator.normalised().potential  # None, too, where terms in u' were in the equation and are set to 0
+        known = oscillator.normalised.potential  # None, too, where terms in u' were in the equation and are set to 0
         potential, inertia = _integral(force) if known is None else known, sympy.S.One
     if potential is None:
         raise InputError(_no_potential(oscillator.name, force, inertia))

@@ -36,7 +36,7 @@ class BallExpansion:
     digits: int
     """Decimal digits that were asked for in every coefficient."""
     bits: int
-    """The precision that the march began with."""
+    """The precision that the recursion began with."""
     coefficients: tuple[arb, ...]
     """c_0 ... c_order in units where k = 1."""
     amplitude_coefficients: tuple[arb, ...] | None

@@ -47,7 +47,7 @@ def energy_integral(
     oscillator = as_oscillator(oscillator)
     order = check_order(order)
     check_amplitude(oscillator, amplitude, ALLOWED)
-    natural = oscillator.normalised()
+    natural = oscillator.normalised
     force, names = natural.rational, free_names(natural.rational)
     if force.has(V):
         raise InputError(

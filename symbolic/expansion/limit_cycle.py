@@ -12,7 +12,7 @@ from flint import fmpq, fmpq_poly
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.expansion.expansion import Expansion, first_harmonic
-from ridgeback.symbolic.expansion.recursion import March, Watch, compiled, normalise, residual, unwatched
+from ridgeback.symbolic.expansion.recursion import Recursion, Watch, compiled, normalise, residual, unwatched
 from ridgeback.symbolic.series.spaces import Scalar, Space, space_for
 from ridgeback.symbolic.series.trigonometric import Trig, at_zero, constant, cosine, harmonic, solve_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
@@ -28,8 +28,8 @@ def limit_cycle(oscillator: Oscillator, order: int, amplitude: str) -> Expansion
     >>> limit_cycle(find("van-der-pol"), 2, "peak").amplitude_series
     (2, 0, 1/96)
     """
-    natural = oscillator.normalised()
-    march = march_cycle(oscillator, order, amplitude, space_for(()))
+    natural = oscillator.normalised
+    recursion = cycle_recursion(oscillator, order, amplitude, space_for(()))
     read = at_zero if amplitude == "peak" else first_harmonic
     return Expansion(
         system=oscillator.name,
@@ -39,36 +39,38 @@ def limit_cycle(oscillator: Oscillator, order: int, amplitude: str) -> Expansion
         order=order,
         scale=natural.scale,
         scaled_variable=True,
-        coefficients=tuple(march.omega[: order + 1]),
-        waveform=tuple(march.u[: order + 1]),
-        amplitude_coefficients=tuple(read(p) for p in march.u[: order + 1]),
-        residual_of=lambda e: residual(e, natural.force, _graded(oscillator, march.space)),
+        coefficients=tuple(recursion.omega[: order + 1]),
+        waveform=tuple(recursion.u[: order + 1]),
+        amplitude_coefficients=tuple(read(p) for p in recursion.u[: order + 1]),
+        residual_of=lambda e: residual(e, natural.force, _graded(oscillator, recursion.space)),
     )
 
 
-def march_cycle(oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: Watch = unwatched) -> March:
-    """Run the orders of a limit cycle over a given coefficient space; ``watch`` sees the march before each order.
+def cycle_recursion(
+    oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: Watch = unwatched
+) -> Recursion:
+    """Run the orders of a limit cycle over a given coefficient space; ``watch`` sees the recursion before each order.
 
     Raises InputError as ``limit_cycle`` does.
 
     >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> march_cycle(find("van-der-pol"), 2, "peak", space_for(())).omega[:3]
+    >>> cycle_recursion(find("van-der-pol"), 2, "peak", space_for(())).omega[:3]
     [1, 0, -1/16]
     """
     rest = _rest(oscillator)
     averaged = _averaged_sine(rest, oscillator)
     a0 = _first_amplitude(averaged, oscillator)
     start = cosine(space).scale(a0)
-    march = March(compiled(rest, (), start, _graded(oscillator, space)), [start], space)
+    recursion = Recursion(compiled(rest, (), start, _graded(oscillator, space)), [start], space)
     for n in range(1, order + 2):
-        watch(march, n)
-        _cycle_step(march, n, amplitude, averaged.derivative()(a0))
-    return march
+        watch(recursion, n)
+        _cycle_step(recursion, n, amplitude, averaged.derivative()(a0))
+    return recursion
 
 
 def _rest(oscillator: Oscillator) -> sympy.Expr:
     """The force without its linear part u: all of it must carry eps."""
-    rest = sympy.expand(oscillator.normalised().force - U)
+    rest = sympy.expand(oscillator.normalised.force - U)
     if (
         oscillator.small is None
         or free_names(rest) not in ((), (oscillator.small,))
@@ -90,31 +92,31 @@ def _graded(oscillator: Oscillator, space: Space) -> dict[sympy.Symbol, list[Tri
     return {sympy.Symbol(str(oscillator.small), real=True): [constant(space, fmpq(0)), constant(space, fmpq(1))]}
 
 
-def _cycle_step(march: March, n: int, amplitude: str, slope: Scalar) -> None:
+def _cycle_step(recursion: Recursion, n: int, amplitude: str, slope: Scalar) -> None:
     """Find a_(n-1), w_n and u_n but for its cos tau part a_n, which the next order decides."""
-    program = march.program
+    program = recursion.program
     if n > 1:
-        _settle_amplitude(march, n, slope)
-    right = -program.root.get(n) - march.inertia(n, 1, n - 1)
+        _settle_amplitude(recursion, n, slope)
+    right = -program.root.get(n) - recursion.inertia(n, 1, n - 1)
     particular, p, q = solve_oscillator(right)
     if q != 0:
         raise AssertionError(f"secular sine left at order {n}")
-    march.extend_omega(-p / harmonic(march.u[0], 1)[0])
-    march.append(normalise(particular, amplitude, size=False))
-    program.supply(U, march.u[n])
-    program.supply(V, march.velocity(n, n))
+    recursion.extend_omega(-p / harmonic(recursion.u[0], 1)[0])
+    recursion.append(normalise(particular, amplitude, size=False))
+    program.supply(U, recursion.u[n])
+    program.supply(V, recursion.velocity(n, n))
 
 
-def _settle_amplitude(march: March, n: int, slope: Scalar) -> None:
+def _settle_amplitude(recursion: Recursion, n: int, slope: Scalar) -> None:
     """Remove the secular sine of order n by the cos tau part of u_(n-1)."""
-    program, space = march.program, march.space
-    _, _, q = solve_oscillator(-program.root.get(n) - march.inertia(n, 1, n - 1))
+    program, space = recursion.program, recursion.space
+    _, _, q = solve_oscillator(-program.root.get(n) - recursion.inertia(n, 1, n - 1))
     change = cosine(space).scale(-q / slope)
     program.forget(n)
     program.correct(n - 1, change, change.derivative())
-    march.u[n - 1] = march.u[n - 1] + change
-    march.slope[n - 1] = march.slope[n - 1] + change.derivative()
-    march.curve[n - 1] = march.curve[n - 1] - change
+    recursion.u[n - 1] = recursion.u[n - 1] + change
+    recursion.slope[n - 1] = recursion.slope[n - 1] + change.derivative()
+    recursion.curve[n - 1] = recursion.curve[n - 1] - change
 
 
 def _averaged_sine(rest: sympy.Expr, oscillator: Oscillator) -> fmpq_poly:

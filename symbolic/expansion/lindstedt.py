@@ -24,7 +24,7 @@ from ridgeback.symbolic.expansion.amplitude import DEFINITIONS, check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order
 from ridgeback.symbolic.expansion.limit_cycle import limit_cycle
-from ridgeback.symbolic.expansion.recursion import March, Watch, compiled, normalise, residual, unwatched
+from ridgeback.symbolic.expansion.recursion import Recursion, Watch, compiled, normalise, residual, unwatched
 from ridgeback.symbolic.series.spaces import Space, is_zero, space_for
 from ridgeback.symbolic.series.trigonometric import constant, cosine, solve_oscillator
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
@@ -60,10 +60,10 @@ def lindstedt(
 
 
 def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Budget) -> Expansion:
-    natural = oscillator.normalised()
+    natural = oscillator.normalised
     force, names = natural.rational, free_names(natural.rational)
     check("lindstedt", order, budget, parameters=len(names))
-    march = march_family(oscillator, order, amplitude, space_for(names))
+    recursion = conservative_recursion(oscillator, order, amplitude, space_for(names))
     return Expansion(
         system=oscillator.name,
         method="lindstedt",
@@ -72,8 +72,8 @@ def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Bu
         order=order,
         scale=natural.scale,
         scaled_variable=False,
-        coefficients=tuple(march.omega),
-        waveform=tuple(march.u),
+        coefficients=tuple(recursion.omega),
+        waveform=tuple(recursion.u),
         amplitude_coefficients=None,
         residual_of=lambda e: residual(e, force, {}),
         names=names,
@@ -82,43 +82,43 @@ def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Bu
     )
 
 
-def march_family(
+def conservative_recursion(
     oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: Watch = unwatched
-) -> March:
+) -> Recursion:
     """Run the orders of a conservative oscillator over a given coefficient space; ``watch`` sees each order begin.
 
     Raises InputError when the oscillator has no family of periodic orbits.
 
     >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> march_family(find("duffing"), 2, "peak", space_for(())).omega
+    >>> conservative_recursion(find("duffing"), 2, "peak", space_for(())).omega
     [1, 0, 3/8]
     """
-    force = oscillator.normalised().rational
+    force = oscillator.normalised.rational
     program = compiled(force, space.names, constant(space, fmpq(0)))
     if program.root.slopes()[1]:
         raise InputError(_no_family(oscillator))
-    march = March(program, [constant(space, fmpq(0)), cosine(space)], space)
-    program.supply(U, march.u[1])
-    program.supply(V, march.slope[1])
+    recursion = Recursion(program, [constant(space, fmpq(0)), cosine(space)], space)
+    program.supply(U, recursion.u[1])
+    program.supply(V, recursion.slope[1])
     for n in range(2, order + 2):
-        watch(march, n)
-        _family_step(march, n, amplitude, oscillator)
-    return march
+        watch(recursion, n)
+        _family_step(recursion, n, amplitude, oscillator)
+    return recursion
 
 
-def _family_step(march: March, n: int, amplitude: str, oscillator: Oscillator) -> None:
+def _family_step(recursion: Recursion, n: int, amplitude: str, oscillator: Oscillator) -> None:
     """Find u_n and omega_(n-1)."""
-    program, space = march.program, march.space
+    program, space = recursion.program, recursion.space
     zero = constant(space, fmpq(0))
     program.supply(U, zero)
-    program.supply(V, march.velocity(n, n - 2) if program.uses_velocity else zero)
-    right = -program.root.get(n) - march.inertia(n, 1, n - 2)
+    program.supply(V, recursion.velocity(n, n - 2) if program.uses_velocity else zero)
+    right = -program.root.get(n) - recursion.inertia(n, 1, n - 2)
     particular, p, q = solve_oscillator(right)
     if not is_zero(q):  # a ball around 0 is no proof that sin tau vanishes
         raise InputError(_no_family(oscillator) if q != 0 else _undecided(oscillator))
-    march.extend_omega(-p)  # right + w_(n-1) cos tau must hold no cos tau
-    march.append(normalise(particular, amplitude, size=True))
-    program.correct(n, march.u[n], march.slope[n] + march.slope[1].scale(march.omega[n - 1]))
+    recursion.extend_omega(-p)  # right + w_(n-1) cos tau must hold no cos tau
+    recursion.append(normalise(particular, amplitude, size=True))
+    program.correct(n, recursion.u[n], recursion.slope[n] + recursion.slope[1].scale(recursion.omega[n - 1]))
 
 
 def _undecided(oscillator: Oscillator) -> str:

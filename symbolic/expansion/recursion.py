@@ -21,7 +21,7 @@ from ridgeback.symbolic.series.spaces import Scalar, Space, is_zero
 from ridgeback.symbolic.series.trigonometric import Trig, at_zero, constant, cosine, harmonic, sine
 
 
-class March:
+class Recursion:
     """The orders found so far: u, its tau-derivatives, omega^2 and omega, and the force program that follows them."""
 
     def __init__(self, program: Program, start: list[Trig], space: Space) -> None:
@@ -61,11 +61,11 @@ class March:
         self.curve.append(self.slope[-1].derivative())
 
 
-Watch: TypeAlias = Callable[[March, int], None]
-"""Told the march and the order about to be found."""
+Watch: TypeAlias = Callable[[Recursion, int], None]
+"""Told the recursion and the order about to be found."""
 
 
-def unwatched(march: March, order: int) -> None:
+def unwatched(recursion: Recursion, order: int) -> None:
     """Watch nothing."""
 
 
@@ -93,7 +93,7 @@ def compiled(
 def residual(expansion: Expansion, force: sympy.Expr, fixed: dict[sympy.Symbol, list[Element]]) -> list[int]:
     """Substitute u and omega into omega^2 u'' + f(u, omega u') anew; return the orders that do not cancel.
 
-    The force is evaluated with complete coefficients from the start, without the provisional ones that the march uses.
+    The force is evaluated with complete coefficients from the start, not the provisional ones of the recursion.
     """
     if expansion.waveform is None:
         raise InputError("this expansion carries no waveform to substitute")

@@ -73,18 +73,18 @@ def multiple_scales(
     counted = tuple(natural.weights.get(name, COEFFICIENT) for name in natural.names)
     check("multiple-scales", order, budget or Budget(), weights=counted)
     frame = _Frame(natural, Parametric(natural.names))
-    march = _March(frame)
+    recursion = _Recursion(frame)
     for n in range(2, order + 2):
-        march.step(n)
+        recursion.step(n)
     return SlowFlow(
         system=oscillator.name,
         order=order,
         weights=natural.weights,
         scale=natural.scale,
         dimensions=natural.dimensions,
-        omega=tuple(march.omega[: order + 1]),
-        delta=tuple(march.delta[: order + 1]),
-        waveform=tuple(march.u),
+        omega=tuple(recursion.omega[: order + 1]),
+        delta=tuple(recursion.delta[: order + 1]),
+        waveform=tuple(recursion.u),
         complete=_complete(natural, order),
         residual_of=frame.residual,
     )
@@ -137,7 +137,7 @@ class _Frame:
         return [n for n in grades if acceleration[n] + program.root.get(n)]
 
 
-class _March:
+class _Recursion:
     """The grades found so far."""
 
     def __init__(self, frame: _Frame) -> None:

@@ -21,18 +21,18 @@ from pathlib import Path
 
 from flint import fmpq, fmpz, nmod
 
-from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
 from ridgeback.symbolic.expansion.amplitude import check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order, first_harmonic
-from ridgeback.symbolic.expansion.limit_cycle import march_cycle
-from ridgeback.symbolic.expansion.lindstedt import DIRECT, march_family
+from ridgeback.symbolic.expansion.limit_cycle import cycle_recursion
+from ridgeback.symbolic.expansion.lindstedt import DIRECT, conservative_recursion
+from ridgeback.symbolic.high_order.numbers_only import identity, require_numbers
 from ridgeback.symbolic.high_order.residues import Gathered, Residues, check_numbers, read, write
 from ridgeback.symbolic.series.spaces import Modular, Scalar
 from ridgeback.symbolic.series.trigonometric import at_zero
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
-from ridgeback.symbolic.systems.structure import free_names
 
 CHECKS = 2
 """Primes kept back to test the result."""
@@ -62,14 +62,14 @@ def residues(oscillator: Oscillator, order: int, amplitude: str, prime: int) -> 
     """
     space = Modular(prime)
     if oscillator.kind != "limit-cycle":
-        march = march_family(oscillator, order, amplitude, space)
-        return Residues(prime, tuple(_residue(c, prime) for c in march.omega), ())
-    march = march_cycle(oscillator, order, amplitude, space)
+        recursion = conservative_recursion(oscillator, order, amplitude, space)
+        return Residues(prime, tuple(_residue(c, prime) for c in recursion.omega), ())
+    recursion = cycle_recursion(oscillator, order, amplitude, space)
     read = at_zero if amplitude == "peak" else first_harmonic
     return Residues(
         prime,
-        tuple(_residue(c, prime) for c in march.omega[: order + 1]),
-        tuple(_residue(read(p), prime) for p in march.u[: order + 1]),
+        tuple(_residue(c, prime) for c in recursion.omega[: order + 1]),
+        tuple(_residue(read(p), prime) for p in recursion.u[: order + 1]),
     )
 
 
@@ -84,14 +84,14 @@ def lindstedt_by_primes(
     amplitude: str = "peak",
     executor: Executor | None = None,
     workers: int = 1,
-    progress: Callable[[int, bool], None] | None = None,
+    progress: Progress = silent,
     checkpoint: Path | None = None,
     budget: Budget | None = None,
 ) -> Expansion:
     """Expand omega0 like ``lindstedt``, for orders whose coefficients have thousands of digits; no waveform is kept.
 
     ``executor`` (such as ``processes``) runs the primes, ``workers`` of them at a time; ``progress`` is
-    told the bits of the modulus so far and whether they sufficed.  With ``checkpoint`` the residues are saved there
+    told the share that is done and the bits of the modulus so far.  With ``checkpoint`` the residues are saved there
     every minute, on KeyboardInterrupt and at the end, and the work goes on from there if the file exists; it is the
     caller's to remove once the result is stored.  Raises InputError as ``lindstedt`` does, for symbolic parameters, and
     for a checkpoint that is damaged, belongs to another computation or claims what its numbers deny; OSError for the
@@ -104,15 +104,14 @@ def lindstedt_by_primes(
     oscillator = as_oscillator(oscillator)
     order = check_order(order)
     check_amplitude(oscillator, amplitude, DIRECT)
-    natural = oscillator.normalised()
+    natural = oscillator.normalised
     cycle = oscillator.kind == "limit-cycle"
-    if names := sorted(set(free_names(natural.force if cycle else natural.rational)) - {oscillator.small}):
-        held = ", ".join(str(natural.constants.get(name, name)) for name in names)
-        raise InputError(f"{oscillator.name}: {held} is no rational number; the primes need one for each parameter")
+    require_numbers(oscillator, "the primes need")
     check(law(oscillator), order, budget or Budget(), workers=workers)
-    identity, work = _identity(oscillator, order, amplitude), partial(residues, oscillator, order, amplitude)
-    saved = _resumed(checkpoint, identity, work)
-    found = _Collection(work, executor, identity, checkpoint, saved).rationals(max(2, 2 * workers), progress)
+    claim, work = identity(oscillator, order, amplitude), partial(residues, oscillator, order, amplitude)
+    saved = _resumed(checkpoint, claim, work)
+    gathering = _Collection(work, executor, claim, checkpoint, saved, expected_bits(oscillator, order), progress)
+    found = gathering.rationals(max(2, 2 * workers))
     return Expansion(
         system=oscillator.name,
         method="lindstedt",
@@ -164,9 +163,12 @@ class _Collection:
     identity: dict[str, str]
     path: Path | None
     state: Gathered
+    expected: int
+    """Bits of modulus that will be needed, for progress."""
+    progress: Progress
     last_save: float = field(default_factory=time.monotonic)
 
-    def rationals(self, batch: int, progress: Callable[[int, bool], None] | None) -> list[fmpq]:
+    def rationals(self, batch: int) -> list[fmpq]:
         """Gather primes until the rationals predict the residues kept back; save what there is on an interrupt."""
         source = primes()
         first = list(islice(source, CHECKS))
@@ -174,7 +176,7 @@ class _Collection:
             if not self.state.kept:
                 self.state = Gathered(tuple(self._run(first)))
             unused = islice(source, self.state.used, None)
-            while (found := self._enough(progress)) is None:
+            while (found := self._enough()) is None:
                 self.state = reduce(Gathered.with_residues, self._run(islice(unused, batch)), self.state)
                 self._save(every=SAVE_EVERY)
         except KeyboardInterrupt:
@@ -184,12 +186,12 @@ class _Collection:
             self._save(every=0)
         return found
 
-    def _enough(self, progress: Callable[[int, bool], None] | None) -> list[fmpq] | None:
+    def _enough(self) -> list[fmpq] | None:
         if not self.state.used:
             return None
         found = _reconstructed(self.state)
-        if progress is not None:
-            progress(self.state.modulus.bit_length(), found is not None)
+        bits = self.state.modulus.bit_length()
+        self.progress(min(bits / self.expected, 99 / 100) if found is None else 1, f"{bits} bits of modulus")
         return found
 
     def _run(self, batch: Iterable[int]) -> list[Residues]:
@@ -202,17 +204,6 @@ class _Collection:
         if self.path is not None and self.state.used and time.monotonic() - self.last_save >= every:
             write(self.path, self.identity, self.state)
             self.last_save = time.monotonic()
-
-
-def _identity(oscillator: Oscillator, order: int, amplitude: str) -> dict[str, str]:
-    """What a checkpoint must agree on."""
-    natural, cycle = oscillator.normalised(), oscillator.kind == "limit-cycle"
-    return {
-        "oscillator": oscillator.name,
-        "equation": f"u'' + {natural.force if cycle else natural.bound} = 0 in units where k = 1",
-        "order": str(order),
-        "amplitude": amplitude,
-    }
 
 
 def _reconstructed(state: Gathered) -> list[fmpq] | None:

@@ -1,4 +1,4 @@
-"""Checkpoints of a march in balls: exact, versioned, proved whole by a digest, written whole or not at all.
+"""Checkpoints of a recursion in balls: exact, versioned, proved whole by a digest, written whole or not at all.
 
 A text file of one JSON value per line: what is being computed, then the tapes of the products, then the SHA-256 of all
 lines before.  Balls stand as hexadecimal mantissas and decimal exponents, ``mid,exponent,radius,exponent``.
@@ -19,11 +19,11 @@ from ridgeback.common.signed import reading_signed, write_signed
 from ridgeback.symbolic.series.relaxed_product import waiting_orders
 from ridgeback.symbolic.series.spaces import Parts
 
-FORMAT: Final = "ridgeback march in balls"
+FORMAT: Final = "ridgeback recursion in balls"
 VERSION: Final = 1
 _RADIUS_BITS: Final = 30
 SPARE: Final = 40
-"""Bits that a march may drop before its first inexact product (``in_balls.GUARD``)."""
+"""Bits that a recursion may drop before its first inexact product (``in_balls.GUARD``)."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Tape:
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """A march between two orders: its identity, the bits it began with, and the tapes of its products."""
+    """A recursion between two orders: its identity, the bits it began with, and the tapes of its products."""
 
     identity: Mapping[str, str]
     bits: int
@@ -112,8 +112,8 @@ def check_identity(path: Path, found: Mapping[str, str], mine: Mapping[str, str]
 def check_numbers(path: Path, saved: Checkpoint, last: int, least_bits: int) -> None:
     """Hold what a checkpoint claims against its own numbers; a file may be whole and yet not what it says.
 
-    A march to the order ``last - 1`` has between one product and the next a tape of nearly as many values as orders,
-    waiting blocks that are cut at ``last`` and nowhere else, at least the ``least_bits`` that its digits need, and
+    A recursion to the order ``last - 1`` has between one product and the next a tape of nearly as many values as
+    orders, waiting blocks that are cut at ``last`` and nowhere else, at least the ``least_bits`` that its digits need, and
     inexact balls with about the bits that it began with.  Raises InputError.
     """
     claims = {

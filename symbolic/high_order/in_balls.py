@@ -2,8 +2,8 @@ r"""Lindstedt-Poincaré expansions to very high order in ball arithmetic: every 
 
 The orders are those of ``lindstedt`` and ``limit_cycle``, over balls by harmonics (``harmonic_basis``), with the
 products on line in blocks (``relaxed``).  The recurrences lose a fixed number of bits per order (van der Pol: 3.6),
-since radii grow as if all signs conspired.  A short march measures it and sets the precision; if the balls come out
-too wide, the march is repeated with what was missing.  Bits below the radii are dropped on the way.
+since radii grow as if all signs conspired.  A short recursion measures it and sets the precision; if the balls come out
+too wide, the recursion is repeated with what was missing.  Bits below the radii are dropped on the way.
 """
 
 from __future__ import annotations
@@ -20,29 +20,30 @@ from typing import Final
 from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
 from ridgeback.symbolic.expansion.amplitude import check_amplitude
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, log2, missing_bits
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import check_order, first_harmonic
-from ridgeback.symbolic.expansion.limit_cycle import march_cycle
-from ridgeback.symbolic.expansion.lindstedt import DIRECT, march_family
-from ridgeback.symbolic.expansion.recursion import March
+from ridgeback.symbolic.expansion.limit_cycle import cycle_recursion
+from ridgeback.symbolic.expansion.lindstedt import DIRECT, conservative_recursion
+from ridgeback.symbolic.expansion.recursion import Recursion
 from ridgeback.symbolic.high_order import checkpoint as file
 from ridgeback.symbolic.high_order.checkpoint import Checkpoint, Tape
+from ridgeback.symbolic.high_order.numbers_only import identity, require_numbers
 from ridgeback.symbolic.series.harmonic_basis import Balls
 from ridgeback.symbolic.series.relaxed_product import RelaxedProduct, Waiting
 from ridgeback.symbolic.series.spaces import Parts
 from ridgeback.symbolic.series.trigonometric import at_zero
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
-from ridgeback.symbolic.systems.structure import free_names
-
-Progress = Callable[[int, int], None]
 
 GUARD: Final = 40
 """Bits kept below the largest radius of the last order (10 000 instead changed no radius in van der Pol's to 200)."""
+STEEPNESS: Final = 3.5
+"""Power of the order that the time of a recursion follows (``expansion.cost``): the share that is done goes by it."""
 PILOT: Final = 32
-"""Order of the march that measures the loss."""
+"""Order of the recursion that measures the loss."""
 _LOSS: Final = 8
 """Bits per order with which the pilot begins."""
 ATTEMPTS: Final = 4
@@ -58,12 +59,12 @@ def lindstedt_in_balls(
     digits: int = 30,
     amplitude: str = "peak",
     checkpoint: Path | None = None,
-    progress: Progress | None = None,
+    progress: Progress = silent,
     budget: Budget | None = None,
 ) -> BallExpansion:
     """Expand omega0 like ``lindstedt``, with every coefficient in a ball of at least ``digits`` certain digits.
 
-    ``progress`` is told the order about to be found and the last one.  With ``checkpoint`` the march is saved there
+    ``progress`` is told the share that is done and the order about to be found.  With ``checkpoint`` the state is saved there
     every minute, on KeyboardInterrupt and at the end, and goes on from there if the file exists, with the same balls
     bit by bit; the file is the caller's to remove once the result is stored.  Raises InputError as ``lindstedt`` does,
     for symbolic parameters, for a checkpoint that is damaged, belongs to another computation or claims what its numbers
@@ -77,7 +78,7 @@ def lindstedt_in_balls(
     order = check_order(order)
     check_amplitude(oscillator, amplitude, DIRECT)
     _check_digits(digits)
-    _check_numbers(oscillator)
+    require_numbers(oscillator, "balls need")
     check("balls", order, budget or Budget())
     task = Task(oscillator, order, amplitude, digits, progress)
     bits = predicted_bits(task)
@@ -112,7 +113,7 @@ class Task:
     order: int
     amplitude: str
     digits: int
-    progress: Progress | None = None
+    progress: Progress = silent
 
     @property
     def cycle(self) -> bool:
@@ -120,19 +121,15 @@ class Task:
 
     def identity(self) -> dict[str, str]:
         """What a checkpoint must agree on."""
-        natural = self.oscillator.normalised()
         return {
-            "oscillator": self.oscillator.name,
-            "equation": f"u'' + {natural.force if self.cycle else natural.bound} = 0 in units where k = 1",
-            "order": str(self.order),
-            "amplitude": self.amplitude,
+            **identity(self.oscillator, self.order, self.amplitude),
             "precision": f"{self.digits} digits",
         }
 
 
 @dataclass
 class _Run:
-    """One march at one precision: the only thing here that changes while it lasts."""
+    """One recursion at one precision: the only thing here that changes while it lasts."""
 
     task: Task
     bits: int
@@ -145,23 +142,23 @@ class _Run:
 
     def result(self) -> BallExpansion:
         """Run all orders; save what there is on an interrupt."""
-        run = march_cycle if self.task.cycle else march_family
+        run = cycle_recursion if self.task.cycle else conservative_recursion
         with ctx.workprec(self.bits):
             try:
                 space = Balls(self.task.order + 1)
-                march = run(self.task.oscillator, self.task.order, self.task.amplitude, space, watch=self.watch)
+                recursion = run(self.task.oscillator, self.task.order, self.task.amplitude, space, watch=self.watch)
             except KeyboardInterrupt:
                 self.save()
                 raise
         with suppress(OSError):  # the result is there, and worth more than its checkpoint
             self.save()
         with ctx.workprec(self.bits):
-            return _expansion(self.task, self.bits, march)
+            return _expansion(self.task, self.bits, recursion)
 
-    def watch(self, march: March, n: int) -> None:
+    def watch(self, recursion: Recursion, n: int) -> None:
         """Between two orders: replay, remember, save, and drop the bits that are lost."""
         products = [
-            node for node in march.program.nodes.values() if isinstance(node, RelaxedProduct) and not node.plain
+            node for node in recursion.program.nodes.values() if isinstance(node, RelaxedProduct) and not node.plain
         ]
         if not self.begun and self.saved is not None:
             _replay(products, self.saved)
@@ -173,9 +170,8 @@ class _Run:
             if 2.0 * now - self.last_order - self.last_save >= SAVE_EVERY:  # the next order takes as long as this one
                 self.save()
             self.last_order = time.monotonic()
-        if self.task.progress is not None:
-            self.task.progress(n, self.task.order + 1)
-        ctx.prec = min(ctx.prec, _worthwhile(march))
+        self.task.progress((n / (self.task.order + 1)) ** STEEPNESS, f"order {n} of {self.task.order}")
+        ctx.prec = min(ctx.prec, _worthwhile(recursion))
 
     def _checkpoint(self, n: int, marks: list[tuple[RelaxedProduct, int, dict[int, Parts]]]) -> Checkpoint:
         tapes = tuple(Tape(tuple(node.tape[:length]), waiting) for node, length, waiting in marks)
@@ -189,7 +185,7 @@ class _Run:
 
 
 def predicted_bits(task: Task) -> int:
-    """The precision to begin with: the bits lost per order by a short march, times the orders, and the digits.
+    """The precision to begin with: the bits lost per order by a short recursion, times the orders, and the digits.
 
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> 3000 < predicted_bits(Task(find("van-der-pol"), 859, "peak", 30)) < 3500
@@ -199,7 +195,7 @@ def predicted_bits(task: Task) -> int:
     if task.order <= PILOT:
         return _LOSS * task.order + wanted
     bits = _LOSS * PILOT + GUARD
-    pilot = _Run(replace(task, order=PILOT, progress=None), bits, None, None).result()
+    pilot = _Run(replace(task, order=PILOT, progress=silent), bits, None, None).result()
     rates = [
         Fraction(bits - int(c.rel_accuracy_bits()), n)
         for n, c in enumerate(pilot.coefficients)
@@ -210,47 +206,38 @@ def predicted_bits(task: Task) -> int:
 
 
 def _replay(products: list[RelaxedProduct], saved: Checkpoint) -> None:
-    """Hand the tapes to the products of a march that is about to begin."""
+    """Hand the tapes to the products of a recursion that is about to begin."""
     if len(products) != len(saved.tapes):
-        raise InputError(f"the checkpoint has {len(saved.tapes)} products, this march {len(products)}; begin anew")
+        raise InputError(f"the checkpoint has {len(saved.tapes)} products, this recursion {len(products)}; begin anew")
     for node, tape in zip(products, saved.tapes, strict=True):
         node.replayed = list(tape.values)
         node.waiting = Waiting(-1, dict(tape.waiting), dict(tape.waiting))
 
 
-def _worthwhile(march: March) -> int:
+def _worthwhile(recursion: Recursion) -> int:
     """Bits from the largest coefficient of the last order down to ``GUARD`` below its largest radius."""
-    values = [x for p in march.u[-1].parts if p is not None for x in p.coeffs()]
+    values = [x for p in recursion.u[-1].parts if p is not None for x in p.coeffs()]
     sizes = [log2(abs(x).abs_upper()) for x in values if not x.is_zero()]
     radii = [log2(x.rad()) for x in values if not x.is_exact()]
     return max(sizes) - max(radii) + GUARD if radii else int(ctx.prec)
 
 
-def _expansion(task: Task, bits: int, march: March) -> BallExpansion:
+def _expansion(task: Task, bits: int, recursion: Recursion) -> BallExpansion:
     last, read = task.order + 1, at_zero if task.amplitude == "peak" else first_harmonic
     return BallExpansion(
         system=task.oscillator.name,
         variable=str(task.oscillator.small) if task.cycle else "A",
         amplitude=task.amplitude,
         order=task.order,
-        scale=task.oscillator.normalised().scale,
+        scale=task.oscillator.normalised.scale,
         scaled_variable=task.cycle,
         digits=task.digits,
         bits=bits,
-        coefficients=tuple(arb(c) for c in march.omega[:last]),
-        amplitude_coefficients=tuple(arb(read(p)) for p in march.u[:last]) if task.cycle else None,
+        coefficients=tuple(arb(c) for c in recursion.omega[:last]),
+        amplitude_coefficients=tuple(arb(read(p)) for p in recursion.u[:last]) if task.cycle else None,
     )
 
 
 def _check_digits(digits: object) -> None:
     if isinstance(digits, bool) or not isinstance(digits, int) or not 1 <= digits <= MAX_DIGITS:
         raise InputError(f"digits {digits!r} is not a whole number within 1..{MAX_DIGITS}; use e.g. 30")
-
-
-def _check_numbers(oscillator: Oscillator) -> None:
-    natural = oscillator.normalised()
-    force = natural.force if oscillator.kind == "limit-cycle" else natural.rational
-    names = sorted(set(free_names(force)) - {oscillator.small})
-    if names:
-        held = ", ".join(str(natural.constants.get(name, name)) for name in names)
-        raise InputError(f"{oscillator.name}: {held} is no rational number; balls need one for each parameter")

@@ -148,7 +148,7 @@ def nome(oscillator: Oscillator, order: int, *, steps: int = 2) -> NomeForm:
     order = check_order(order)
     if isinstance(steps, bool) or not isinstance(steps, int) or not 0 <= steps <= 6:
         raise InputError(f"steps {steps!r} is not a whole number from 0 to 6; use 2")
-    natural = oscillator.normalised()
+    natural = oscillator.normalised
     means = _pendulum(natural.bound) or _duffing(natural.bound)
     if means is None:
         raise InputError(

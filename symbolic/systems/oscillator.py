@@ -254,11 +254,12 @@ class Oscillator:
                 f"{brief(self.stiffness)} is negative; measure the unknown from a stable equilibrium"
             )
 
+    @cached_property
     def normalised(self) -> Normalised:
-        """The equation in natural units, k = 1; see ``Normalised``.
+        """The equation in natural units, k = 1, worked out once; see ``Normalised``.
 
         >>> own = Oscillator.from_equation("u'' + 2*mu*u' + k**2*sin(u)", parameters={"k": 4, "mu": "0.01"})
-        >>> own.normalised().force, own.normalised().damping
+        >>> own.normalised.force, own.normalised.damping
         (2*mu*u' + sin(u), 1/400)
         """
         k, kept = self.natural_frequency, [name for name in (self.damping, self.small) if name]

@@ -73,7 +73,7 @@ def main():
             raise AssertionError(f"{text!r} prints as {again!r}, which is another tree")
         oscillator = attempt(Oscillator.from_equation, text)
         if oscillator is not None:
-            oscillator.normalised()
+            _ = oscillator.normalised
             if not oscillator.equation_latex.isprintable():
                 raise AssertionError(f"the LaTeX of {text!r} is not one line")
 

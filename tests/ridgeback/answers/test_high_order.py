@@ -44,7 +44,7 @@ def exact(value: Any) -> Fraction:
 
 
 def interrupt_at(monkeypatch: pytest.MonkeyPatch, step: str) -> None:
-    """Ctrl-C, as the terminal sends it, when the march says that it has come to a step."""
+    """Ctrl-C, as the terminal sends it, when the recursion says that it has come to a step."""
 
     class Interrupted(Watch):
         def __call__(self, fraction: float, told: str) -> None:

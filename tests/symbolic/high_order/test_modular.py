@@ -35,14 +35,14 @@ def test_the_natural_frequency_travels_with_the_series() -> None:
 
 @pytest.mark.parametrize("pool", [ProcessPoolExecutor, ThreadPoolExecutor])
 def test_any_executor_serves(pool: type) -> None:
-    told: list[tuple[int, bool]] = []
+    told: list[tuple[float, str]] = []
     with pool(2) as executor:
         series = lindstedt_by_primes(
             find("van-der-pol"), 12, executor=executor, workers=2, progress=lambda *step: told.append(step)
         )
     assert series.frequency == lindstedt(find("van-der-pol"), 12).frequency
-    assert told[-1][1]
-    assert not any(done for _, done in told[:-1])
+    assert told[-1][0] == 1.0
+    assert all(share < 1.0 for share, _ in told[:-1])
 
 
 def test_a_corrupted_residue_is_not_accepted(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -118,8 +118,8 @@ def test_a_forged_claim_is_caught_by_the_numbers(
 ) -> None:
     path, vdp = tmp_path / "state", find("van-der-pol")
 
-    def interrupt(bits: int, _: bool) -> None:
-        if bits > 300:
+    def interrupt(_: float, step: str) -> None:
+        if int(step.split(maxsplit=1)[0]) > 300:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

@@ -42,7 +42,7 @@ RATIONAL = [
 def test_natural_units_only_rescale_time(text, values):
     """u(t) = x(k t): the n-th Taylor coefficient of u is k**n times that of x."""
     own = make(text, parameters=values)
-    natural = own.normalised()
+    natural = own.normalised
     scale, u0, w0 = natural.scale, sympy.Rational(2, 5), sympy.Rational(-3, 4)
     in_time = taylor(own.substituted_force, {U: u0, V: scale * w0}, 4)
     in_natural_time = taylor(natural.bound, {U: u0, V: w0}, 4)
@@ -52,7 +52,7 @@ def test_natural_units_only_rescale_time(text, values):
 
 @pytest.mark.parametrize(("text", "values"), RATIONAL, ids=lambda value: str(value)[:24])
 def test_in_natural_units_the_linear_frequency_is_one(text, values):
-    natural = make(text, parameters=values).normalised()
+    natural = make(text, parameters=values).normalised
     assert natural.force.diff(U).subs({U: 0, V: 0}) == 1
     assert natural.bound.subs({U: 0, V: 0}) == 0
 
@@ -60,7 +60,7 @@ def test_in_natural_units_the_linear_frequency_is_one(text, values):
 def test_the_exact_damped_linear_solution_solves_the_equation_before_and_after_scaling():
     t, tau = sympy.symbols("t tau", real=True)
     own = find("damped-linear").with_parameters({"k": "5", "mu": "3"})
-    natural = own.normalised()
+    natural = own.normalised
     x = sympy.exp(-3 * t) * sympy.cos(4 * t)
     assert sympy.expand(x.diff(t, 2) + own.substituted_force.subs({U: x, V: x.diff(t)}, simultaneous=True)) == 0
     y = x.subs(t, tau / 5)
@@ -73,7 +73,7 @@ def test_the_exact_damped_linear_solution_solves_the_equation_before_and_after_s
 )
 @pytest.mark.parametrize("value", ["12.566370614359172", "1/3", "7"])
 def test_rational_parameters_stay_rational_and_the_small_parameter_stays_a_symbol(system, value):
-    natural = find(system).with_parameters({"k": value}).normalised()
+    natural = find(system).with_parameters({"k": value}).normalised
     assert all(number.is_Rational for number in natural.force.atoms(sympy.Number))
     assert natural.force.free_symbols <= {U, V, mu, eps}
     assert natural.scale == sympy.Rational(value)
@@ -81,18 +81,18 @@ def test_rational_parameters_stay_rational_and_the_small_parameter_stays_a_symbo
 
 def test_an_irrational_natural_frequency_enters_only_through_its_square():
     own = make("u'' + 2*mu*u' + k2*sin(u)", parameters={"k2": 2, "mu": "0.1"})
-    natural = own.normalised()
+    natural = own.normalised
     assert natural.scale == sympy.sqrt(2)
     assert natural.force == sympy.sin(U) + 2 * mu * V
     assert natural.damping == sympy.sqrt(2) / 20
-    cycle = make("u'' - eps*(1 - u'**2/3)*u' + 2*u", parameters={"eps": 1}).normalised()
+    cycle = make("u'' - eps*(1 - u'**2/3)*u' + 2*u", parameters={"eps": 1}).normalised
     assert sympy.expand(cycle.force) == U - eps * V + 2 * eps * V**3 / 3
     assert cycle.small == 1 / sympy.sqrt(2)
 
 
 def test_symbolic_parameters_pass_through_natural_units():
     own = make("u'' + 2*mu*u' + k**2*u + a2*u**2 + a3*u**3")
-    natural = own.normalised()
+    natural = own.normalised
     a2, a3 = sympy.symbols("a2 a3", real=True)
     assert natural.scale == own.natural_frequency == k
     assert natural.force == U + 2 * mu * V + a2 * U**2 / k**2 + a3 * U**3 / k**2

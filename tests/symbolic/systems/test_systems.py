@@ -43,7 +43,7 @@ def test_the_force_is_that_of_the_equation_and_natural_units_are_the_default(sys
     equation = parse_equation(system.equation)
     assert to_sympy(equation.left) - sympy.Symbol("u''", real=True) == system.force
     assert system.natural_frequency == system.stiffness == 1
-    assert system.normalised().bound == system.substituted_force
+    assert system.normalised.bound == system.substituted_force
 
 
 @every

@@ -1,10 +1,10 @@
-"""Marches in balls: every exact coefficient inside its ball, the same balls after an interrupt, no wrong file used."""
+"""Recursions in balls: every exact coefficient inside its ball, the same balls after an interrupt, no wrong file."""
 
 from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -16,12 +16,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress
 from ridgeback.common.signed import write_signed
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, holds, missing_bits
 from ridgeback.symbolic.expansion.cost import Budget, predict
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.high_order import checkpoint as checkpoint_file
-from ridgeback.symbolic.high_order import in_balls as ball_march
+from ridgeback.symbolic.high_order import in_balls as in_balls_module
 from ridgeback.symbolic.high_order.checkpoint import ball_from, ball_text
 from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
 from ridgeback.symbolic.series import harmonic_basis as basis_module
@@ -141,7 +142,7 @@ def test_another_expansion_is_no_reference() -> None:
 
 
 def test_too_few_bits_are_made_up_for(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ball_march, "predicted_bits", lambda _: 90)
+    monkeypatch.setattr(in_balls_module, "predicted_bits", lambda _: 90)
     found = lindstedt_in_balls(find(VDP), 16)
     assert found.bits > 90
     assert missing_bits(found.coefficients, 30) == 0
@@ -150,8 +151,8 @@ def test_too_few_bits_are_made_up_for(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_dropping_bits_on_the_way_costs_no_accuracy(monkeypatch: pytest.MonkeyPatch) -> None:
     lean = lindstedt_in_balls(find(VDP), 36)
-    monkeypatch.setattr(ball_march, "GUARD", 10_000)
-    full = ball_march._Run(ball_march.Task(find(VDP), 36, "peak", 30), lean.bits, None, None).result()
+    monkeypatch.setattr(in_balls_module, "GUARD", 10_000)
+    full = in_balls_module._Run(in_balls_module.Task(find(VDP), 36, "peak", 30), lean.bits, None, None).result()
     assert all(x.rad() <= y.rad() * 1.01 for x, y in zip(lean.coefficients, full.coefficients, strict=True))
 
 
@@ -164,9 +165,9 @@ def test_the_precision_of_the_caller_is_left_alone() -> None:
 # --- interrupt and resume ---
 
 
-def interrupted_at(order: int) -> Callable[[int, int], None]:
-    def progress(n: int, _: int) -> None:
-        if n == order:
+def interrupted_at(order: int) -> Progress:
+    def progress(_: float, step: str) -> None:
+        if step.startswith(f"order {order} of "):
             raise KeyboardInterrupt
 
     return progress
@@ -174,8 +175,8 @@ def interrupted_at(order: int) -> Callable[[int, int], None]:
 
 @pytest.mark.parametrize("name", [VDP, "duffing-softening", "pendulum"])
 @pytest.mark.parametrize("order", [2, 9, 24, 25])
-def test_a_resumed_march_gives_the_same_balls_bit_by_bit(name: str, order: int, tmp_path: Path) -> None:
-    path = tmp_path / "march"
+def test_a_resumed_recursion_gives_the_same_balls_bit_by_bit(name: str, order: int, tmp_path: Path) -> None:
+    path = tmp_path / "recursion"
     with pytest.raises(KeyboardInterrupt):
         lindstedt_in_balls(find(name), 24, checkpoint=path, progress=interrupted_at(order))
     assert checkpoint_file.read(path, {}).order == order
@@ -189,7 +190,7 @@ def test_a_resumed_march_gives_the_same_balls_bit_by_bit(name: str, order: int, 
 def test_an_interrupt_in_the_middle_of_an_order_falls_back_to_its_beginning(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    path, calls = tmp_path / "march", iter(range(10**6))
+    path, calls = tmp_path / "recursion", iter(range(10**6))
 
     def products_until(left: Sequence[Parts], right: Sequence[Parts]) -> list[Parts]:
         if next(calls) == 57:
@@ -205,8 +206,8 @@ def test_an_interrupt_in_the_middle_of_an_order_falls_back_to_its_beginning(
     )
 
 
-def test_a_resumed_march_does_not_repeat_its_products(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path, calls = tmp_path / "march", list[int]()
+def test_a_resumed_recursion_does_not_repeat_its_products(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path, calls = tmp_path / "recursion", list[int]()
 
     def counted(left: Sequence[Parts], right: Sequence[Parts]) -> list[Parts]:
         calls.append(len(left))
@@ -220,17 +221,17 @@ def test_a_resumed_march_does_not_repeat_its_products(tmp_path: Path, monkeypatc
     assert len(calls) - first < first
 
 
-def test_a_march_is_saved_now_and_then(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ball_march, "SAVE_EVERY", 0.0)
+def test_a_recursion_is_saved_now_and_then(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(in_balls_module, "SAVE_EVERY", 0.0)
     seen: list[bool] = []
-    path = tmp_path / "march"
+    path = tmp_path / "recursion"
     lindstedt_in_balls(find(VDP), 6, checkpoint=path, progress=lambda *_: seen.append(path.exists()))
     assert seen == [True] * 7
 
 
 @pytest.fixture
 def saved(tmp_path: Path) -> Path:
-    path = tmp_path / "march"
+    path = tmp_path / "recursion"
     with pytest.raises(KeyboardInterrupt):
         lindstedt_in_balls(find(VDP), 12, checkpoint=path, progress=interrupted_at(8))
     return path
@@ -264,7 +265,7 @@ def test_another_equation_under_the_same_name_is_another_computation(saved: Path
 @given(data=st.data())
 @settings(max_examples=40, deadline=None)
 def test_no_damaged_checkpoint_is_used(data: st.DataObject, tmp_path_factory: pytest.TempPathFactory) -> None:
-    path = tmp_path_factory.mktemp("damage") / "march"
+    path = tmp_path_factory.mktemp("damage") / "recursion"
     with pytest.raises(KeyboardInterrupt):
         lindstedt_in_balls(find(VDP), 4, checkpoint=path, progress=interrupted_at(4))
     text = path.read_bytes()
@@ -304,7 +305,7 @@ def forged(path: Path, **claims: Any) -> None:
 def test_a_forged_claim_is_caught_by_the_numbers(
     name: str, claims: dict[str, Any], order: int, digits: int, what: str, tmp_path: Path
 ) -> None:
-    path = tmp_path / "march"
+    path = tmp_path / "recursion"
     with pytest.raises(KeyboardInterrupt):
         lindstedt_in_balls(find(name), 24, checkpoint=path, progress=interrupted_at(18))
     forged(path, **claims)
@@ -325,13 +326,13 @@ def test_the_pace_of_saving_counts_the_order_that_is_coming(tmp_path: Path, monk
     """Orders of 25 s each on a clock of our own: saved after two of them, since a third would end beyond 60 s."""
     begun = time.monotonic()
     clock, at = [begun], list[float]()
-    monkeypatch.setattr(ball_march.time, "monotonic", lambda: clock[0])
-    monkeypatch.setattr(ball_march.file, "write", lambda *_: at.append(clock[0]))
+    monkeypatch.setattr(in_balls_module.time, "monotonic", lambda: clock[0])
+    monkeypatch.setattr(in_balls_module.file, "write", lambda *_: at.append(clock[0]))
 
-    def order_done(*_: int) -> None:
+    def order_done(*_: object) -> None:
         clock[0] += 25.0
 
-    lindstedt_in_balls(find(VDP), 12, checkpoint=tmp_path / "march", progress=order_done)
+    lindstedt_in_balls(find(VDP), 12, checkpoint=tmp_path / "recursion", progress=order_done)
     assert max(b - a for a, b in pairwise([begun, *at])) < 61.0
     assert len(at) <= 8
 
@@ -461,10 +462,10 @@ def test_cosines_and_sines_in_turn_are_multiplied_as_one(a: list[int], b: list[i
 
 
 def test_blocks_too_large_to_pack_are_cut(monkeypatch: pytest.MonkeyPatch) -> None:
-    whole_march = lindstedt_in_balls(find(VDP), 30)
+    whole = lindstedt_in_balls(find(VDP), 30)
     monkeypatch.setattr(laurent_module, "TILE", 3)
     cut = lindstedt_in_balls(find(VDP), 30)
-    assert all(x.overlaps(y) for x, y in zip(whole_march.coefficients, cut.coefficients, strict=True))
+    assert all(x.overlaps(y) for x, y in zip(whole.coefficients, cut.coefficients, strict=True))
     assert cut.misses(lindstedt(find(VDP), 30)) == []
 
 
