@@ -113,8 +113,8 @@ def check_numbers(path: Path, saved: Checkpoint, last: int, least_bits: int) -> 
     """Hold what a checkpoint claims against its own numbers; a file may be whole and yet not what it says.
 
     A recursion to the order ``last - 1`` has between one product and the next a tape of nearly as many values as
-    orders, waiting blocks that are cut at ``last`` and nowhere else, at least the ``least_bits`` that its digits need, and
-    inexact balls with about the bits that it began with.  Raises InputError.
+    orders, waiting blocks that are cut at ``last`` and nowhere else, at least the ``least_bits`` that its digits need,
+    and inexact balls with about the bits that it began with.  Raises InputError.
     """
     claims = {
         "order": 1 <= saved.order <= last and all(_of_order(tape, saved.order, last) for tape in saved.tapes),
