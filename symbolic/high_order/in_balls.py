@@ -64,11 +64,11 @@ def lindstedt_in_balls(
 ) -> BallExpansion:
     """Expand omega0 like ``lindstedt``, with every coefficient in a ball of at least ``digits`` certain digits.
 
-    ``progress`` is told the share that is done and the order about to be found.  With ``checkpoint`` the state is
-    saved there every minute, on KeyboardInterrupt and at the end, and goes on from there if the file exists, with the same balls
-    bit by bit; the file is the caller's to remove once the result is stored.  Raises InputError as ``lindstedt`` does,
-    for symbolic parameters, for a checkpoint that is damaged, belongs to another computation or claims what its numbers
-    deny, and for balls that stay too wide; OSError for the file.
+    ``progress`` is told the share that is done and the order about to be found.  With ``checkpoint`` the state is saved
+    there every minute, on KeyboardInterrupt and at the end, and goes on from there if the file exists, with the same
+    balls bit by bit; the file is the caller's to remove once the result is stored.  Raises InputError as ``lindstedt``
+    does, for symbolic parameters, for a checkpoint that is damaged, belongs to another computation or claims what its
+    numbers deny, and for balls that stay too wide; OSError for the file.
 
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> lindstedt_in_balls(find("van-der-pol"), 4).coefficients[4].str(20, radius=False)
