@@ -17,8 +17,9 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR, evaluator
 from ridgeback.compare.binding.taylor_jet import force_jet
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.motion.dynamics import Dynamics, agm
+from ridgeback.numeric.motion.dynamics import Dynamics, duffing_frequency, pendulum_frequency
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.elliptic import cubic_force, sine_force
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V, Value
 
 Vectorised = Callable[[ArrayLike], Array]
@@ -86,49 +87,11 @@ def closed_form(restoring: sympy.Expr) -> Vectorised | None:
     >>> round(float(closed_form(9 * sympy.sin(u))(np.pi / 2)), 12)
     2.541639254382
     """
-    inside = _sine_form(restoring)
-    if inside is not None:
-        return _pendulum_frequency(*inside)
-    cubic = _cubic_form(restoring)
-    return None if cubic is None else _duffing_frequency(*cubic)
-
-
-def _sine_form(restoring: sympy.Expr) -> tuple[float, float] | None:
-    """Return (c, b) of c sin(b u) with c b > 0."""
-    factor, rest = restoring.as_independent(U, as_Add=False)
-    if not isinstance(rest, sympy.sin):
-        return None
-    rate = sympy.cancel(rest.args[0] / U)
-    return (float(factor), float(rate)) if rate.is_number and factor * rate > 0 else None
-
-
-def _cubic_form(restoring: sympy.Expr) -> tuple[float, float] | None:
-    """Return (a, b) of a u + b u^3 with a > 0."""
-    if not restoring.is_polynomial(U):
-        return None
-    terms = sympy.Poly(restoring, U).as_dict()
-    if not set(terms) <= {(1,), (3,)} or not terms.get((1,), 0) > 0:
-        return None
-    return float(terms[(1,)]), float(terms.get((3,), 0))
-
-
-# c sin(b u):  omega0 = sqrt(b c) pi / (2 K(sin(b A / 2))) = sqrt(b c) agm(1, cos(b A / 2))
-def _pendulum_frequency(factor: float, rate: float) -> Vectorised:
-    scale = math.sqrt(factor * rate)
-
-    def frequency(peak: ArrayLike) -> Array:
-        half = np.minimum(np.abs(np.asarray(peak, dtype=np.float64) * rate) / 2, math.pi)
-        return np.asarray(scale * agm(1.0, np.cos(half)))
-
-    return frequency
-
-
-# a u + b u^3, u = A sin(phi):  T = 4 int_0^(pi/2) dphi / sqrt(a + b A^2 (1 + sin^2 phi) / 2), hence
-# omega0 = agm(sqrt(a + b A^2 / 2), sqrt(a + b A^2));  b = 0 gives sqrt(a).
-def _duffing_frequency(linear: float, cubic: float) -> Vectorised:
-    def frequency(peak: ArrayLike) -> Array:
-        square = cubic * np.asarray(peak, dtype=np.float64) ** 2
-        inside = np.where(linear + square > 0, square, np.nan)
-        return agm(np.sqrt(linear + inside / 2), np.sqrt(linear + inside))
-
-    return frequency
+    sine, cubic = sine_force(restoring), cubic_force(restoring)
+    if sine is not None:
+        factor, rate = float(sine.factor), float(sine.rate)
+        return lambda peak: pendulum_frequency(peak, scale=math.sqrt(factor * rate), rate=rate)
+    if cubic is not None:
+        linear, cube = float(cubic.linear), float(cubic.cubic)
+        return lambda peak: duffing_frequency(peak, linear=linear, cubic=cube)
+    return None

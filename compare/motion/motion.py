@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import sympy
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
@@ -24,7 +23,8 @@ from ridgeback.numeric.orbits.averaging import AveragedDecay, averaged_decay
 from ridgeback.numeric.orbits.energy import amplitude_from_energy, energy_of
 from ridgeback.numeric.orbits.period import exact_frequency
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
-from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.elliptic import sine_force
+from ridgeback.symbolic.systems.oscillator import Oscillator, V
 
 CYCLES = 40.0
 SAMPLES_PER_CYCLE = 32.0
@@ -48,8 +48,8 @@ class Setting:
     @property
     def is_pendulum(self) -> bool:
         """Whether the paper's own formulas (10)-(14) and (21) apply: restoring force k^2 sin(u)."""
-        restoring = self.oscillator.substituted_force.subs(V, 0)
-        return bool(sympy.expand(restoring / self.oscillator.stiffness - sympy.sin(U)) == 0)
+        sine = sine_force(self.oscillator.substituted_force.subs(V, 0))
+        return sine is not None and bool(sine.rate == 1)
 
     def case(self) -> Case:
         """Return the description that travels with the results."""

@@ -73,6 +73,59 @@ def _multiple(factor: Precise, node: Node) -> Node:
     return node if factor == 1 else Product(PRECISE, Fixed(PRECISE, mp.mpf(factor)), node)
 
 
+def pendulum_frequency(peak: ArrayLike, *, scale: float = 1.0, rate: float = 1.0) -> Array:
+    """Return the frequency of u'' + c sin(b u) = 0: omega0 = sqrt(c b) agm(1, cos(b A/2)) (Gauss).
+
+    Parameters
+    ----------
+    peak
+        Peak amplitudes A.
+    scale
+        sqrt(c b), the frequency of small oscillations, in rad per time unit.
+    rate
+        b, in 1/unit of u.
+
+    Returns
+    -------
+    Array
+        omega0 in rad per time unit, of the shape of ``peak``; NaN from b A = pi on, where nothing oscillates.
+
+    Examples
+    --------
+    >>> pendulum_frequency([0.0, 1.0, 4.0]).round(6).tolist()
+    [1.0, 0.937792, nan]
+    """
+    half = np.minimum(np.abs(np.asarray(peak, dtype=float) * rate) / 2, np.pi)
+    return scale * agm(1.0, np.cos(half))
+
+
+def duffing_frequency(peak: ArrayLike, *, linear: float, cubic: float) -> Array:
+    """Return the frequency of u'' + a u + e u^3 = 0: omega0 = agm(sqrt(a + e A^2), sqrt(a + e A^2/2)).
+
+    With u = A sin phi, T = 4 times the integral of dphi / sqrt(a + e A^2 (1 + sin^2 phi)/2) from 0 to pi/2.
+
+    Parameters
+    ----------
+    peak
+        Peak amplitudes A.
+    linear, cubic
+        a and e.
+
+    Returns
+    -------
+    Array
+        omega0 in rad per time unit, of the shape of ``peak``; NaN where a + e A^2 <= 0.
+
+    Examples
+    --------
+    >>> round(float(duffing_frequency(1.0, linear=1.0, cubic=0.1)), 12)
+    1.036716907075
+    """
+    square = cubic * np.square(np.asarray(peak, dtype=float))
+    inside = np.where(linear + square > 0, square, np.nan)
+    return agm(np.sqrt(linear + inside), np.sqrt(linear + inside / 2))
+
+
 def linear(k: float = 1.0, mu: float = 0.0) -> Dynamics:
     """Return the harmonic oscillator ``u'' + 2 mu u' + k^2 u = 0``, eq. (2) of the paper.
 
@@ -103,7 +156,7 @@ def pendulum(k: float = 1.0, mu: float = 0.0) -> Dynamics:
         damping=float(mu),
         potential=lambda u: 2 * k * k * np.sin(0.5 * np.asarray(u, dtype=float)) ** 2,
         restoring=lambda u: k * k * np.sin(np.asarray(u, dtype=float)),
-        closed_form=lambda A: k * agm(1.0, np.cos(0.5 * np.asarray(A, dtype=float))),
+        closed_form=lambda A: pendulum_frequency(A, scale=k),
         precise_force=lambda u, v: 2 * mp.mpf(mu) * v + mp.mpf(k) ** 2 * mp.sin(u),
         jet=solution_jet(series),
     )
@@ -112,18 +165,12 @@ def pendulum(k: float = 1.0, mu: float = 0.0) -> Dynamics:
 def duffing(k: float = 1.0, eps: float = 1.0, mu: float = 0.0) -> Dynamics:
     """Return Duffing's oscillator ``u'' + 2 mu u' + k^2 u + eps u^3 = 0``; softening for eps < 0.
 
-    omega0(A) = pi sqrt(k^2 + eps A^2) / (2 K(m)), m = eps A^2 / (2 (k^2 + eps A^2)), written by the agm.
-
     >>> round(float(duffing(eps=0.1).closed_form(1.0)), 12)
     1.036716907075
     """
-
-    def closed_form(peak: ArrayLike) -> Array:
-        stiffening = eps * np.square(np.asarray(peak, dtype=float))
-        a, b = k * k + stiffening, k * k + 0.5 * stiffening
-        return agm(np.sqrt(np.where(a > 0, a, np.nan)), np.sqrt(np.where(a > 0, b, np.nan)))
-
-    return polynomial((k * k, 0.0, eps), mu=mu, name="duffing", closed_form=closed_form)
+    return polynomial(
+        (k * k, 0.0, eps), mu=mu, name="duffing", closed_form=lambda A: duffing_frequency(A, linear=k * k, cubic=eps)
+    )
 
 
 def helmholtz_duffing(k: float = 1.0, alpha: float = 0.3, eps: float = 0.1, mu: float = 0.0) -> Dynamics:

@@ -18,7 +18,7 @@ from scipy.interpolate import make_interp_spline
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, frozen
-from ridgeback.numeric.motion.dynamics import Dynamics, agm
+from ridgeback.numeric.motion.dynamics import Dynamics, agm, pendulum_frequency
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
 
 MAX_TERMS = 100_000
@@ -90,7 +90,7 @@ def closed_frequency(peak: ArrayLike, *, k: float) -> Array:
     [3.0]
     """
     modulus(peak)
-    return frozen(k * agm(1.0, np.cos(0.5 * np.atleast_1d(np.asarray(peak, dtype=float)))))
+    return frozen(pendulum_frequency(np.atleast_1d(np.asarray(peak, dtype=float)), scale=k))
 
 
 def phase_of(omega: Callable[[Array], Array], time: ArrayLike, *, tolerance: float = 1e-11) -> Array:

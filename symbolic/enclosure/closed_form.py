@@ -17,14 +17,13 @@ Q(A) = V'(A)/(A - B) and Q(B) = -V'(B)/(A - B).  Duffing: omega0 = M(sqrt(1 + ep
 
 from __future__ import annotations
 
-import sympy
 from flint import arb, fmpq, fmpq_poly
 
 from ridgeback.symbolic.arithmetic.balls import rational
 from ridgeback.symbolic.enclosure.power_law import power_law
 from ridgeback.symbolic.enclosure.turning_points import Orbit
 from ridgeback.symbolic.enclosure.well import Well
-from ridgeback.symbolic.systems.oscillator import U
+from ridgeback.symbolic.systems.elliptic import sine_force
 
 
 def closed_form(well: Well, orbit: Orbit) -> arb | None:
@@ -54,11 +53,9 @@ def pendulum_rate(well: Well) -> fmpq | None:
     >>> pendulum_rate(well_of(find("pendulum")))
     1
     """
-    factor, wave = well.force.as_coeff_Mul(rational=True)
-    if not isinstance(wave, sympy.sin) or well.inertia != 1:
-        return None
-    rate = sympy.cancel(wave.args[0] / U)
-    return rational(rate) if isinstance(rate, sympy.Rational) and rate * factor == 1 else None
+    sine = sine_force(well.force) if well.inertia == 1 else None
+    rational_rate = sine is not None and sine.rate.is_Rational and sine.rate * sine.factor == 1
+    return rational(sine.rate) if sine is not None and rational_rate else None
 
 
 def pendulum(rate: fmpq, peak: arb) -> arb:

@@ -31,7 +31,8 @@ from ridgeback.symbolic.arithmetic.rational_function import Coefficients, as_exp
 from ridgeback.symbolic.expansion.expansion import check_order
 from ridgeback.symbolic.resummation.mapping import padded
 from ridgeback.symbolic.resummation.resummation import Resummation
-from ridgeback.symbolic.systems.oscillator import Oscillator, U
+from ridgeback.symbolic.systems.elliptic import cubic_force, sine_force
+from ridgeback.symbolic.systems.oscillator import Oscillator
 
 
 class Means(Protocol):
@@ -149,7 +150,7 @@ def nome(oscillator: Oscillator, order: int, *, steps: int = 2) -> NomeForm:
     if isinstance(steps, bool) or not isinstance(steps, int) or not 0 <= steps <= 6:
         raise InputError(f"steps {steps!r} is not a whole number from 0 to 6; use 2")
     natural = oscillator.normalised
-    means = _pendulum(natural.bound) or _duffing(natural.bound)
+    means = _means(natural.bound)
     if means is None:
         raise InputError(
             f"{oscillator.name} is neither k^2 sin(c u)/c nor k^2 u + e u^3 with numbers for its parameters, the "
@@ -198,20 +199,11 @@ def _is_square(n: int) -> bool:
     return isqrt(n) ** 2 == n
 
 
-def _pendulum(force: sympy.Expr) -> Means | None:
-    """The means of sin(c u)/c, or None for any other force."""
-    factor, rest = force.as_independent(U, as_Add=False)
-    if not isinstance(rest, sympy.sin):
-        return None
-    c = rest.args[0] / U
-    return PendulumMeans(Fraction(int(c.p), int(c.q))) if c.is_Rational and factor * c == 1 else None
-
-
-def _duffing(force: sympy.Expr) -> Means | None:
-    """The means of u + e u^3, or None for any other force."""
-    if not force.is_polynomial(U):
-        return None
-    terms = sympy.Poly(force, U).as_dict()
-    e = terms.get((3,), sympy.S.Zero)
-    plain = terms.keys() == {(1,), (3,)} and terms[(1,)] == 1 and e.is_Rational
-    return DuffingMeans(Fraction(int(e.p), int(e.q))) if plain else None
+def _means(force: sympy.Expr) -> Means | None:
+    """The means of sin(c u)/c or of u + e u^3 with rational c, e; None for any other force."""
+    sine, cubic = sine_force(force), cubic_force(force)
+    if sine is not None and sine.rate.is_Rational and sine.factor * sine.rate == 1:
+        return PendulumMeans(Fraction(int(sine.rate.p), int(sine.rate.q)))
+    if cubic is not None and cubic.linear == 1 and cubic.cubic.is_Rational and cubic.cubic != 0:
+        return DuffingMeans(Fraction(int(cubic.cubic.p), int(cubic.cubic.q)))
+    return None
