@@ -14,10 +14,11 @@ import sympy
 from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR, evaluator
+from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR
 from ridgeback.compare.binding.taylor_jet import force_jet
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics, duffing_frequency, pendulum_frequency
+from ridgeback.symbolic.arithmetic.closures import evaluator
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.elliptic import cubic_force, sine_force
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V, Value

@@ -9,10 +9,11 @@ import sympy
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
-from ridgeback.compare.binding.closures import ARRAY, SCALAR, evaluator
+from ridgeback.compare.binding.closures import ARRAY, SCALAR
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.model_fit.family import Family, Scalars
 from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.symbolic.arithmetic.closures import evaluator
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 
@@ -25,7 +26,8 @@ def family(oscillator: OscillatorLike, free: Sequence[str]) -> Family:
 
     Raises InputError for unknown names, for none or one twice, and for another parameter that has no number.
 
-    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> from ridgeback.symbolic.arithmetic.closures import evaluator
+    from ridgeback.symbolic.systems.catalogue import find
     >>> pendulum = family(find("pendulum").with_parameters({"k": 2, "mu": "0.1"}), ("k", "mu"))
     >>> pendulum.start.tolist(), pendulum.force(0.0, 1.0, (2.0, 0.1)), pendulum.partials(0.0, 1.0, (2.0, 0.1))
     ([2.0, 0.1], 0.2, (4.0, 0.2, 0.0, 2.0))

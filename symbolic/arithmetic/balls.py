@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, Final
 
 import sympy
-from flint import arb, ctx, fmpq
+from flint import arb, arb_poly, ctx, fmpq
 
 from ridgeback.common.errors import InputError
 
 _GUARD_BITS: Final = 64
+
+MEROMORPHIC: Final = ("sin", "cos", "tan", "cot", "sinh", "cosh", "tanh", "coth", "exp")
+REAL_FUNCTIONS: Final[dict[str, Callable[[arb], arb]]] = {
+    name: getattr(arb, name) for name in (*MEROMORPHIC, "log", "asin", "acos", "atan", "asinh", "atanh")
+}
+"""The functions that SymPy may form of those that can be written, by name, on real balls."""
 
 
 def rational(value: Fraction | sympy.Rational) -> fmpq:
@@ -54,6 +60,29 @@ def whole_power(x: arb, n: int) -> arb:
     for _ in range(n):
         result = result * x
     return result
+
+
+def polynomial_at(coefficients: Sequence[fmpq], x: arb) -> arb:
+    """Return the value of a polynomial with exact coefficients on a ball.
+
+    Parameters
+    ----------
+    coefficients
+        c_0, c_1, ...
+    x
+        The argument.
+
+    Returns
+    -------
+    arb
+        A ball that contains the value at each point of ``x``.
+
+    Examples
+    --------
+    >>> polynomial_at((fmpq(1), fmpq(1, 2)), arb(2))
+    2.00000000000000
+    """
+    return arb_poly(list(coefficients))(x)
 
 
 def natural_frequency(scale: sympy.Expr) -> arb:

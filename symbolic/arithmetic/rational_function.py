@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import sympy
-from flint import acb, arb, arb_poly, fmpq, fmpq_poly
+from flint import acb, arb, fmpq, fmpq_poly
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.rendering import as_sympy
@@ -43,15 +43,6 @@ def approximant(series: Sequence[fmpq], m: int, n: int) -> tuple[Coefficients, C
 
 def _divided(p: fmpq_poly, by: fmpq) -> Coefficients:
     return tuple(c / by for c in p.coeffs()) or (fmpq(0),)
-
-
-def at(coefficients: Coefficients, x: arb) -> arb:
-    """Evaluate a polynomial at a ball.
-
-    >>> at((fmpq(1), fmpq(1, 2)), arb(2))
-    2.00000000000000
-    """
-    return arb_poly(list(coefficients))(x)
 
 
 def zeros(coefficients: Coefficients) -> list[acb]:

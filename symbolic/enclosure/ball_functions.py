@@ -7,15 +7,13 @@ ball touches a branch cut or a pole, so that a finite answer proves the expressi
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import reduce
 from typing import Any, Final, TypeAlias
 
 import sympy
 from flint import acb, arb, ctx
 
-from ridgeback.common.errors import InputError
-from ridgeback.symbolic.arithmetic.balls import rational
-from ridgeback.symbolic.grammar.at_origin import brief
+from ridgeback.symbolic.arithmetic.balls import MEROMORPHIC, REAL_FUNCTIONS, rational
+from ridgeback.symbolic.arithmetic.closures import Evaluator, Library, evaluator
 from ridgeback.symbolic.grammar.parse import U
 
 Ball: TypeAlias = Any
@@ -49,12 +47,8 @@ def _complex_asin(z: acb) -> acb:
     return _complex_asinh(z * acb(0, 1)) * acb(0, -1)
 
 
-_MEROMORPHIC: Final = ("sin", "cos", "tan", "cot", "sinh", "cosh", "tanh", "coth", "exp")
-_REAL: Final[dict[str, Function]] = {
-    name: getattr(arb, name) for name in (*_MEROMORPHIC, "log", "asin", "atan", "asinh", "atanh")
-}
 _COMPLEX: Final[dict[str, Function]] = {
-    **{name: getattr(acb, name) for name in _MEROMORPHIC},
+    **{name: getattr(acb, name) for name in MEROMORPHIC},
     "log": _complex_log,
     "asin": _complex_asin,
     "atan": _complex_atan,
@@ -87,60 +81,55 @@ def number(expression: sympy.Expr) -> arb:
 
 
 def _compiled(e: sympy.Expr, complex_: bool) -> Function:
-    if e == U:
-        return acb if complex_ else arb  # FLINT's unbound methods do not check the type that they are called with
-    if isinstance(e, sympy.Symbol):
-        raise InputError(f"the parameter {e} has no value, and a ball needs numbers; give it one, e.g. --set {e}=1")
+    kind, values = (acb, evaluator(e, (U,), COMPLEX)) if complex_ else (arb, evaluator(e, (U,), REAL))
+    return lambda x: values((kind(x),))  # FLINT's unbound methods do not check the type that they are called with
+
+
+def _is_leaf(e: sympy.Expr) -> bool:
+    return isinstance(e, sympy.Rational) or e in (sympy.pi, sympy.E)
+
+
+def _leaf(e: sympy.Expr) -> arb:
     if isinstance(e, sympy.Rational):
-        return _constant(arb(rational(e)), complex_)
-    if e in (sympy.pi, sympy.E):
-        return _constant(arb.pi() if e == sympy.pi else arb(1).exp(), complex_)
-    if isinstance(e, sympy.Pow):
-        return _power(e, complex_)
-    parts = [_compiled(argument, complex_) for argument in e.args]
-    if isinstance(e, sympy.Add):
-        return reduce(_sum, parts)
-    if isinstance(e, sympy.Mul):
-        return reduce(_product, parts)
-    return _function(e, parts, complex_)
+        return arb(rational(e))
+    return arb.pi() if e == sympy.pi else arb(1).exp()
 
 
-def _constant(value: arb, complex_: bool) -> Function:
-    typed = acb(value) if complex_ else value
-    return lambda _: typed
+def _real_constant(e: sympy.Expr) -> Evaluator:
+    value = _leaf(e)
+    return lambda _: value
 
 
-def _sum(f: Function, g: Function) -> Function:
-    return lambda x: f(x) + g(x)
+def _complex_constant(e: sympy.Expr) -> Evaluator:
+    value = acb(_leaf(e))
+    return lambda _: value
 
 
-def _product(f: Function, g: Function) -> Function:
-    return lambda x: f(x) * g(x)
+def _real_power(inner: Evaluator, exponent: sympy.Rational) -> Evaluator:
+    return _power(inner, exponent, arb.sqrt, arb.log)
 
 
-def _function(e: sympy.Expr, parts: list[Function], complex_: bool) -> Function:
-    known = (_COMPLEX if complex_ else _REAL).get(type(e).__name__)
-    if known is None or len(parts) != 1:
-        raise InputError(f"{brief(e)} has no rule in ball arithmetic; known functions: {', '.join(sorted(_REAL))}")
-    function, inner = known, parts[0]
-    return lambda x: function(inner(x))
+def _complex_power(inner: Evaluator, exponent: sympy.Rational) -> Evaluator:
+    return _power(inner, exponent, _complex_sqrt, _complex_log)
 
 
-def _power(e: sympy.Pow, complex_: bool) -> Function:
-    base, exponent = e.args
-    if not isinstance(exponent, sympy.Rational):
-        raise InputError(f"the power {brief(e)} has no rational exponent; write it with exp and log")
-    inner = _compiled(base, complex_)
+def _power(inner: Evaluator, exponent: sympy.Rational, root: Function, log: Function) -> Evaluator:
+    """Half-integer powers by the root, others by exp(r log y); each is analytic off the negative axis."""
     if isinstance(exponent, sympy.Integer):
         return _whole_power(inner, int(exponent))
-    return _root_power(inner, exponent, complex_)
+    if exponent.q == 2:
+        return _whole_power(lambda x: root(inner(x)), int(exponent.p))
+    ratio = arb(rational(exponent))
+    return lambda x: (ratio * log(inner(x))).exp()
 
 
-def _whole_power(inner: Function, exponent: int) -> Function:
+def _whole_power(inner: Evaluator, exponent: int) -> Evaluator:
+    if exponent == 1:
+        return inner
     if exponent == 2:
         return lambda x: _squared(inner(x))
     if exponent < 0:
-        positive = inner if exponent == -1 else _whole_power(inner, -exponent)
+        positive = _whole_power(inner, -exponent)
         return lambda x: 1 / positive(x)
     return lambda x: _raised(inner(x), exponent)
 
@@ -158,11 +147,6 @@ def _squared(y: Ball) -> Ball:
     return (y * y).nonnegative_part() if isinstance(y, arb) and y.contains(0) else y * y
 
 
-def _root_power(inner: Function, exponent: sympy.Rational, complex_: bool) -> Function:
-    """Half-integer powers by the root, others by exp(r log y); each is analytic off the negative axis."""
-    if exponent.q == 2:
-        root: Function = _complex_sqrt if complex_ else arb.sqrt
-        rooted: Function = lambda x: root(inner(x))  # noqa: E731 - a closure, like its neighbours
-        return rooted if exponent.p == 1 else _whole_power(rooted, int(exponent.p))
-    log, ratio = (_complex_log if complex_ else arb.log), arb(rational(exponent))
-    return lambda x: (ratio * log(inner(x))).exp()
+REAL: Final = Library("balls", REAL_FUNCTIONS, _is_leaf, _real_constant, _real_power)
+COMPLEX: Final = Library("complex balls", _COMPLEX, _is_leaf, _complex_constant, _complex_power)
+"""The constants of both are held to the working precision at which the closure is made."""

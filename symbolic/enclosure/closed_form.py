@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from flint import arb, fmpq, fmpq_poly
 
-from ridgeback.symbolic.arithmetic.balls import rational
+from ridgeback.symbolic.arithmetic.balls import polynomial_at, rational
 from ridgeback.symbolic.enclosure.power_law import power_law
 from ridgeback.symbolic.enclosure.turning_points import Orbit
 from ridgeback.symbolic.enclosure.well import Well
@@ -70,20 +70,8 @@ def pendulum(rate: fmpq, peak: arb) -> arb:
 def quartic(potential: fmpq_poly, orbit: Orbit) -> arb:
     """The formula for potentials of degree at most four, between certified turning points."""
     force, width = potential.derivative(), orbit.peak - orbit.trough
-    at_peak = (evaluated(force, orbit.peak) / width).sqrt()
-    at_trough = (-evaluated(force, orbit.trough) / width).sqrt()
+    at_peak = (polynomial_at(force.coeffs(), orbit.peak) / width).sqrt()
+    at_trough = (-polynomial_at(force.coeffs(), orbit.trough) / width).sqrt()
     leading = arb(potential[4])
     inner = (at_peak + at_trough) ** 2 - leading * width**2
     return arb(2).sqrt() * (at_peak * at_trough).sqrt().agm(inner.sqrt() / 2)
-
-
-def evaluated(polynomial: fmpq_poly, u: arb) -> arb:
-    """A polynomial on a ball, by Horner's rule.
-
-    >>> evaluated(fmpq_poly([1, 2]), arb(3)) == 7
-    True
-    """
-    total = arb(0)
-    for coefficient in reversed(polynomial.coeffs()):
-        total = total * u + coefficient
-    return total

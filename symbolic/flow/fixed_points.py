@@ -24,7 +24,7 @@ from flint import arb, ctx, fmpq, fmpq_poly
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
-from ridgeback.symbolic.arithmetic.balls import rational, whole_power
+from ridgeback.symbolic.arithmetic.balls import polynomial_at, rational, whole_power
 from ridgeback.symbolic.enclosure.turning_points import real_roots
 from ridgeback.symbolic.expansion.ball_expansion import ball_row
 from ridgeback.symbolic.flow.reach import Reach, reach_of
@@ -119,7 +119,7 @@ def fixed_points(
 def _point(
     s: arb, delta: fmpq_poly, omega: list[sympy.Expr], branches: tuple[tuple[arb, Series], ...], reach: Reach
 ) -> FixedPoint:
-    slope = 2 * s * _at(delta.derivative(), s)
+    slope = 2 * s * polynomial_at(delta.derivative().coeffs(), s)
     frequency = sum((_ball(c) * whole_power(s, n) for n, c in enumerate(omega)), arb(0))
     stable = None if slope.contains(0) or reach.beyond else bool(slope < 0)
     series = [found for place, found in branches if place.overlaps(s)]
@@ -161,13 +161,6 @@ def _ball(value: sympy.Expr) -> arb:
         raise InputError(f"the coefficient {value} of phi' has no number; set its parameters")
     root = arb(rational(square)).sqrt()
     return root if value.is_positive else -root
-
-
-def _at(polynomial: fmpq_poly, s: arb) -> arb:
-    total = arb(0)
-    for c in reversed(polynomial.coeffs()):
-        total = total * s + c
-    return total
 
 
 def _branches(flow: SlowFlow, m: fmpq) -> Iterator[tuple[arb, Series]]:

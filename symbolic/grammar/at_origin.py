@@ -1,4 +1,4 @@
-"""The worth of an expression at the origin, in ball arithmetic: whether it is analytic there, and its sign.
+"""The value of an expression at the origin, in ball arithmetic: whether it is analytic there, and its sign.
 
 Every node is visited with u = u' = u'' = 0 and the parameters at their values.  Balls decide signs rigorously and
 never hang on towers such as exp(exp(exp(100))), which SymPy would try to evaluate.
@@ -6,13 +6,14 @@ never hang on towers such as exp(exp(exp(100))), which SymPy would try to evalua
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Final
 
 import sympy
-from flint import arb, ctx, fmpq
+from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.balls import REAL_FUNCTIONS, rational
 
 PRECISION: Final = 160
 MAX_MAGNITUDE: Final = 10_000
@@ -20,24 +21,6 @@ MAX_MAGNITUDE: Final = 10_000
 
 Values = Mapping[str, "sympy.Rational | None"]
 
-# The functions SymPy may form from the ones that can be written, each with its real ball version.
-_BALLS: Final[dict[type, Callable[[arb], arb]]] = {
-    sympy.sin: arb.sin,
-    sympy.cos: arb.cos,
-    sympy.tan: arb.tan,
-    sympy.cot: arb.cot,
-    sympy.sinh: arb.sinh,
-    sympy.cosh: arb.cosh,
-    sympy.tanh: arb.tanh,
-    sympy.coth: arb.coth,
-    sympy.exp: arb.exp,
-    sympy.log: arb.log,
-    sympy.asin: arb.asin,
-    sympy.acos: arb.acos,
-    sympy.atan: arb.atan,
-    sympy.asinh: arb.asinh,
-    sympy.atanh: arb.atanh,
-}
 _UNKNOWNS: Final = ("u", "u'", "u''")
 
 
@@ -71,7 +54,7 @@ def sign_at_origin(expression: sympy.Expr, values: Values) -> int | None:
 
 def _ball(expression: sympy.Expr, values: Values) -> arb | None:
     if isinstance(expression, sympy.Rational):
-        return arb(fmpq(int(expression.p), int(expression.q)))
+        return arb(rational(expression))
     if isinstance(expression, sympy.Symbol):
         return _symbol(expression, values)
     if expression in (sympy.pi, sympy.E):
@@ -89,7 +72,7 @@ def _symbol(symbol: sympy.Symbol, values: Values) -> arb | None:
     if symbol.name in _UNKNOWNS:
         return arb(0)
     value = values.get(symbol.name)
-    return None if value is None else arb(fmpq(int(value.p), int(value.q)))
+    return None if value is None else arb(rational(value))
 
 
 def _combined(expression: sympy.Expr, known: list[arb]) -> arb:
@@ -102,7 +85,7 @@ def _combined(expression: sympy.Expr, known: list[arb]) -> arb:
         return product
     if isinstance(expression, sympy.Pow):
         return _power(known[0], expression)
-    function = _BALLS.get(expression.func)
+    function = REAL_FUNCTIONS.get(type(expression).__name__)
     if function is None:
         raise InputError(f"{brief(expression)} is not a real function analytic at the origin; rewrite that term")
     if not known[0].abs_upper() <= MAX_MAGNITUDE:
@@ -122,7 +105,7 @@ def _power(base: arb, expression: sympy.Pow) -> arb:
         raise InputError(f"{brief(expression)} is not analytic at the origin (its base vanishes); rewrite that term")
     if not whole and not base > 0:
         raise InputError(f"{brief(expression)} is not real at the origin (its base is negative); rewrite that term")
-    return base ** (int(exponent) if whole else arb(fmpq(int(exponent.p), int(exponent.q))))
+    return base ** (int(exponent) if whole else arb(rational(exponent)))
 
 
 def _checked(ball: arb, expression: sympy.Expr) -> arb:

@@ -26,8 +26,8 @@ from flint import arb, fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
-from ridgeback.symbolic.arithmetic.balls import ball, whole_power
-from ridgeback.symbolic.arithmetic.rational_function import Coefficients, as_expression, at
+from ridgeback.symbolic.arithmetic.balls import ball, polynomial_at, whole_power
+from ridgeback.symbolic.arithmetic.rational_function import Coefficients, as_expression
 from ridgeback.symbolic.expansion.expansion import check_order
 from ridgeback.symbolic.resummation.mapping import padded
 from ridgeback.symbolic.resummation.resummation import Resummation
@@ -104,7 +104,7 @@ class NomeForm(Resummation):
         for _ in range(self.steps):
             m = whole_power((a - b) / (a + b), 2)  # DLMF 19.8.12, k_1 = (1 - k')/(1 + k'): no cancellation
             a, b = (a + b) / 2, (a * b).sqrt()
-        return a / whole_power(at(self._theta_3, at(self.nome_series, m / 16)), 2)
+        return a / whole_power(polynomial_at(self._theta_3, polynomial_at(self.nome_series, m / 16)), 2)
 
     def formula(self, x: sympy.Expr) -> sympy.Expr:
         a, b = self.means.expressions(x)

@@ -19,12 +19,11 @@ from flint import arb
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
-from ridgeback.symbolic.arithmetic.balls import ball, natural_frequency, whole_power
+from ridgeback.symbolic.arithmetic.balls import ball, natural_frequency, polynomial_at, whole_power
 from ridgeback.symbolic.arithmetic.rational_function import (
     Coefficients,
     approximant,
     as_expression,
-    at,
     first_positive_zero,
 )
 from ridgeback.symbolic.expansion.expansion import Expansion
@@ -57,10 +56,10 @@ class RationalForm(Resummation):
 
     def normalised(self, x: arb) -> arb:
         w = self.mapping.image(whole_power(x, self.step))
-        result = at(self.numerator, w) / at(self.denominator, w)
+        result = polynomial_at(self.numerator, w) / polynomial_at(self.denominator, w)
         if self.growth == 0:
             return result
-        vanishing = at(tuple(padded(self.mapping.vanishing, 3)), w)
+        vanishing = polynomial_at(tuple(padded(self.mapping.vanishing, 3)), w)
         return result * vanishing ** ball(-self.growth / self.mapping.rate)
 
     def formula(self, x: sympy.Expr) -> sympy.Expr:

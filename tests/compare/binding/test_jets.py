@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.number_ring import FLOATS
-from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR, evaluator
+from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR
 from ridgeback.compare.binding.taylor_jet import RING, force_jet
+from ridgeback.symbolic.arithmetic.closures import evaluator
 from ridgeback.symbolic.series.program import Program
 from ridgeback.symbolic.systems.oscillator import U, V
 
@@ -128,4 +129,4 @@ def test_what_cannot_be_expanded_is_named():
     with pytest.raises(InputError, match="not analytic"):
         composed(1 / U, [mpmath.mpf(0), mpmath.mpf(1)])
     with pytest.raises(InputError, match="give the parameter a number"):
-        evaluator(U + sympy.Symbol("q"), (U,))
+        evaluator(U + sympy.Symbol("q"), (U,), SCALAR)
