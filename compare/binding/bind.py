@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 
 import numpy as np
 import sympy
@@ -38,7 +39,12 @@ def bind(oscillator: OscillatorLike, *, values: Mapping[str, Value] | None = Non
     (2.0, 0.0)
     """
     oscillator = as_oscillator(oscillator)
-    bound = oscillator.with_parameters(values) if values else oscillator
+    return _bound(oscillator.with_parameters(values) if values else oscillator)
+
+
+@lru_cache(maxsize=16)
+def _bound(bound: Oscillator) -> Dynamics:
+    """The functions of one oscillator, which a report asks for several times."""
     _check_numbers(bound)
     force, potential = bound.substituted_force, bound.substituted_potential
     scalar, precise = evaluator(force, (U, V), SCALAR), evaluator(force, (U, V), PRECISE)

@@ -26,8 +26,7 @@ def family(oscillator: OscillatorLike, free: Sequence[str]) -> Family:
 
     Raises InputError for unknown names, for none or one twice, and for another parameter that has no number.
 
-    >>> from ridgeback.symbolic.arithmetic.closures import evaluator
-    from ridgeback.symbolic.systems.catalogue import find
+    >>> from ridgeback.symbolic.systems.catalogue import find
     >>> pendulum = family(find("pendulum").with_parameters({"k": 2, "mu": "0.1"}), ("k", "mu"))
     >>> pendulum.start.tolist(), pendulum.force(0.0, 1.0, (2.0, 0.1)), pendulum.partials(0.0, 1.0, (2.0, 0.1))
     ([2.0, 0.1], 0.2, (4.0, 0.2, 0.0, 2.0))

@@ -42,7 +42,7 @@ from ridgeback.symbolic.grammar.nodes import (
     Unknown,
     to_text,
 )
-from ridgeback.symbolic.grammar.parse import U, V, W, parse_equation, parse_expression, to_sympy
+from ridgeback.symbolic.grammar.parse import Equation, U, V, W, parse_equation, parse_expression, to_sympy
 from ridgeback.symbolic.systems.oscillator import NoLinearForceError, Oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
@@ -67,16 +67,16 @@ def from_text(
     if not value.is_number:
         raise InputError(f"about {about!r} is not a number; use e.g. 1, 1/2, sqrt(2) or pi")
     if value == 0:
-        return Oscillator.from_equation(equation, parameters=parameters, **details)
+        return Oscillator.from_tree(tree, parameters=parameters, **details)
     if "potential" in details:
         raise InputError(f"a potential cannot be given together with about = {about}; leave it out")
     moved_tree = _moved(tree.left, place)
     rest = sympy.expand(to_sympy(moved_tree).subs({U: 0, V: 0, W: 0}))
     if rest.is_number and rest != 0:
         raise InputError(f"about {about} is not an equilibrium: the equation leaves {rest} there and not 0")
-    moved = to_text(moved_tree, unknown=tree.unknown) + " = 0"
+    moved = Equation(tree.unknown, moved_tree, to_text(moved_tree, unknown=tree.unknown) + " = 0")
     try:
-        return Oscillator.from_equation(moved, parameters=parameters, **details)
+        return Oscillator.from_tree(moved, parameters=parameters, **details)
     except NoLinearForceError as reason:
         raise NoLinearForceError(f"about {about}: {reason}", reason.oscillator) from None
     except InputError as reason:

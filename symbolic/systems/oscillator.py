@@ -16,7 +16,7 @@ import sympy
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.grammar.at_origin import brief, sign_at_origin, value_at_origin
-from ridgeback.symbolic.grammar.parse import U, V, W, names, parse_equation, parse_expression, to_sympy
+from ridgeback.symbolic.grammar.parse import Equation, U, V, W, names, parse_equation, parse_expression, to_sympy
 from ridgeback.symbolic.systems.equation_latex import equation_latex
 from ridgeback.symbolic.systems.irrational import named
 from ridgeback.symbolic.systems.parameters import Parameters, Value, merged
@@ -137,7 +137,19 @@ class Oscillator:
         >>> own.force, own.damping, own.potential
         (c*u' + 4*sin(u), None, 4 - 4*cos(u))
         """
-        equation = parse_equation(text)
+        return cls.from_tree(parse_equation(text), name=name, parameters=parameters, potential=potential, **about)
+
+    @classmethod
+    def from_tree(
+        cls,
+        equation: Equation,
+        *,
+        name: str = "equation",
+        parameters: Mapping[str, Value] | None = None,
+        potential: str | None = None,
+        **about: Any,
+    ) -> Oscillator:
+        """Make an oscillator of an equation that has been read already; see ``from_equation``."""
         values = merged(name, dict.fromkeys(names(equation.left)), parameters or {})
         left = to_sympy(equation.left)
         value_at_origin(left, values)  # before SymPy is asked for any value there, which it may never finish
@@ -147,7 +159,7 @@ class Oscillator:
         about.setdefault("symbol", sympy.latex(sympy.Symbol(equation.unknown)))
         return cls(
             name=name,
-            equation=text,
+            equation=equation.text,
             force=force,
             parameters=values,
             defaults=values,
