@@ -7,20 +7,19 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.errors import InputError as NumericError
-from ridgeback.common.numbers import scientific
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.binding.heyoka import integrate_heyoka
 from ridgeback.compare.motion.error_budget import budget
 from ridgeback.compare.motion.error_norms import failure, score
-from ridgeback.compare.motion.estimate_curves import Outcome, estimates
+from ridgeback.compare.motion.estimate_curves import WIGNER, Outcome, estimates
 from ridgeback.compare.motion.model_curves import LOW_ORDERS, model_curves
 from ridgeback.compare.motion.motion import CHECKED, Motion, Setting, integrate_motion
 from ridgeback.compare.motion.overtones import Overtones, overtones
 from ridgeback.compare.motion.paper_statements import Evidence, statements
 from ridgeback.compare.motion.planes import spectrogram_image, wigner_image
-from ridgeback.compare.motion.reconstruction import reconstruct
-from ridgeback.compare.motion.results import Amplitudes, BudgetRow, Curve, DecayComparison, Image, Score
+from ridgeback.compare.motion.reconstruction import known_motion, reconstruct
+from ridgeback.compare.motion.results import Amplitudes, BudgetRow, Curve, DecayComparison, Image, Integrator, Score
+from ridgeback.compare.motion.wigner_bias import wigner_bias
 from ridgeback.compare.study.derivation import Exact, derive
 
 HIGH_ORDER = 20
@@ -76,7 +75,9 @@ def assemble(
     curves = (*models, *(o.curve for o in outcomes if o.curve is not None))
     scores = _scores(motion, models, outcomes)
     made = reconstruct(motion)
-    evidence = Evidence(motion, {c.name: c for c in curves}, {s.method: s for s in scores}, made, tones)
+    known = known_motion(motion)
+    bias = None if known is None else wigner_bias(motion, _named(curves, WIGNER), known)
+    evidence = Evidence(motion, {c.name: c for c in curves}, {s.method: s for s in scores}, made, tones, bias)
     in_u, in_velocity, plane = _images(motion, curves)
     return DecayComparison(
         case=motion.setting.case(),
@@ -84,9 +85,9 @@ def assemble(
         u=motion.trajectory.u,
         velocity=motion.trajectory.velocity,
         integrators=_integrators(motion),
-        disagreement=motion.disagreement,
         amplitudes=_amplitudes(motion),
         reference=motion.reference_curve(),
+        frequency_ends=(float(motion.known_omega[0]), float(motion.known_omega[-1])),
         interior=(motion.zone.lower, motion.zone.upper),
         curves=curves,
         scores=scores,
@@ -97,7 +98,12 @@ def assemble(
         wigner_u=plane,
         harmonics=tones.curves,
         statements=statements(evidence),
+        wigner_bias=bias,
     )
+
+
+def _named(curves: Iterable[Curve], name: str) -> Curve | None:
+    return next((curve for curve in curves if curve.name == name), None)
 
 
 def _scores(motion: Motion, models: tuple[Curve, ...], outcomes: tuple[Outcome, ...]) -> tuple[Score, ...]:
@@ -111,22 +117,22 @@ def _scores(motion: Motion, models: tuple[Curve, ...], outcomes: tuple[Outcome, 
     return tuple(scores)
 
 
-def _integrators(motion: Motion) -> tuple[str, ...]:
+def _integrators(motion: Motion) -> tuple[Integrator, ...]:
     run = motion.trajectory
-    first = f"{run.method}, rtol {run.rtol:g}, {run.evaluations} evaluations"
-    return first, motion.precise.method, *_third(motion)
+    first = Integrator(run.method, run.rtol, run.evaluations)
+    return first, Integrator(motion.precise.method, difference=motion.disagreement), *_third(motion)
 
 
-def _third(motion: Motion) -> tuple[str, ...]:
+def _third(motion: Motion) -> tuple[Integrator, ...]:
     """heyoka's solution beside the Taylor one, where that library is installed and takes the force."""
     case = motion.setting
     try:
         run = integrate_heyoka(case.oscillator, case.initial, duration=case.duration, rate=case.rate / CHECKED)
-    except (OSError, InputError, NumericError):
+    except (OSError, InputError):
         return ()
     shared = min(run.u.size, motion.precise.u.size)
     apart = float(np.abs(run.u[:shared] - motion.precise.u[:shared]).max())
-    return (f"{run.method} differs from the Taylor solution by at most {scientific(apart)}",)
+    return (Integrator(run.method, difference=apart),)
 
 
 def _amplitudes(motion: Motion) -> Amplitudes:
@@ -148,7 +154,7 @@ def _images(motion: Motion, curves: tuple[Curve, ...]) -> tuple[Image, Image, Im
     run = motion.trajectory
     fastest, slowest = float(motion.known_omega.max()), float(motion.known_omega.min())
     top, period = TOP_MULTIPLE * fastest, 2 * np.pi / slowest
-    overlay, unit = tuple(c for c in curves if c.name == "wigner"), motion.setting.time_unit
+    wigner, unit = _named(curves, WIGNER), motion.setting.time_unit
     return (
         spectrogram_image(run.u, run.rate, period=period, top=top, name="Spectrogram of u", unit=unit),
         spectrogram_image(run.velocity, run.rate, period=period, top=top, name="Spectrogram of u'", unit=unit),
@@ -157,7 +163,7 @@ def _images(motion: Motion, curves: tuple[Curve, ...]) -> tuple[Image, Image, Im
             run.rate,
             top=3.4 * fastest,
             name="Wigner distribution of u",
-            overlays=(motion.reference_curve(), *overlay),
+            overlays=(motion.reference_curve(), *(() if wigner is None else (wigner,))),
             note="Between two components lies their cross term, which oscillates along time.",
         ),
     )

@@ -18,7 +18,7 @@ from ridgeback.compare.motion.error_norms import relative_error, rms
 from ridgeback.compare.motion.estimate_curves import Outcome, attempt
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.reconstruction import KnownMotion, known_motion
-from ridgeback.compare.motion.results import BudgetRow, Curve
+from ridgeback.compare.motion.results import AmplitudeSource, BudgetRow, Curve
 from ridgeback.numeric.arrays import Array
 
 
@@ -77,7 +77,7 @@ def _exact_for(motion: Motion, curve: Curve) -> Array:
     """Return the exact frequency at the amplitude that this curve was evaluated at."""
     if not motion.has_backbone:
         return np.full(curve.time.size, float(motion.known_omega[-1]))
-    if motion.averaged is not None and curve.name.startswith(("averaged-action", "multiple-scales")):
+    if motion.averaged is not None and curve.amplitude is AmplitudeSource.AVERAGED:
         return motion.averaged.omega[: curve.time.size]
     return motion.exact_at_energy[: curve.time.size]
 

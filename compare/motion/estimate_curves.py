@@ -32,12 +32,15 @@ class Recipe:
         return self if options.get("remove_bias") else replace(self, options={**options, "bias": False})
 
 
+WIGNER, WIGNER_OF_VELOCITY, SMOOTHED = "wigner", "wigner-velocity", "smoothed-pseudo-wigner"
+PSEUDO_WIGNER, CORRECTED = "pseudo-wigner", "pseudo-wigner-corrected"
+"""Names of the estimates that the paper's figures and the summary speak of."""
 RECIPES = (
-    Recipe("wigner", "Wigner peak of u", "wigner", options={"bias": False}),
-    Recipe("wigner-velocity", "Wigner peak of u'", "wigner", velocity=True, options={"bias": False}),
-    Recipe("pseudo-wigner", "pseudo-Wigner peak of u", "pseudo-wigner"),
-    Recipe("pseudo-wigner-corrected", "pseudo-Wigner, bias removed", "pseudo-wigner", options={"remove_bias": True}),
-    Recipe("smoothed-pseudo-wigner", "smoothed pseudo-Wigner", "smoothed-pseudo-wigner"),
+    Recipe(WIGNER, "Wigner peak of u", "wigner", options={"bias": False}),
+    Recipe(WIGNER_OF_VELOCITY, "Wigner peak of u'", "wigner", velocity=True, options={"bias": False}),
+    Recipe(PSEUDO_WIGNER, "pseudo-Wigner peak of u", "pseudo-wigner"),
+    Recipe(CORRECTED, "pseudo-Wigner, bias removed", "pseudo-wigner", options={"remove_bias": True}),
+    Recipe(SMOOTHED, "smoothed pseudo-Wigner", "smoothed-pseudo-wigner"),
     Recipe("spectrogram", "spectrogram peak of u", "spectrogram"),
     Recipe("hilbert", "Hilbert phase of u", "hilbert"),
     Recipe("harmonic-least-squares", "harmonic least squares on u", "harmonic-least-squares"),
@@ -88,7 +91,7 @@ def estimates(motion: Motion, progress: Callable[[str], None]) -> tuple[Outcome,
 
 
 def curve_of(track: Track, name: str, label: str) -> Curve:
-    """Turn a track into a curve, its settings kept."""
+    """Turn a track into a curve under a name, with the label that a reader sees."""
     return Curve(
         name=name,
         label=label,
@@ -98,5 +101,4 @@ def curve_of(track: Track, name: str, label: str) -> Curve:
         valid=track.valid & np.isfinite(track.omega),
         standard_deviation=track.standard_deviation,
         bias=track.bias,
-        settings=dict(track.settings),
     )

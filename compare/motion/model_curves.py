@@ -11,17 +11,28 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from ridgeback.compare.motion.motion import Motion
-from ridgeback.compare.motion.results import Curve
+from ridgeback.compare.motion.results import AmplitudeSource, Curve
 from ridgeback.compare.study.derivation import Exact
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.paper_model import series_frequency
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 
+CLOSED_FORM, AVERAGED_ACTION, LINEAR = "closed-form", "averaged-action", "linear"
+"""Names of the models that every oscillator with a potential has."""
 SERIES_TERMS = (3, 20)
 """Terms of (14) kept: the three that the paper prints, and enough for moderate angles."""
 LOW_ORDERS = (2, 4)
 """The low-order perturbation expansions of Fig. 5."""
+
+
+def expansion_name(order: int) -> str:
+    """Name of the curve of the Lindstedt-Poincaré expansion of an order.
+
+    >>> expansion_name(4)
+    'lindstedt-4'
+    """
+    return f"lindstedt-{order}"
 
 
 def model_curves(motion: Motion, exact: Exact, *, orders: Sequence[int]) -> tuple[Curve, ...]:
@@ -36,15 +47,17 @@ def model_curves(motion: Motion, exact: Exact, *, orders: Sequence[int]) -> tupl
 
 def _conservative_curves(motion: Motion, exact: Exact, orders: Sequence[int]) -> Iterator[Curve]:
     peak = motion.energy_peak
-    yield _model(motion, "closed-form", _exact_label(motion), motion.exact_at_energy)
+    yield _model(motion, CLOSED_FORM, _exact_label(motion), motion.exact_at_energy, by=AmplitudeSource.ENERGY)
     if motion.setting.is_pendulum:
         k = motion.dynamics.natural_frequency
         for terms in SERIES_TERMS:
             label = f"(14)+(21), {terms} terms"
-            yield _model(motion, f"series-{terms}", label, series_frequency(peak, k=k, terms=terms))
+            omega = series_frequency(peak, k=k, terms=terms)
+            yield _model(motion, f"series-{terms}", label, omega, by=AmplitudeSource.ENERGY)
     if motion.averaged is not None:
         note = "J(t) = J₀ exp(−2μt); no integration of the equation."
-        yield _model(motion, "averaged-action", "averaged action", motion.averaged.omega, note)
+        omega = motion.averaged.omega
+        yield _model(motion, AVERAGED_ACTION, "averaged action", omega, note, by=AmplitudeSource.AVERAGED)
     yield _linear(motion)
     for order in orders:
         yield _expansion(motion, exact, order, peak)
@@ -58,28 +71,36 @@ def _exact_label(motion: Motion) -> str:
     return "exact backbone at V(A) = E(t)"
 
 
-def _model(motion: Motion, name: str, label: str, omega: Array, note: str = "") -> Curve:
-    return Curve(name, label, "model", motion.time, omega, np.isfinite(omega), note=note)
+def _model(
+    motion: Motion,
+    name: str,
+    label: str,
+    omega: Array,
+    note: str = "",
+    *,
+    by: AmplitudeSource = AmplitudeSource.NONE,
+) -> Curve:
+    return Curve(name, label, "model", motion.time, omega, np.isfinite(omega), note=note, amplitude=by)
 
 
 # omega_c = sqrt(k^2 - mu^2), eq. (3)
 def _linear(motion: Motion) -> Curve:
     k, mu = motion.dynamics.natural_frequency, motion.dynamics.damping
     omega = np.full(motion.time.size, np.sqrt(max(k * k - mu * mu, 0.0)))
-    return _model(motion, "linear", "linear, eq. (3)", omega)
+    return _model(motion, LINEAR, "linear, eq. (3)", omega)
 
 
 def _expansion(motion: Motion, exact: Exact, order: int, x: Array) -> Curve:
     omega = np.asarray(exact.expansion.truncated(order)(x), dtype=float)
     return Curve(
-        f"lindstedt-{order}",
+        expansion_name(order),
         f"expansion, order {order}",
         "expansion",
         motion.time,
         omega,
         np.isfinite(omega),
         note="Lindstedt-Poincaré in the peak amplitude, at A(t) from the energy.",
-        settings={"order": order},
+        amplitude=AmplitudeSource.ENERGY,
     )
 
 
@@ -89,14 +110,13 @@ def _limit_cycle_curves(motion: Motion, exact: Exact, orders: Sequence[int]) -> 
     for order in orders:
         omega = np.full(motion.time.size, float(exact.expansion.truncated(order)(eps)))
         yield Curve(
-            f"lindstedt-{order}",
+            expansion_name(order),
             f"limit cycle, order {order}",
             "expansion",
             motion.time,
             omega,
             np.isfinite(omega),
             note="Frequency of the limit cycle itself; it says nothing about the transient.",
-            settings={"order": order},
         )
     yield _linear(motion)
 
@@ -127,5 +147,5 @@ def slow_flow_curve(motion: Motion, flow: SlowFlow) -> Curve:
         omega,
         np.isfinite(omega),
         note="Slow flow in the fundamental amplitude, integrated; no energy and no trajectory enter.",
-        settings={"order": flow.order, **({"weight": flow.weight} if len(flow.weights) == 1 else {})},
+        amplitude=AmplitudeSource.AVERAGED,
     )

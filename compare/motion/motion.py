@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.quantities import symbol
 from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion.error_norms import Zones, zones
 from ridgeback.compare.motion.results import Case, Curve
@@ -59,7 +60,7 @@ class Setting:
             title=o.title,
             equation=o.equation,
             equation_latex=o.equation_latex,
-            symbol=o.symbol,
+            symbol=symbol(o.symbol),
             unit=o.unit,
             time_unit=self.time_unit,
             reference=o.reference,

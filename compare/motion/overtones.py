@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.motion.estimate_curves import Outcome
+from ridgeback.compare.motion.estimate_curves import CORRECTED, PSEUDO_WIGNER, Outcome
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.order_analysis import MOST, Orders, orders
 from ridgeback.compare.motion.results import Curve
@@ -20,23 +19,37 @@ VISIBLE_DB = -60.0
 """A multiple is tracked when its level re the fundamental is above this."""
 TRACKED = 3
 """Most overtones that are tracked."""
-_CARRIERS = ("pseudo-wigner-corrected", "harmonic-least-squares", "pseudo-wigner", "spectrogram", "zero-crossing")
+_CARRIERS = (CORRECTED, "harmonic-least-squares", PSEUDO_WIGNER, "spectrogram", "zero-crossing")
+
+
+@dataclass(frozen=True)
+class Overtone:
+    """One multiple of the fundamental: its phase-locked track, and what (24) predicts for it."""
+
+    multiple: int
+    track: Curve
+    predicted: Curve
 
 
 @dataclass(frozen=True)
 class Overtones:
-    """Levels of the harmonics of u and u', their tracks, and the fundamental that the tracks are locked to."""
+    """Levels of the harmonics of u and u', and the overtones that stand out."""
 
     of_u: Orders
     of_velocity: Orders
-    carrier: Track | None
-    curves: tuple[Curve, ...]
-    multiples: tuple[int, ...]
+    multiples: tuple[int, ...] = ()
+    """Multiples that stand out, tracked or not."""
+    tracked: tuple[Overtone, ...] = ()
+    raw: Curve | None = None
+    """The unlocked Wigner peak near the lowest of them, which a cross term may be; its note says which."""
     failed: str = ""
+    """Why those that stand out could not be tracked, when they could not."""
 
-    def curve(self, name: str) -> Curve | None:
-        """The curve of that name, or None."""
-        return next((curve for curve in self.curves if curve.name == name), None)
+    @property
+    def curves(self) -> tuple[Curve, ...]:
+        """All tracks with their predictions, then the raw peak."""
+        pairs = tuple(curve for one in self.tracked for curve in (one.track, one.predicted))
+        return pairs if self.raw is None else (*pairs, self.raw)
 
 
 def overtones(motion: Motion, outcomes: tuple[Outcome, ...]) -> Overtones:
@@ -46,17 +59,18 @@ def overtones(motion: Motion, outcomes: tuple[Outcome, ...]) -> Overtones:
     of_velocity = orders(lambda t: run.at(t)[1], motion.rising)
     base = carrier(outcomes)
     if base is None:
-        return Overtones(of_u, of_velocity, None, (), (), "No estimate of the fundamental to lock to.")
+        return Overtones(of_u, of_velocity)
     multiples = _visible(motion, of_u)
     try:
-        curves = tuple(_curves(motion, base, multiples))
+        tracked = tuple(_overtone(motion, base, multiple) for multiple in multiples)
+        raw = _raw(motion, base, multiples[0]) if multiples else None
     except InputError as error:
-        return Overtones(of_u, of_velocity, base, (), multiples, str(error))
-    return Overtones(of_u, of_velocity, base, curves, multiples)
+        return Overtones(of_u, of_velocity, multiples, failed=str(error))
+    return Overtones(of_u, of_velocity, multiples, tracked, raw)
 
 
 def carrier(outcomes: tuple[Outcome, ...]) -> Track | None:
-    """Return the fundamental to lock to: the first of the good estimators that gave a track."""
+    """The fundamental to lock to: the first of the good estimators that gave a track."""
     tracks = {outcome.recipe.name: outcome.track for outcome in outcomes if outcome.track is not None}
     return next((tracks[name] for name in _CARRIERS if name in tracks), None)
 
@@ -69,16 +83,17 @@ def _visible(motion: Motion, levels: Orders) -> tuple[int, ...]:
     return tuple(sorted(sorted(loud, key=levels.level_db, reverse=True)[:TRACKED]))
 
 
-def _curves(motion: Motion, base: Track, multiples: tuple[int, ...]) -> Iterator[Curve]:
-    for multiple in multiples:
-        track = harmonic_track(motion.trajectory.velocity, motion.trajectory.rate, base, multiple=multiple)
-        yield _curve(track, f"harmonic-{multiple}", f"harmonic {multiple}, phase-locked")
-        yield _predicted(base, multiple)
-    if multiples:
-        first = multiples[0]
-        raw = raw_harmonic_peak(motion.trajectory.u, motion.trajectory.rate, base, multiple=first)
-        note = str(raw.settings.get("why", ""))
-        yield _curve(raw, f"harmonic-{first}-raw", f"harmonic {first}, raw Wigner peak", note)
+def _overtone(motion: Motion, base: Track, multiple: int) -> Overtone:
+    run = motion.trajectory
+    track = harmonic_track(run.velocity, run.rate, base, multiple=multiple)
+    locked = _curve(track, f"harmonic-{multiple}", f"harmonic {multiple}, phase-locked")
+    return Overtone(multiple, locked, _predicted(base, multiple))
+
+
+def _raw(motion: Motion, base: Track, multiple: int) -> Curve:
+    raw = raw_harmonic_peak(motion.trajectory.u, motion.trajectory.rate, base, multiple=multiple)
+    note = str(raw.settings.get("why", ""))
+    return _curve(raw, f"harmonic-{multiple}-raw", f"harmonic {multiple}, raw Wigner peak", note)
 
 
 def _curve(track: Track, name: str, label: str, note: str = "") -> Curve:

@@ -15,19 +15,18 @@ import numpy as np
 from ridgeback.common.numbers import decibels, offset, relative, scientific, signed
 from ridgeback.common.quantities import frequency, short_amplitude
 from ridgeback.compare.motion.error_norms import relative_error
+from ridgeback.compare.motion.estimate_curves import SMOOTHED, WIGNER, WIGNER_OF_VELOCITY
+from ridgeback.compare.motion.model_curves import CLOSED_FORM, LOW_ORDERS, expansion_name
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.order_analysis import MOST, Orders, Ripple, ripple
-from ridgeback.compare.motion.overtones import Overtones, ratio_error, slope
-from ridgeback.compare.motion.reconstruction import known_motion, model_phase, relative_rms
-from ridgeback.compare.motion.results import Curve, Reconstruction, Score, Statement
-from ridgeback.compare.motion.wigner_bias import WignerCause, wigner_cause
+from ridgeback.compare.motion.overtones import Overtone, Overtones, ratio_error, slope
+from ridgeback.compare.motion.reconstruction import model_phase, relative_rms
+from ridgeback.compare.motion.results import BiasCause, Curve, Reconstruction, Score, Statement, WignerBias
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.orbits.energy import amplitude_from_energy, energy_of
 
 LEAST_CHANGE = 0.01
 """Relative change of the frequency over the interior below which slopes are not compared."""
-NAMED_CAUSE = 1e-3
-"""Mean relative bias below which no cause is named."""
 
 
 @dataclass(frozen=True)
@@ -39,12 +38,12 @@ class Evidence:
     scores: Mapping[str, Score]
     reconstruction: Reconstruction
     overtones: Overtones
+    bias: WignerBias | None
+    """The three readings of the Wigner bias, where there is a motion with known frequency."""
 
-    @cached_property
-    def cause(self) -> WignerCause | None:
-        """The three readings of the Wigner bias, where there is a motion with known frequency."""
-        known = known_motion(self.motion)
-        return None if known is None else wigner_cause(self.motion, self.curves.get("wigner"), known)
+    def named(self, *names: str) -> tuple[Curve, ...]:
+        """The curves of these names that there are."""
+        return tuple(self.curves[name] for name in names if name in self.curves)
 
     @cached_property
     def energy_ripple(self) -> Ripple:
@@ -136,11 +135,10 @@ def _slopes(e: Evidence) -> str:
     if base is None or abs(base) * (high - low) < LEAST_CHANGE * float(e.motion.known_omega.mean()):
         return ""
     parts = []
-    for multiple in e.overtones.multiples:
-        curve = e.overtones.curve(f"harmonic-{multiple}")
-        own = None if curve is None else slope(curve, low, high)
+    for one in e.overtones.tracked:
+        own = slope(one.track, low, high)
         if own is not None:
-            parts.append(f"harmonic {multiple} rises {own / base:.3f} times as fast as the fundamental")
+            parts.append(f"harmonic {one.multiple} rises {own / base:.3f} times as fast as the fundamental")
     return f" In the interior {', '.join(parts)}: slopes proportional to the order, eq. (25)." if parts else ""
 
 
@@ -204,8 +202,8 @@ def _windowed(e: Evidence, first: float, last: float) -> float:
 
 
 def _frequency(e: Evidence) -> Statement:
-    shown = [name for name in ("closed-form", "lindstedt-2", "lindstedt-4") if name in e.curves]
-    parts = [_zones(e, name) for name in shown]
+    shown = e.named(CLOSED_FORM, *(expansion_name(order) for order in LOW_ORDERS))
+    parts = [_zones(e, curve.name) for curve in shown]
     reference = e.motion.reference(e.motion.time)
     ends = reference[np.isfinite(reference)]
     crossing = _accidental(e)
@@ -217,7 +215,7 @@ def _frequency(e: Evidence) -> Statement:
             f"The cycle frequency runs from {e.hertz(float(ends[0]))} to {e.hertz(float(ends[-1]))}. Relative rms "
             f"error in the first tenth, the interior and the last tenth: {'; '.join(parts)}.{crossing}"
         ),
-        curves=tuple(shown),
+        curves=shown,
     )
 
 
@@ -234,10 +232,11 @@ def _zones(e: Evidence, name: str) -> str:
 
 def _accidental(e: Evidence) -> str:
     """Say where a lower order beats a higher one: an error that crosses zero, not a better expansion."""
-    low, high = (e.scores.get(name) for name in ("lindstedt-2", "lindstedt-4"))
+    names = [expansion_name(order) for order in LOW_ORDERS]
+    low, high = (e.scores.get(name) for name in names)
     if low is None or high is None or low.rms_interior is None or high.rms_interior is None:
         return ""
-    error = relative_error(e.curves["lindstedt-2"], e.motion.reference)[e.motion.zone.interior(e.motion.time)]
+    error = relative_error(e.curves[names[0]], e.motion.reference)[e.motion.zone.interior(e.motion.time)]
     crosses = np.nanmin(error) < 0 < np.nanmax(error)
     if low.rms_interior >= high.rms_interior or not crosses:
         return ""
@@ -279,7 +278,7 @@ def _drift(e: Evidence) -> str:
 
 
 def _wigner(e: Evidence) -> Statement:
-    u, v = (e.curves.get(name) for name in ("wigner", "wigner-velocity"))
+    u, v = (e.curves.get(name) for name in (WIGNER, WIGNER_OF_VELOCITY))
     if u is None or v is None:
         measured = "The Wigner peak could not be taken; the table gives the reason."
     else:
@@ -291,40 +290,38 @@ def _wigner(e: Evidence) -> Statement:
         title="Frequency from the Wigner peak of the signal and of its derivative",
         paper="Either signal can be used with success.",
         measured=measured,
-        curves=("wigner", "wigner-velocity"),
+        curves=e.named(WIGNER, WIGNER_OF_VELOCITY),
     )
 
 
+_CAUSES = {
+    BiasCause.UNNAMED: "",
+    BiasCause.CURVATURE: ": the cause is curvature, not harmonics",
+    BiasCause.OTHER: ": the difference is the part of the harmonics and of the decaying amplitude",
+}
+
+
 def _cause(e: Evidence) -> str:
-    cause = e.cause
-    if cause is None:
-        return f"Against the cycle frequency the error is {e.rms('wigner')} rms."
-    measured, alone, predicted = (offset(x) for x in (cause.measured, cause.fundamental_only, cause.predicted))
+    """The three readings of the bias, and its cause where one is named."""
+    bias = e.bias
+    if bias is None:
+        return f"Against the cycle frequency the error is {e.rms(WIGNER)} rms."
+    measured, alone, predicted = (offset(x) for x in (bias.measured, bias.fundamental_only, bias.predicted))
     text = (
         f"On average the peak of the signal lies {measured}. A signal of the fundamental alone gives {alone}, and "
         f"the curvature of ω₀(t) predicts {predicted} to leading order"
     )
-    return f"{text}{_verdict(cause)}."
-
-
-def _verdict(cause: WignerCause) -> str:
-    """Name curvature as the cause only when the fundamental alone shows the same bias."""
-    if cause.measured is None or cause.fundamental_only is None or abs(cause.measured) < NAMED_CAUSE:
-        return ""
-    if abs(cause.fundamental_only - cause.measured) <= 0.25 * abs(cause.measured):
-        return ": the cause is curvature, not harmonics"
-    return ": the difference is the part of the harmonics and of the decaying amplitude"
+    return f"{text}{_CAUSES[bias.cause]}."
 
 
 def _smoothed(e: Evidence) -> Statement:
-    score = e.scores.get("smoothed-pseudo-wigner")
-    full = e.scores.get("wigner")
+    score, full = e.scores.get(SMOOTHED), e.scores.get(WIGNER)
     if score is None or score.rms_interior is None:
         measured = "The smoothed pseudo-Wigner peak could not be taken; the table gives the reason."
     else:
-        against = f" The full Wigner peak: {_zones(e, 'wigner')}." if full and full.rms_interior is not None else ""
+        against = f" The full Wigner peak: {_zones(e, WIGNER)}." if full and full.rms_interior is not None else ""
         measured = (
-            f"Rms error in the first tenth, the interior and the last tenth: {_zones(e, 'smoothed-pseudo-wigner')}. "
+            f"Rms error in the first tenth, the interior and the last tenth: {_zones(e, SMOOTHED)}. "
             f"It is only valid half a window inside the record.{against}"
         )
     return Statement(
@@ -332,15 +329,14 @@ def _smoothed(e: Evidence) -> Statement:
         title="Frequency from the smoothed pseudo-Wigner peak",
         paper="Quite the same as from the Wigner distribution, with some bias especially near the borders.",
         measured=measured,
-        curves=("wigner", "smoothed-pseudo-wigner"),
+        curves=e.named(WIGNER, SMOOTHED),
     )
 
 
 def _harmonics(e: Evidence) -> Statement:
     first = e.overtones.multiples[0]
-    names = (f"harmonic-{first}", f"harmonic-{first}-predicted", f"harmonic-{first}-raw")
-    parts = [_harmonic_error(e, multiple) for multiple in e.overtones.multiples]
-    raw = e.overtones.curve(names[2])
+    parts = [_harmonic_error(e, one) for one in e.overtones.tracked]
+    raw = e.overtones.raw
     wrong = ""
     if raw is not None:
         error = ratio_error(raw, first, e.motion, e.motion.zone.lower, e.motion.zone.upper)
@@ -356,15 +352,16 @@ def _harmonics(e: Evidence) -> Statement:
         figure=9,
         title="A higher harmonic against its multiple of the fundamental",
         paper="The harmonic agrees with 3 times the fundamental to a good approximation, which improves with time.",
-        measured=f"Phase-locked, {'; '.join(part for part in parts if part)}.{wrong}{slip}",
-        curves=names,
+        measured=f"Phase-locked, {'; '.join(parts)}.{wrong}{slip}"
+        if parts
+        else f"Not tracked: {e.overtones.failed}.{slip}",
+        curves=tuple(c for one in e.overtones.tracked[:1] for c in (one.track, one.predicted))
+        + (() if raw is None else (raw,)),
     )
 
 
-def _harmonic_error(e: Evidence, multiple: int) -> str:
-    curve = e.overtones.curve(f"harmonic-{multiple}")
-    if curve is None:
-        return ""
+def _harmonic_error(e: Evidence, one: Overtone) -> str:
+    curve, multiple = one.track, one.multiple
     low, high = e.motion.zone.lower, e.motion.zone.upper
     quarter = 0.25 * (high - low)
     spans = ((low, high), (low, low + quarter), (high - quarter, high))

@@ -7,7 +7,8 @@ Arrays are one-dimensional float64 and read-only.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from enum import Enum
 from typing import Literal
 
 import numpy as np
@@ -18,11 +19,34 @@ from ridgeback.numeric.arrays import Array, Mask
 Kind = Literal["reference", "model", "expansion", "estimate"]
 
 
+class AmplitudeSource(Enum):
+    """Whose amplitude A(t) a model or an expansion is evaluated at."""
+
+    NONE = "none"
+    """It is evaluated at none: a reference, an estimate, the linear frequency, a limit cycle."""
+    ENERGY = "energy"
+    """That of the energy of each instant, eq. (21)."""
+    AVERAGED = "averaged"
+    """The smooth one of averaging: the averaged action, or the slow flow."""
+
+
+class BiasCause(Enum):
+    """Why the full Wigner peak is off on average."""
+
+    UNNAMED = "unnamed"
+    """The bias is too small, or not known well enough, for a cause to be named."""
+    CURVATURE = "curvature"
+    """A signal of the fundamental alone shows the same bias."""
+    OTHER = "other"
+    """It does not: the rest is the part of the harmonics and of the decaying amplitude."""
+
+
 @dataclass(frozen=True)
 class Curve:
     """One omega0(t): a reference, a model, an expansion bound to an amplitude, or an estimate."""
 
     name: str
+    """Identifier, also in files; ``label`` is what a reader sees."""
     label: str
     kind: Kind
     time: Array
@@ -31,7 +55,7 @@ class Curve:
     standard_deviation: Array | None = None
     bias: Array | None = None
     note: str = ""
-    settings: Mapping[str, object] = field(default_factory=dict)
+    amplitude: AmplitudeSource = AmplitudeSource.NONE
 
 
 @dataclass(frozen=True)
@@ -81,8 +105,34 @@ class Statement:
     """Paraphrase of the paper's own words."""
     measured: str
     """Our finding, with numbers."""
-    curves: tuple[str, ...] = ()
-    """Names of the curves that this figure draws beside the reference (of ``curves`` and ``harmonics``)."""
+    curves: tuple[Curve, ...] = ()
+    """Those that this figure draws beside the reference."""
+
+
+@dataclass(frozen=True)
+class WignerBias:
+    """Mean relative error of the full Wigner peak over the interior, by three routes; negative means low."""
+
+    measured: float | None
+    fundamental_only: float | None
+    """The same peak of a signal of the fundamental alone; None where that gives none."""
+    predicted: float
+    """The leading curvature formula."""
+    cause: BiasCause
+
+
+@dataclass(frozen=True)
+class Integrator:
+    """One numerical solution of the motion."""
+
+    method: str
+    """The integrator and its own setting, such as ``DOP853`` or ``Taylor, 25 digits``."""
+    tolerance: float | None = None
+    """Relative tolerance, where it has one."""
+    evaluations: int | None = None
+    """Evaluations of the force."""
+    difference: float | None = None
+    """Largest difference of u from the solution before it, over the samples they share; None for the first."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +145,7 @@ class Case:
     """The equation as text, e.g. ``u'' + 2*mu*u' + k**2*sin(u) = 0``."""
     equation_latex: str
     symbol: str
-    """LaTeX of the unknown: ``\\theta`` for the pendulum, else ``u``."""
+    """The unknown as text: ``θ`` for the pendulum, else ``u``."""
     unit: str
     """Unit of the unknown (``rad`` or empty)."""
     time_unit: str
@@ -155,12 +205,12 @@ class DecayComparison:
     time: Array
     u: Array
     velocity: Array
-    integrators: tuple[str, ...]
-    """Description of each integrator, first the one used."""
-    disagreement: float | None
-    """Largest difference between the integrators over the samples, in the unit of u."""
+    integrators: tuple[Integrator, ...]
+    """First the one used."""
     amplitudes: Amplitudes
     reference: Curve
+    frequency_ends: tuple[float, float]
+    """omega0 at the first and the last sample: of the averaged action, else of the reference with its ends held."""
     interior: tuple[float, float]
     curves: tuple[Curve, ...]
     scores: tuple[Score, ...]
@@ -172,3 +222,10 @@ class DecayComparison:
     harmonics: tuple[Curve, ...]
     """Harmonic tracks (omega of the harmonic itself, not divided), their predictions, and the raw peak."""
     statements: tuple[Statement, ...]
+    wigner_bias: WignerBias | None = None
+    """Why the full Wigner peak is off; None for an oscillator without a potential."""
+
+    @property
+    def disagreement(self) -> float | None:
+        """Largest difference of u between the first two integrators; None when there was only one."""
+        return self.integrators[1].difference if len(self.integrators) > 1 else None

@@ -6,37 +6,55 @@ and the leading formula phi''' <tau^4> / (24 <tau^2>) gives its size.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ridgeback.compare.motion.error_norms import mean, relative_error
 from ridgeback.compare.motion.estimate_curves import RECIPES, attempt
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.reconstruction import KnownMotion
-from ridgeback.compare.motion.results import Curve
+from ridgeback.compare.motion.results import BiasCause, Curve, WignerBias
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.paper_model import slope_of_samples
 
-
-@dataclass(frozen=True)
-class WignerCause:
-    """Mean relative error of the Wigner peak over the interior, by three routes."""
-
-    measured: float | None
-    fundamental_only: float | None
-    predicted: float
+NAMED = 1e-3
+"""Mean relative bias below which no cause is named."""
+SAME = 0.25
+"""Two biases are the same when they differ by at most this share of the measured one."""
 
 
-def wigner_cause(motion: Motion, measured: Curve | None, known: KnownMotion) -> WignerCause:
-    """Compare the measured bias with that of the fundamental alone and with the curvature formula."""
+def wigner_bias(motion: Motion, measured: Curve | None, known: KnownMotion) -> WignerBias:
+    """Compare the measured bias of the full Wigner peak with that of the fundamental alone and the curvature formula.
+
+    Parameters
+    ----------
+    motion
+        The integrated motion, with the reference that biases are relative to.
+    measured
+        The Wigner peak of the motion's samples; None where it could not be taken.
+    known
+        The synthetic motion whose fundamental alone is analysed in the same way.
+    """
     inside = motion.zone.interior(motion.time)
-    alone = attempt(RECIPES[0], known.fundamental, motion.trajectory.rate).curve
-    return WignerCause(
-        measured=None if measured is None else _mean_inside(motion, measured),
-        fundamental_only=None if alone is None else _against(motion, alone, known.omega),
+    peak = attempt(RECIPES[0], known.fundamental, motion.trajectory.rate).curve
+    bias = None if measured is None else _mean_inside(motion, measured)
+    alone = None if peak is None else _against(motion, peak, known.omega)
+    return WignerBias(
+        measured=bias,
+        fundamental_only=alone,
         predicted=float(np.mean((predicted_bias(motion.time, known.omega) / known.omega)[inside])),
+        cause=cause_of(bias, alone),
     )
+
+
+def cause_of(measured: float | None, alone: float | None) -> BiasCause:
+    """Curvature is the cause only when the fundamental alone shows the same bias.
+
+    >>> cause_of(-0.0080, -0.0079), cause_of(-0.0080, -0.0010), cause_of(1e-5, 1e-5)
+    (<BiasCause.CURVATURE: 'curvature'>, <BiasCause.OTHER: 'other'>, <BiasCause.UNNAMED: 'unnamed'>)
+    """
+    if measured is None or alone is None or abs(measured) < NAMED:
+        return BiasCause.UNNAMED
+    return BiasCause.CURVATURE if abs(alone - measured) <= SAME * abs(measured) else BiasCause.OTHER
 
 
 def _mean_inside(motion: Motion, curve: Curve) -> float | None:

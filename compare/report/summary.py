@@ -8,7 +8,9 @@ import numpy as np
 
 from ridgeback.common.numbers import offset, relative, rounded_down, scientific
 from ridgeback.common.quantities import amplitude, frequency, nanoseconds, short_amplitude
-from ridgeback.compare.motion.results import DecayComparison, Score
+from ridgeback.compare.motion.estimate_curves import CORRECTED, PSEUDO_WIGNER, WIGNER
+from ridgeback.compare.motion.model_curves import AVERAGED_ACTION, CLOSED_FORM, expansion_name
+from ridgeback.compare.motion.results import BiasCause, DecayComparison, Score
 from ridgeback.compare.report.results import Card
 from ridgeback.compare.study.results import Range, Study, Timing
 
@@ -115,32 +117,30 @@ def _decay_sentences(decay: DecayComparison) -> Iterator[str]:
         score = scores.get(name)
         if score is not None and score.rms_interior is not None:
             yield words.format(label=score.label, rms=relative(score.rms_interior), mean=offset(score.mean_interior))
-    yield from (_CAUSE for statement in decay.statements if "not harmonics" in statement.measured)
+    if decay.wigner_bias is not None and decay.wigner_bias.cause is BiasCause.CURVATURE:
+        yield _CURVATURE
     yield from _best_and_failed(decay.scores)
 
 
-_CAUSE = "The cause of that bias is the curvature of ω₀(t), not harmonics: a signal without harmonics shows the same."
+_CURVATURE = (
+    "The cause of that bias is the curvature of ω₀(t), not harmonics: a signal without harmonics shows the same."
+)
 
 _HEADLINES = (
-    ("closed-form", "The exact backbone at the amplitude from the energy follows it within {rms} rms."),
-    ("averaged-action", "The averaged-action model, which needs no integration, follows it within {rms} rms."),
-    ("lindstedt-4", "The fourth-order expansion is {rms} rms off, {mean} on average."),
-    ("wigner", "The peak of the full-length Wigner distribution lies {mean} on average ({rms} rms)."),
-    ("pseudo-wigner", "A windowed (pseudo-)Wigner peak comes within {rms} rms."),
-    ("pseudo-wigner-corrected", "With its computable curvature bias removed, within {rms} rms."),
+    (CLOSED_FORM, "The exact backbone at the amplitude from the energy follows it within {rms} rms."),
+    (AVERAGED_ACTION, "The averaged-action model, which needs no integration, follows it within {rms} rms."),
+    (expansion_name(4), "The fourth-order expansion is {rms} rms off, {mean} on average."),
+    (WIGNER, "The peak of the full-length Wigner distribution lies {mean} on average ({rms} rms)."),
+    (PSEUDO_WIGNER, "A windowed (pseudo-)Wigner peak comes within {rms} rms."),
+    (CORRECTED, "With its computable curvature bias removed, within {rms} rms."),
 )
 
 
 def _motion_sentence(decay: DecayComparison) -> str:
-    smooth = next((curve for curve in decay.curves if curve.name == "averaged-action"), decay.reference)
-    valid = smooth.omega[smooth.valid]
     unit, time_unit = decay.case.unit, decay.case.time_unit
     start, end = (short_amplitude(float(x), unit) for x in (decay.amplitudes.energy[0], decay.amplitudes.energy[-1]))
-    text = f"The amplitude goes from {start} to {end}"
-    if not valid.size:
-        return text + "."
-    first, last = (frequency(float(x), time_unit) for x in (valid[0], valid[-1]))
-    return f"{text} while the frequency goes from {first} to {last}."
+    first, last = (frequency(omega, time_unit) for omega in decay.frequency_ends)
+    return f"The amplitude goes from {start} to {end} while the frequency goes from {first} to {last}."
 
 
 def _reference_sentence(decay: DecayComparison) -> str:

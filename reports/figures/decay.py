@@ -70,7 +70,7 @@ def tracks_figure(decay: DecayComparison) -> Block:
         title="Frequency along the decay",
         description=f"omega0(t) of {listing([line.label for line in lines])} over {decay.reference.label}, and their "
         "relative errors below.",
-        caption=_tracks_caption(decay, clock, [line.label for line in lines]),
+        caption=_tracks_caption(decay, clock, {curve.name for curve in chosen}),
         draw=drawing,
         readout=Readout("t", clock.time_unit, clock.unit, traces_of([reference, *lines]), "time"),
         toggles=[Toggle(line.style, line.label, line.token) for line in lines],
@@ -78,11 +78,11 @@ def tracks_figure(decay: DecayComparison) -> Block:
     )
 
 
-def _tracks_caption(decay: DecayComparison, clock: Clock, names: list[str]) -> str:
+def _tracks_caption(decay: DecayComparison, clock: Clock, names: set[str]) -> str:
     values = decay.reference.omega[decay.reference.valid] * clock.factor
     ends = f"from {number(float(values[0]))} to {number(float(values[-1]))} {clock.unit}".strip() if values.size else ""
     a, b = (number(v, 3) for v in decay.interior)
-    errors = [f"{score.label} {relative(score.rms_interior)}" for score in decay.scores if score.label in names]
+    errors = [f"{score.label} {relative(score.rms_interior)}" for score in decay.scores if score.method in names]
     unit = f" {decay.case.time_unit}" if decay.case.time_unit else ""
     return (
         f"Thick: {decay.reference.label}, {ends}. Below: error relative to it. Hatched: within reach of the "

@@ -9,7 +9,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ridgeback.common.numbers import decibels, number, relative
-from ridgeback.compare.motion.results import Curve, DecayComparison, Statement
+from ridgeback.compare.motion.results import DecayComparison, Image, Integrator, Statement
 from ridgeback.reports.drawing.block import Block, Readout, block
 from ridgeback.reports.drawing.canvas import Canvas, Line, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
@@ -30,10 +30,6 @@ def paper_figures(decay: DecayComparison) -> tuple[PaperFigure, ...]:
     return tuple(PaperFigure(s, DRAWN[s.figure](decay, s) if s.figure in DRAWN else ()) for s in ordered)
 
 
-def _symbol(decay: DecayComparison) -> str:
-    return "θ" if "theta" in decay.case.symbol else "u"
-
-
 def _angle_title(decay: DecayComparison, symbol: str) -> str:
     return f"{symbol} / {decay.case.unit}" if decay.case.unit else symbol
 
@@ -45,7 +41,7 @@ def _signal_block(decay: DecayComparison, key: str, lines: list[Line], caption: 
         (axes,) = canvas.stack()
         linear(axes, "x", float(decay.time[0]), float(decay.time[-1]), ticks=5 if canvas.narrow else 9)
         linear(axes, "y", *padded([line.y for line in lines], share=0.14))
-        titles(axes, x=clock.x_title, y=_angle_title(decay, _symbol(decay)))
+        titles(axes, x=clock.x_title, y=_angle_title(decay, decay.case.symbol))
         for line in lines:
             draw(axes, line)
         place(axes, [line for line in lines if line.label] if len(lines) > 1 else [])
@@ -56,17 +52,26 @@ def _signal_block(decay: DecayComparison, key: str, lines: list[Line], caption: 
     )
 
 
+def _integrator(one: Integrator, unit: str) -> str:
+    """One integrator with its tolerance and cost, and how far it is from the one before."""
+    facts = [
+        one.method,
+        *([] if one.tolerance is None else [f"relative tolerance {number(one.tolerance)}"]),
+        *([] if one.evaluations is None else [f"{one.evaluations} evaluations"]),
+    ]
+    checked = "" if one.difference is None else ", which differs from the one before by at most "
+    return ", ".join(facts) + checked + ("" if one.difference is None else f"{number(one.difference, 2)}{unit}")
+
+
 def figure_1(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
     """The integrated oscillation."""
-    symbol = _symbol(decay)
+    symbol = decay.case.symbol
     case = decay.case
     unit = f" {case.unit}" if case.unit else ""
     caption = (
         f"{symbol}(t) of {case.title} with {', '.join(f'{k} = {number(v)}' for k, v in case.parameters.items())}; "
         f"{symbol}(0) = {number(case.initial[0])}{unit}, {symbol}′(0) = {number(case.initial[1])}. "
-        f"Integrated by {decay.integrators[0] if decay.integrators else 'an unnamed integrator'}"
-        + (f"; the integrators differ by at most {number(decay.disagreement, 2)}{unit}." if decay.disagreement else ".")
-        + "".join(f" {further}." for further in decay.integrators[2:])
+        f"Integrated by {'; '.join(_integrator(one, unit) for one in decay.integrators) or 'an unnamed integrator'}."
     )
     line = Line(decay.time, decay.u, f"{symbol}(t)", "s1", width=1.4)
     return (_signal_block(decay, "paper1", [line], caption, f"Oscillation {symbol}(t)"),)
@@ -74,27 +79,24 @@ def figure_1(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
 
 def figure_2(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
     """The spectrogram of the signal."""
-    symbol = _symbol(decay)
-    image = decay.spectrogram_u
-    return (_plane(decay, "paper2", image.note, title=f"Spectrogram of {symbol}", which="u"),)
+    title = f"Spectrogram of {decay.case.symbol}"
+    return (_plane(decay, "paper2", decay.spectrogram_u, title=title),)
 
 
 def figure_3(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
     """The spectrogram of its derivative."""
-    symbol = _symbol(decay)
-    image = decay.spectrogram_velocity
-    return (_plane(decay, "paper3", image.note, title=f"Spectrogram of {symbol}′", which="velocity"),)
+    title = f"Spectrogram of {decay.case.symbol}′"
+    return (_plane(decay, "paper3", decay.spectrogram_velocity, title=title),)
 
 
-def _plane(decay: DecayComparison, key: str, note: str, *, title: str, which: str) -> Block:
-    image = {"u": decay.spectrogram_u, "velocity": decay.spectrogram_velocity, "wigner": decay.wigner_u}[which]
-    caption = f"{image.name}, level in dB re its maximum, floor {decibels(image.floor_db)}. {note}"
+def _plane(decay: DecayComparison, key: str, image: Image, *, title: str) -> Block:
+    caption = f"{image.name}, level in dB re its maximum, floor {decibels(image.floor_db)}. {image.note}"
     return plane_block(key, image, Clock(decay.case.time_unit), title=title, caption=caption)
 
 
 def figure_4(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
     """The amplitude (21) as envelope, beside the averaged action and the turning points."""
-    symbol = _symbol(decay)
+    symbol = decay.case.symbol
     amplitudes = decay.amplitudes
     lines = [
         Line(decay.time, decay.u, f"{symbol}(t)", "muted", width=0.9),
@@ -112,19 +114,14 @@ def figure_4(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
     return (_signal_block(decay, "paper4", lines, caption, "Amplitude A(t) as the envelope"),)
 
 
-def _named(decay: DecayComparison, statement: Statement, *, fallback: Callable[[Curve], bool]) -> list[Curve]:
-    everything = {curve.name: curve for curve in (*decay.curves, *decay.harmonics)}
-    named = [everything[name] for name in statement.curves if name in everything]
-    return named or [curve for curve in decay.curves if fallback(curve)][:4]
-
-
-def _tracks(decay: DecayComparison, statement: Statement, curves: list[Curve]) -> Block:
-    labels = {score.label: score for score in decay.scores}
+def _tracks(decay: DecayComparison, statement: Statement) -> Block:
+    curves = statement.curves
+    scores = {score.method: score for score in decay.scores if score.rms_interior is not None}
     errors = [
-        f"{curve.label} {relative(labels[curve.label].rms_interior)} rms, "
-        f"{relative(labels[curve.label].mean_interior, signed=True)} mean"
+        f"{curve.label} {relative(scores[curve.name].rms_interior)} rms, "
+        f"{relative(scores[curve.name].mean_interior, signed=True)} mean"
         for curve in curves
-        if curve.label in labels and labels[curve.label].rms_interior is not None
+        if curve.name in scores
     ]
     caption = f"Relative error over the interior: {'; '.join(errors)}." if errors else ""
     return tracks_block(
@@ -139,13 +136,12 @@ def _tracks(decay: DecayComparison, statement: Statement, curves: list[Curve]) -
 
 def figure_5(decay: DecayComparison, statement: Statement) -> tuple[Block, ...]:
     """Estimated frequency, the paper's (14) and a low-order expansion."""
-    curves = _named(decay, statement, fallback=lambda curve: curve.kind in ("model", "expansion"))
-    return (_tracks(decay, statement, curves),)
+    return (_tracks(decay, statement),)
 
 
 def figure_6(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
     """The signal against its simple and its multicomponent model."""
-    symbol = _symbol(decay)
+    symbol = decay.case.symbol
     made = decay.reconstruction
     lines = [
         Line(made.time, made.signal, f"{symbol}(t)", "fg", width=2.2),
@@ -164,7 +160,7 @@ def figure_6(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
         rest = [Line(line.x, line.y - made.signal, line.label, line.token, width=1.2) for line in lines[1:]]
         linear(upper, "y", *padded([line.y for line in lines], share=0.06), ticks=5)
         linear(lower, "y", *padded([line.y for line in rest], share=0.3), ticks=4)
-        titles(upper, y=_angle_title(decay, _symbol(decay)))
+        titles(upper, y=_angle_title(decay, decay.case.symbol))
         titles(lower, x=clock.x_title, y=_angle_title(decay, f"model − {symbol}"))
         for line in lines:
             draw(upper, line)
@@ -188,21 +184,18 @@ def figure_6(decay: DecayComparison, _: Statement) -> tuple[Block, ...]:
 
 def figure_7(decay: DecayComparison, statement: Statement) -> tuple[Block, ...]:
     """Frequency from the Wigner peak of the signal and of its derivative, and the Wigner plane itself."""
-    curves = _named(decay, statement, fallback=lambda curve: "wigner" in curve.name and curve.kind == "estimate")
-    plane = _plane(decay, "paper7w", decay.wigner_u.note, title=f"Wigner plane of {_symbol(decay)}", which="wigner")
-    return _tracks(decay, statement, curves), plane
+    plane = _plane(decay, "paper7w", decay.wigner_u, title=f"Wigner plane of {decay.case.symbol}")
+    return _tracks(decay, statement), plane
 
 
 def figure_8(decay: DecayComparison, statement: Statement) -> tuple[Block, ...]:
     """Frequency from the Wigner and the smoothed pseudo-Wigner peak."""
-    curves = _named(decay, statement, fallback=lambda curve: "wigner" in curve.name and curve.kind == "estimate")
-    return (_tracks(decay, statement, curves),)
+    return (_tracks(decay, statement),)
 
 
 def figure_9(decay: DecayComparison, statement: Statement) -> tuple[Block, ...]:
     """The harmonic against three times the fundamental."""
-    named = [curve for curve in decay.harmonics if curve.name in statement.curves]
-    return (_tracks(decay, statement, named or list(decay.harmonics)),)
+    return (_tracks(decay, statement),)
 
 
 DRAWN: Mapping[int, Callable[[DecayComparison, Statement], tuple[Block, ...]]] = MappingProxyType(

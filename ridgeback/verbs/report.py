@@ -20,6 +20,7 @@ from ridgeback.options.system import Choice, choosing
 
 if TYPE_CHECKING:
     from ridgeback.compare.motion.motion import Setting
+    from ridgeback.compare.motion.results import Statement
     from ridgeback.compare.report.results import Report
 
 DEFAULT_NAME = "ridgeback-report.html"
@@ -251,9 +252,15 @@ def printed(report: Report, output: str, size: int, style: str) -> str:
             "summary": list(report.summary),
             "scores": [asdict(score) for score in decay.scores] if decay else [],
             "budget": [asdict(row) for row in decay.budget] if decay else [],
-            "statements": [asdict(said) for said in decay.statements] if decay else [],
+            "statements": [statement_row(said) for said in decay.statements] if decay else [],
         }
     )
+
+
+def statement_row(said: Statement) -> dict[str, object]:
+    """One of the paper's figures: what it says, what was measured, and the names of the curves drawn."""
+    named = [curve.name for curve in said.curves]
+    return {"figure": said.figure, "title": said.title, "paper": said.paper, "measured": said.measured, "curves": named}
 
 
 def findings(report: Report, output: str, size: int) -> str:

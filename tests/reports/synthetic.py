@@ -23,6 +23,7 @@ from ridgeback.compare.motion.results import (
     Curve,
     DecayComparison,
     Image,
+    Integrator,
     Kind,
     Reconstruction,
     Score,
@@ -172,7 +173,7 @@ def _budget() -> tuple[BudgetRow, ...]:
     )
 
 
-def _statements() -> tuple[Statement, ...]:
+def _statements(curves: tuple[Curve, ...]) -> tuple[Statement, ...]:
     said, found = "What the paper says of it, paraphrased in one sentence.", "What was measured: 0.95 % rms."
     figures: tuple[tuple[int, str, tuple[str, ...]], ...] = (
         (1, "The oscillation", ()),
@@ -185,7 +186,8 @@ def _statements() -> tuple[Statement, ...]:
         (8, "Wigner and smoothed pseudo-Wigner", ("wigner-u", "spw-velocity")),
         (9, "The third harmonic", ("prediction-3", "harmonic-3", "raw-3")),
     )
-    return tuple(Statement(n, title, said, found, names) for n, title, names in figures)
+    named = {curve.name: curve for curve in curves}
+    return tuple(Statement(n, title, said, found, tuple(named[k] for k in names)) for n, title, names in figures)
 
 
 def make_case() -> Case:
@@ -194,7 +196,7 @@ def make_case() -> Case:
         title="the damped pendulum",
         equation="u'' + 2*mu*u' + k**2*sin(u) = 0",
         equation_latex=r"\ddot{\theta} + 2\mu\dot{\theta} + k^2 \sin\theta = 0",
-        symbol=r"\theta",
+        symbol="θ",
         unit="rad",
         time_unit="s",
         reference="Galleani and Cohen, eq. (1)",
@@ -210,7 +212,7 @@ def make_decay() -> DecayComparison:
     peak = _peak(time)
     omega = K * exact(peak)
     reference = _curve("cycle", "cycle frequency from zero crossings", "reference", time, omega)
-    curves = _tracks(time, peak, omega)
+    curves, harmonics = _tracks(time, peak, omega), _harmonics(time, omega)
     turning = np.flatnonzero(np.diff(np.sign(velocity)) != 0)
     energy = peak * (1 + _ripple(time, omega) / 3)
     single = peak * np.cos(np.cumsum(omega) / RATE)
@@ -219,10 +221,10 @@ def make_decay() -> DecayComparison:
         time=time,
         u=u,
         velocity=velocity,
-        integrators=("DOP853, rtol 1e-12", "Taylor, 30 digits"),
-        disagreement=3.1e-11,
+        integrators=(Integrator("DOP853", 1e-12, 5000), Integrator("Taylor, 30 digits", difference=3.1e-11)),
         amplitudes=Amplitudes(time, energy, peak, time[turning], u[turning], "It ripples twice per cycle."),
         reference=reference,
+        frequency_ends=(float(omega[0]), float(omega[-1])),
         interior=(2.0, 18.0),
         curves=curves,
         scores=_scores(curves),
@@ -231,8 +233,8 @@ def make_decay() -> DecayComparison:
         spectrogram_u=_image("Spectrogram of θ", u),
         spectrogram_velocity=_image("Spectrogram of θ′", velocity),
         wigner_u=replace(_image("Wigner distribution of θ", u), overlays=(reference,)),
-        harmonics=_harmonics(time, omega),
-        statements=_statements(),
+        harmonics=harmonics,
+        statements=_statements((*curves, *harmonics)),
     )
 
 

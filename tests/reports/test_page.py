@@ -161,7 +161,7 @@ def test_a_decay_without_models_or_estimates_still_renders() -> None:
         scores=(),
         budget=(),
         harmonics=(),
-        disagreement=None,
+        integrators=(),
         amplitudes=replace(decay.amplitudes, averaged=None),
         reconstruction=replace(decay.reconstruction, multicomponent=None, rms_multicomponent=None),
         statements=tuple(replace(s, curves=()) for s in decay.statements),
