@@ -335,7 +335,7 @@ def _smoothed(e: Evidence) -> Statement:
 
 def _harmonics(e: Evidence) -> Statement:
     first = e.overtones.multiples[0]
-    parts = [_harmonic_error(e, one) for one in e.overtones.tracked]
+    said = "; ".join(_harmonic_error(e, one) for one in e.overtones.tracked)
     raw = e.overtones.raw
     wrong = ""
     if raw is not None:
@@ -352,9 +352,7 @@ def _harmonics(e: Evidence) -> Statement:
         figure=9,
         title="A higher harmonic against its multiple of the fundamental",
         paper="The harmonic agrees with 3 times the fundamental to a good approximation, which improves with time.",
-        measured=f"Phase-locked, {'; '.join(parts)}.{wrong}{slip}"
-        if parts
-        else f"Not tracked: {e.overtones.failed}.{slip}",
+        measured=f"Phase-locked, {said}.{wrong}{slip}" if said else f"Not tracked: {e.overtones.failed}.{slip}",
         curves=tuple(c for one in e.overtones.tracked[:1] for c in (one.track, one.predicted))
         + (() if raw is None else (raw,)),
     )
