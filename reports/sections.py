@@ -10,7 +10,7 @@ from urllib.parse import quote
 from ridgeback.common.numbers import number, relative
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.results import Provenance, Report
-from ridgeback.compare.study.results import Derivation, Formula, Range
+from ridgeback.compare.study.results import Checked, Derivation, Formula, Range
 from ridgeback.reports.figures.decay import budget_figure, residuals_figure, tracks_figure
 from ridgeback.reports.figures.identification import identification_blocks, parameter_table, ranking_table
 from ridgeback.reports.figures.noise import noise_blocks, noise_table
@@ -110,7 +110,17 @@ def _derivation(derivation: Derivation | None) -> Iterator[Part]:
     yield from (Part("formula", set_formula(formula)) for formula in derivation.formulas)
     if derivation.certificate:
         yield Part("text", "Checked exactly:")
-        yield Part("lines", derivation.certificate)
+        yield Part("lines", tuple(map(check_line, derivation.certificate)))
+
+
+def check_line(check: Checked) -> str:
+    """One check of a certificate as a sentence; a failed one says so first.
+
+    >>> check_line(Checked("residual", "it vanishes", False))
+    'FAILED: Residual: it vanishes.'
+    """
+    failed = "FAILED: " if check.passed is False else ""
+    return f"{failed}{check.name[0].upper()}{check.name[1:]}: {check.statement}."
 
 
 def set_formula(formula: Formula) -> SetFormula:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import signal
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
@@ -21,25 +19,16 @@ from ridgeback.compare.identification.candidates import (
     models_of,
 )
 from ridgeback.compare.identification.fitting import Data, Fit, fit, prepare, refit
+from ridgeback.compare.identification.preparation import Prepared, prepared
 from ridgeback.compare.identification.ranking import CLEAR, CRITERIA, candidate, criterion, effective_number
-from ridgeback.compare.identification.results import Candidate, Identification, MeasuredBackbone
+from ridgeback.compare.identification.results import Identification, MeasuredBackbone, Prediction
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.recording.recording import Recording
-from ridgeback.numeric.tracking.track import Track
 
 MOST_TERMS = 4
 WORTH_TRYING = 9.0
 """Other damping laws are tried where the residual's variance is at most this many times the least one."""
-PER_CYCLE = 24
-"""Samples per cycle that are kept when a recording is thinned."""
-ENOUGH = 6000
-MOST_SAMPLES = 60_000
 FEWEST_CYCLES = 6
-POOR = 0.6
-"""Share of the signal's rms that the best candidate may leave before the verdict says that none describes it."""
-WINDOW_CYCLES = 4.0
-"""Window of the local harmonic least squares that start the fits; their border values are one-sided fits."""
 
 
 @dataclass(frozen=True)
@@ -59,19 +48,54 @@ class Ranked:
 
 
 def identify(
-    recording: Recording,
+    recording: Recording | Prepared,
     *,
     candidates: Iterable[str] = NAMES,
     laws: Sequence[str] = LAWS,
     kind: str = "bic",
     span: tuple[float, float] | None = None,
+    prediction: Prediction | None = None,
+    notes: Sequence[str] = (),
     progress: Progress = silent,
 ) -> Identification:
-    """Fit every candidate to a decay and rank them; ``span`` limits the recording to times from .. to.
+    """Fit every candidate to a decay and rank them.
 
-    ``kind`` is ``bic`` or ``aicc``.  Raises InputError for unknown names, a span without enough cycles, more samples
-    than fit the budget, and when no candidate can be fitted.
+    Parameters
+    ----------
+    recording
+        One signal, evenly sampled; or what :func:`prepared` made of it, to share that with :func:`predict`.
+    candidates
+        Names of oscillator classes, of :data:`NAMES`.
+    laws
+        Damping laws that are tried, of :data:`LAWS`.
+    kind
+        Information criterion: ``bic`` or ``aicc``.
+    span
+        First and last time to use; all by default.
+    prediction
+        What :func:`predict` made of the same recording, to go into the result.
+    notes
+        Sentences to go into the result.
+    progress
+        Called with the share of the work that is done, 0 to 1, and the name of the step.
 
+    Returns
+    -------
+    Identification
+        Candidates, best first, with their parameters and intervals, and which the data cannot tell apart.
+
+    Raises
+    ------
+    InputError
+        For unknown names, a span without enough cycles, more samples than fit the budget, and when no candidate can
+        be fitted.
+
+    References
+    ----------
+    G. Schwarz, Ann. Stat. 6 (1978) 461-464 (BIC); R. E. Kass and A. E. Raftery, J. Am. Stat. Assoc. 90 (1995) 773-795.
+
+    Examples
+    --------
     >>> t = np.arange(400) / 4.0
     >>> noise = 0.01 * np.random.default_rng(1).normal(size=400)
     >>> decay = Recording(t, np.exp(-0.01 * t) * np.cos(1.1 * t) + noise, 4.0, "u", "mm", "decay.csv", "")
@@ -80,32 +104,16 @@ def identify(
     ('linear', True)
     """
     names, laws = checked(candidates, laws, kind)
-    used, notes = usable(recording, span)
     progress(0.0, "frequency track")
-    track = local_track(used)
-    data = prepare(used, track)
+    ready = prepared(recording, span=span) if isinstance(recording, Recording) else recording
+    used = ready.recording
+    data = prepare(used, ready.track)
     cycles = float(data.time[-1]) / data.cycle
     if cycles < FEWEST_CYCLES:
         raise InputError(f"{used.source}: {cycles:.1f} cycles are too few to tell oscillators apart; give 6 or more")
     ranked = rank(data, names, laws, kind, progress)
-    return assembled(used, data, ranked, kind, (*used.notes, *notes, *data.measured.notes), track.method)
-
-
-def local_track(recording: Recording) -> Track:
-    """The fundamental's track by harmonic least squares in windows of four cycles; auto where they hold too little."""
-    x, rate, start = recording.values, recording.rate, float(recording.time[0])
-    lag = WINDOW_CYCLES * samples_per_cycle(recording) / rate
-    try:
-        return estimate(x, rate, method="harmonic-least-squares", lag_seconds=lag, start=start, bias=False)
-    except InputError:
-        return estimate(x, rate, start=start, bias=False)
-
-
-def samples_per_cycle(recording: Recording) -> float:
-    """Samples in one cycle of the strongest component."""
-    x = recording.values - recording.values.mean()
-    spectrum = np.abs(np.fft.rfft(x * np.hanning(x.size)))
-    return float(x.size / max(1, int(spectrum.argmax())))
+    said = (*used.notes, *ready.notes, *data.measured.notes, *notes)
+    return assembled(ready, data, ranked, kind, said, prediction)
 
 
 def checked(candidates: Iterable[str], laws: Sequence[str], kind: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -125,45 +133,6 @@ def checked(candidates: Iterable[str], laws: Sequence[str], kind: str) -> tuple[
     if kind not in CRITERIA:
         raise InputError(f"criterion {kind!r} is unknown; use one of {', '.join(CRITERIA)}")
     return names, tuple(law for law in LAWS if law in laws)
-
-
-def usable(recording: Recording, span: tuple[float, float] | None) -> tuple[Recording, tuple[str, ...]]:
-    """The part asked for, thinned where it has far more samples per cycle than a fit needs."""
-    notes: list[str] = []
-    if span is not None:
-        keep = (recording.time >= span[0]) & (recording.time <= span[1])
-        if np.count_nonzero(keep) < 16:
-            raise InputError(
-                f"{recording.source}: {np.count_nonzero(keep)} samples lie within {span[0]:g} to {span[1]:g}; "
-                f"the recording runs from {recording.time[0]:g} to {recording.time[-1]:g}"
-            )
-        recording = part_of(recording, recording.time[keep], recording.values[keep], recording.rate)
-        notes.append(f"Only times from {span[0]:g} to {span[1]:g} were used.")
-    factor = thinning(recording)
-    if factor > 1:
-        values = signal.decimate(recording.values, factor, ftype="fir", zero_phase=True)
-        recording = part_of(recording, recording.time[::factor], values, recording.rate / factor)
-        notes.append(f"Every {factor}th sample was used, after a low-pass filter.")
-    if recording.values.size > MOST_SAMPLES:
-        raise InputError(
-            f"{recording.source}: {recording.values.size} samples are over the budget of {MOST_SAMPLES} for fits; "
-            f"use a span of {MOST_SAMPLES / recording.rate:.4g} time units or less"
-        )
-    return recording, tuple(notes)
-
-
-def part_of(recording: Recording, time: Array, values: Array, rate: float) -> Recording:
-    """The same recording with other samples."""
-    return Recording(
-        time, values, rate, recording.name, recording.units, recording.source, recording.sha256, recording.notes
-    )
-
-
-def thinning(recording: Recording) -> int:
-    """Factor by which samples may be thinned and still leave PER_CYCLE in each cycle of the strongest component."""
-    if recording.values.size <= ENOUGH:
-        return 1
-    return max(1, min(int(samples_per_cycle(recording) / PER_CYCLE), math.ceil(recording.values.size / ENOUGH)))
 
 
 def rank(data: Data, names: tuple[str, ...], laws: tuple[str, ...], kind: str, progress: Progress) -> Ranked:
@@ -221,7 +190,13 @@ def with_law(found: Fit, law: str) -> Model:
 
 
 def assembled(
-    recording: Recording, data: Data, ranked: Ranked, kind: str, notes: tuple[str, ...], method: str
+    recording: Recording,
+    data: Data,
+    ranked: Ranked,
+    kind: str,
+    notes: tuple[str, ...],
+    method: str,
+    prediction: Prediction | None,
 ) -> Identification:
     """Put the ranking into its result."""
     best, total = ranked.scores[0], float(np.sum(np.exp(-0.5 * (np.array(ranked.scores) - ranked.scores[0]))))
@@ -247,29 +222,10 @@ def assembled(
             measured.curve_damping,
             measured.curve_damping_sd,
         ),
-        verdict=verdict(candidates, near, kind, data),
+        unexplained=candidates[0].residual / (data.length * float(np.std(data.x))),
         indistinguishable=near,
-        settings={"track": method, "sha256": recording.sha256, "length": data.length, "cycle": data.cycle},
+        settings={"track": ready.track.method, "sha256": recording.sha256, "length": data.length, "cycle": data.cycle},
         notes=notes,
         failed=ranked.failed,
+        prediction=prediction,
     )
-
-
-def verdict(candidates: tuple[Candidate, ...], near: tuple[str, ...], kind: str, data: Data) -> str:
-    """Which class, how sure, and which others cannot be told apart from it."""
-    best, name = candidates[0], kind.upper() if kind == "bic" else "AICc"
-    share = best.residual / (data.length * float(np.std(data.x)))
-    text = f"{best.title}, damping {best.damping_law}"
-    if share > POOR:
-        text = "No candidate describes this recording; the nearest is " + text
-    if best.name == BACKBONE and len(near) == 1:
-        text += ": no equation among the candidates does as well"
-    others = [c for c in candidates[1:] if c.name in near]
-    if others:
-        listed = ", ".join(f"{c.title} ({name} {c.delta:.1f} higher)" for c in others)
-        text += f"; the data cannot tell it apart from: {listed}"
-    elif len(candidates) > 1:
-        second = candidates[1]
-        text += f"; next comes {second.title}, {name} {second.delta:.4g} higher"
-    text += f". What it leaves unexplained is {share:.2g} of the signal's rms"
-    return text + "."

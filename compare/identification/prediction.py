@@ -18,15 +18,8 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.identification.candidates import LAWS, NAMES
 from ridgeback.compare.identification.fitting import Data, Fit, demodulated, fit, prepare, refit
-from ridgeback.compare.identification.identify import (
-    FEWEST_CYCLES,
-    Ranked,
-    checked,
-    local_track,
-    part_of,
-    rank,
-    usable,
-)
+from ridgeback.compare.identification.identify import FEWEST_CYCLES, Ranked, checked, rank
+from ridgeback.compare.identification.preparation import Prepared, local_track, part_of, prepared
 from ridgeback.compare.identification.ranking import covariance, spread_along
 from ridgeback.compare.identification.results import NORMAL_95, Prediction
 from ridgeback.numeric.arrays import Array
@@ -57,7 +50,7 @@ class Rest:
 
 
 def predict(
-    recording: Recording,
+    recording: Recording | Prepared,
     *,
     cycles: float,
     candidates: Iterable[str] = NAMES,
@@ -66,11 +59,33 @@ def predict(
     span: tuple[float, float] | None = None,
     progress: Progress = silent,
 ) -> Prediction:
-    """Fit the first ``cycles`` cycles and predict amplitude, frequency and phase of the rest.
+    """Fit the first cycles of a decay and predict amplitude, frequency and phase of the rest.
 
     The whole recording's track counts the cycles and is what the prediction is held against; the fit sees none of it.
-    Raises InputError as ``identify`` does, and when too few cycles are left on either side.
 
+    Parameters
+    ----------
+    recording
+        One signal, evenly sampled; or what :func:`prepared` made of it, to share that with :func:`identify`.
+    cycles
+        How many of the first cycles are fitted.
+    candidates, laws, kind, span
+        As for :func:`identify`.
+    progress
+        Called with the share of the work that is done, 0 to 1, and the name of the step.
+
+    Returns
+    -------
+    Prediction
+        Means and 95 % bands over time, what was then measured, and how much of it lies inside.
+
+    Raises
+    ------
+    InputError
+        As :func:`identify` does, and when fewer than six cycles are left on either side.
+
+    Examples
+    --------
     >>> t = np.arange(600) / 4.0
     >>> noise = 0.01 * np.random.default_rng(1).normal(size=600)
     >>> decay = Recording(t, np.exp(-0.01 * t) * np.cos(1.1 * t) + noise, 4.0, "u", "", "decay.csv", "")
@@ -79,9 +94,9 @@ def predict(
     ('linear', True, True)
     """
     names, laws = checked(candidates, laws, kind)
-    used, _ = usable(recording, span)
+    ready = prepared(recording, span=span) if isinstance(recording, Recording) else recording
+    used, whole = ready.recording, ready.track
     start = float(used.time[0])
-    whole = local_track(used)
     offset = float(used.values.mean())
     phase, _ = demodulated(used.values - offset, used.rate, whole, start)
     cut = cut_after(phase, cycles, used)

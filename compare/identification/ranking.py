@@ -16,6 +16,7 @@ from collections.abc import Callable
 import numpy as np
 from scipy import fft
 
+from ridgeback.compare.identification.candidates import BACKBONE
 from ridgeback.compare.identification.fitting import Data, Fit, bounds
 from ridgeback.compare.identification.results import NORMAL_95, Candidate, Parameter
 from ridgeback.numeric.arrays import Array
@@ -145,6 +146,7 @@ def candidate(fit: Fit, data: Data, unit: str, score: float, best: float, total:
         damping_low=damping - NORMAL_95 * damping_sd,
         damping_high=damping + NORMAL_95 * damping_sd,
         note=at_bounds(fit, data),
+        has_equation=fit.model.name != BACKBONE,
     )
 
 

@@ -17,6 +17,10 @@ NORMAL_95 = 1.959963984540054
 """The 97.5 % point of the normal distribution: half the width of a 95 % interval in standard deviations."""
 
 
+POOR = 0.6
+"""Share of the signal's rms that the best candidate may leave before the verdict says that none describes it."""
+
+
 class _Values:
     """Arrays are copied and made read-only, mappings read-only; ``record`` gives what JSON knows."""
 
@@ -91,6 +95,8 @@ class Candidate(_Values):
     damping_low: Array
     damping_high: Array
     note: str = ""
+    has_equation: bool = True
+    """False for a polynomial backbone: a slow flow without an equation of motion."""
 
     def parameter(self, name: str) -> Parameter:
         """The parameter of this name; KeyError without one."""
@@ -157,8 +163,8 @@ class Identification(_Values):
     criterion_name: str
     candidates: tuple[Candidate, ...]
     data: MeasuredBackbone
-    verdict: str
-    """One or two sentences: which class, how sure, and which others cannot be told apart from it."""
+    unexplained: float
+    """What the best candidate leaves, as a share of the signal's rms."""
     indistinguishable: tuple[str, ...]
     """Names of the candidates that the data cannot tell apart from the best, which comes first."""
     settings: Mapping[str, object] = field(default_factory=dict)
@@ -171,3 +177,30 @@ class Identification(_Values):
     def best(self) -> Candidate:
         """The candidate with the least criterion."""
         return self.candidates[0]
+
+    @property
+    def described(self) -> bool:
+        """Whether the best candidate leaves less of the signal than ``POOR``."""
+        return self.unexplained <= POOR
+
+    @property
+    def verdict(self) -> str:
+        """The ranking in one or two sentences: which class, how sure, and which others cannot be told apart from it."""
+        best, others = self.best, [c for c in self.candidates[1:] if c.name in self.indistinguishable]
+        name = {"bic": "BIC", "aicc": "AICc"}[self.criterion_name]
+        text = f"{best.title}, damping {best.damping_law}"
+        if not self.described:
+            text = "No candidate describes this recording; the nearest is " + text
+        if not best.has_equation and not others:
+            text += ": no equation among the candidates does as well"
+        if others:
+            listed = ", ".join(f"{c.title} ({name} {c.delta:.1f} higher)" for c in others)
+            text += f"; the data cannot tell it apart from: {listed}"
+        elif len(self.candidates) > 1:
+            second = self.candidates[1]
+            text += f"; next comes {second.title}, {name} {second.delta:.4g} higher"
+        return f"{text}. What it leaves unexplained is {self.unexplained:.2g} of the signal's rms."
+
+    def record(self) -> dict[str, object]:
+        """All fields by name, and the verdict that follows from them."""
+        return {**super().record(), "verdict": self.verdict}

@@ -20,7 +20,7 @@ from ridgeback.compare.motion.planes import spectrogram_image, wigner_image
 from ridgeback.compare.motion.reconstruction import known_motion, reconstruct
 from ridgeback.compare.motion.results import Amplitudes, BudgetRow, Curve, DecayComparison, Image, Integrator, Score
 from ridgeback.compare.motion.wigner_bias import wigner_bias
-from ridgeback.compare.study.derivation import Exact, derive
+from ridgeback.compare.study.derived import Derived, derive
 
 HIGH_ORDER = 20
 TOP_MULTIPLE = 8
@@ -28,22 +28,52 @@ TOP_MULTIPLE = 8
 
 
 def compare_decay(
-    chosen: Setting,
+    chosen: Setting | Motion,
     *,
-    exact: Exact | None = None,
+    derived: Derived | None = None,
     orders: Iterable[int] = (*LOW_ORDERS, HIGH_ORDER),
     progress: Progress = silent,
 ) -> DecayComparison:
-    """Integrate, model, estimate and compare; ``progress`` is called with a fraction from 0 to 1 and a label.
+    """Hold models, expansions and estimates of omega0(t) against the cycle frequency of an integrated motion.
 
-    ``exact`` saves deriving the expansion again; it must reach the highest of ``orders``.  Raises InputError for a
-    motion that cannot be integrated or has too few cycles.  An estimate that fails becomes a score with its reason.
+    Parameters
+    ----------
+    chosen
+        What to integrate, or the motion when it is integrated already.
+    derived
+        The expansion and the slow flow, which must reach the highest of ``orders``; derived here by default.
+    orders
+        Orders of the expansion that are drawn along the motion.
+    progress
+        Called with the share of the work that is done, 0 to 1, and the name of the step.
+
+    Returns
+    -------
+    DecayComparison
+        Complete; an estimate that fails is a score with its reason.
+
+    Raises
+    ------
+    InputError
+        For a motion that cannot be integrated or has too few cycles.
+
+    References
+    ----------
+    L. Galleani and L. Cohen, whose figures 1 to 9 are the statements of the result.
+
+    Examples
+    --------
+    >>> from ridgeback.compare.motion.motion import setting
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> swing = setting(find("damped-pendulum"), initial=(1.0, 0.0), duration=60.0, rate=4.0)
+    >>> compare_decay(swing, orders=(2,)).scores[0].method
+    'closed-form'
     """
     wanted = sorted(set(orders))
     progress(0.0, "integrating the motion twice")
-    motion = integrate_motion(chosen)
-    derived = derive(chosen.oscillator, max(wanted)) if exact is None else exact
-    models = model_curves(motion, derived, orders=wanted)
+    motion = integrate_motion(chosen) if isinstance(chosen, Setting) else chosen
+    exact = derive(motion.setting.oscillator, max(wanted)) if derived is None else derived
+    models = model_curves(motion, exact, orders=wanted)
     outcomes = estimates(motion, _within(progress, 0.2, 0.45))
     progress(0.45, "harmonics")
     tones = overtones(motion, outcomes)

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.results import AmplitudeSource, Curve
-from ridgeback.compare.study.derivation import Exact
+from ridgeback.compare.study.derived import Derived
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.paper_model import series_frequency
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
@@ -35,17 +35,17 @@ def expansion_name(order: int) -> str:
     return f"lindstedt-{order}"
 
 
-def model_curves(motion: Motion, exact: Exact, *, orders: Sequence[int]) -> tuple[Curve, ...]:
+def model_curves(motion: Motion, derived: Derived, *, orders: Sequence[int]) -> tuple[Curve, ...]:
     """All models and expansions of this oscillator along this motion.
 
-    ``orders`` are the orders of the expansion that are drawn (at most that of ``exact``).
+    ``orders`` are the orders of the expansion that are drawn (at most that of ``derived``).
     """
-    if exact.expansion.variable == "eps":
-        return tuple(_limit_cycle_curves(motion, exact, orders))
-    return tuple(_conservative_curves(motion, exact, orders))
+    if derived.expansion.variable == "eps":
+        return tuple(_limit_cycle_curves(motion, derived, orders))
+    return tuple(_conservative_curves(motion, derived, orders))
 
 
-def _conservative_curves(motion: Motion, exact: Exact, orders: Sequence[int]) -> Iterator[Curve]:
+def _conservative_curves(motion: Motion, derived: Derived, orders: Sequence[int]) -> Iterator[Curve]:
     peak = motion.energy_peak
     yield _model(motion, CLOSED_FORM, _exact_label(motion), motion.exact_at_energy, by=AmplitudeSource.ENERGY)
     if motion.setting.is_pendulum:
@@ -60,9 +60,9 @@ def _conservative_curves(motion: Motion, exact: Exact, orders: Sequence[int]) ->
         yield _model(motion, AVERAGED_ACTION, "averaged action", omega, note, by=AmplitudeSource.AVERAGED)
     yield _linear(motion)
     for order in orders:
-        yield _expansion(motion, exact, order, peak)
-    if exact.flow is not None and motion.averaged is not None:
-        yield slow_flow_curve(motion, exact.flow)
+        yield _expansion(motion, derived, order, peak)
+    if derived.flow is not None and motion.averaged is not None:
+        yield slow_flow_curve(motion, derived.flow)
 
 
 def _exact_label(motion: Motion) -> str:
@@ -90,8 +90,8 @@ def _linear(motion: Motion) -> Curve:
     return _model(motion, LINEAR, "linear, eq. (3)", omega)
 
 
-def _expansion(motion: Motion, exact: Exact, order: int, x: Array) -> Curve:
-    omega = np.asarray(exact.expansion.truncated(order)(x), dtype=float)
+def _expansion(motion: Motion, derived: Derived, order: int, x: Array) -> Curve:
+    omega = np.asarray(derived.expansion.truncated(order)(x), dtype=float)
     return Curve(
         expansion_name(order),
         f"expansion, order {order}",
@@ -104,11 +104,11 @@ def _expansion(motion: Motion, exact: Exact, order: int, x: Array) -> Curve:
     )
 
 
-def _limit_cycle_curves(motion: Motion, exact: Exact, orders: Sequence[int]) -> Iterator[Curve]:
+def _limit_cycle_curves(motion: Motion, derived: Derived, orders: Sequence[int]) -> Iterator[Curve]:
     name = motion.setting.oscillator.small or "eps"
     eps = motion.setting.case().parameters[name]
     for order in orders:
-        omega = np.full(motion.time.size, float(exact.expansion.truncated(order)(eps)))
+        omega = np.full(motion.time.size, float(derived.expansion.truncated(order)(eps)))
         yield Curve(
             expansion_name(order),
             f"limit cycle, order {order}",

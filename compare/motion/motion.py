@@ -46,7 +46,7 @@ class Setting:
     rate: float
     time_unit: str = ""
 
-    @property
+    @cached_property
     def is_pendulum(self) -> bool:
         """Whether the paper's own formulas (10)-(14) and (21) apply: restoring force k^2 sin(u)."""
         sine = sine_force(self.oscillator.substituted_force.subs(V, 0))

@@ -16,14 +16,15 @@ from scipy.interpolate import make_interp_spline, make_lsq_spline
 from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion.error_norms import Zones, zones
+from ridgeback.compare.motion.motion import Motion
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.harmonics.cramer_rao import Order, local_bound
 from ridgeback.numeric.harmonics.harmonic_signal import HarmonicSignal, decompose, uniform_knots
 from ridgeback.numeric.harmonics.local_fit import choose_multiples
-from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
+from ridgeback.numeric.motion.cycle_frequency import CycleFrequency, cycle_frequency
 from ridgeback.numeric.motion.dynamics import Dynamics
-from ridgeback.numeric.motion.trajectory import integrate
+from ridgeback.numeric.motion.trajectory import Trajectory, integrate
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.windows import half_width
 from ridgeback.numeric.tracking.request import LAG_CYCLES
@@ -124,6 +125,13 @@ def oscillator_truth(
     return replace(truth, oscillator=oscillator, free=tuple(oscillator.parameters))
 
 
+def motion_truth(motion: Motion) -> Truth:
+    """The same for a motion that is integrated already."""
+    oscillator = motion.setting.oscillator
+    truth = _integrated_truth(motion.trajectory, motion.cycle, oscillator.title, oscillator.name)
+    return replace(truth, oscillator=oscillator, free=tuple(oscillator.parameters))
+
+
 def dynamics_truth(
     dynamics: Dynamics, initial: tuple[float, float], *, duration: float, rate: float, title: str = ""
 ) -> Truth:
@@ -132,17 +140,21 @@ def dynamics_truth(
     Raises InputError where the record does not hold enough cycles, or too few samples per cycle for an estimate.
     """
     run = integrate(dynamics, initial, duration=duration, rate=rate)
-    omega = cycle_frequency(run, dynamics=dynamics).at(run.time)
+    return _integrated_truth(run, cycle_frequency(run, dynamics=dynamics), title or dynamics.name, dynamics.name)
+
+
+def _integrated_truth(run: Trajectory, cycle: CycleFrequency, title: str, name: str) -> Truth:
+    omega = cycle.at(run.time)
     known = np.isfinite(omega)
     if not known.any():
-        raise InputError(f"{dynamics.name}: the record holds no whole cycle; use a longer duration")
+        raise InputError(f"{name}: the record holds no whole cycle; use a longer duration")
     omega = np.interp(run.time, run.time[known], omega[known])
     return _with_harmonics(
-        title or dynamics.name,
+        title,
         "cycle frequency of the integrated solution, from its located zero crossings",
         run.u,
         omega,
-        rate,
+        run.rate,
         0.0,
         own=False,
     )

@@ -1,8 +1,8 @@
-"""What a report says of what made a recording: the ranking, and the rest of the decay foretold from its first part."""
+"""What a report says of what made a recording: the ranking, and the rest of the decay predicted from its first part."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,28 +10,57 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.prediction import predict
-from ridgeback.compare.identification.results import Identification
+from ridgeback.compare.identification.preparation import Prepared, prepared
+from ridgeback.compare.identification.results import Identification, Prediction
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.numeric.recording.recording import Recording
 
 SHARE = 1.0 / 3.0
-"""Part of the cycles that foretells the rest unless the caller says how many."""
+"""Part of the cycles that predicts the rest unless the caller says how many."""
 
 
-def identified(
-    recording: Recording, found: RecordingComparison, cycles: float | None, progress: Progress
-) -> tuple[Identification | None, str]:
-    """The identification with its prediction where there are cycles enough; the reason for what is missing."""
+@dataclass(frozen=True)
+class IdentificationPart:
+    """Which oscillator made a recording, or why that is not said."""
+
+    found: Identification | None
+    left_out: str = ""
+    """A sentence; empty when there is an identification."""
+
+
+def identification_part(
+    recording: Recording, compared: RecordingComparison, cycles: float | None, progress: Progress
+) -> IdentificationPart:
+    """The identification, with its prediction where there are cycles enough.
+
+    Parameters
+    ----------
+    recording
+        The recording that is reported on.
+    compared
+        What was measured of it; its chosen track counts the cycles.
+    cycles
+        How many of the first cycles predict the rest; None for a third of them.
+    progress
+        Called with the share of the work that is done, 0 to 1, and the name of the step.
+    """
+    used = SHARE * cycles_of(compared) if cycles is None else cycles
     try:
-        made = identify(recording, progress=lambda share, step: progress(0.5 * share, step))
+        ready = prepared(recording)
+        ahead, why = _ahead(ready, used, lambda share, step: progress(0.5 * share, step))
+        notes = (why,) if why else ()
+        later: Progress = lambda share, step: progress(0.5 + 0.5 * share, step)  # noqa: E731
+        return IdentificationPart(identify(ready, prediction=ahead, notes=notes, progress=later))
     except InputError as refusal:
-        return None, f"Not identified: {refusal}."
-    used = SHARE * cycles_of(found) if cycles is None else cycles
+        return IdentificationPart(None, f"Not identified: {refusal}.")
+
+
+def _ahead(ready: Prepared, cycles: float, progress: Progress) -> tuple[Prediction | None, str]:
+    """The prediction, or why there is none."""
     try:
-        ahead = predict(recording, cycles=used, progress=lambda share, step: progress(0.5 + 0.5 * share, step))
+        return predict(ready, cycles=cycles, progress=progress), ""
     except InputError as refusal:
-        return replace(made, notes=(*made.notes, f"Nothing was foretold: {refusal}.")), ""
-    return replace(made, prediction=ahead), ""
+        return None, f"Nothing was predicted: {refusal}."
 
 
 def cycles_of(found: RecordingComparison) -> float:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress
-from ridgeback.compare.motion.motion import Setting
+from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.noise.monte_carlo import monte_carlo
 from ridgeback.compare.noise.results import NoiseStudy
-from ridgeback.compare.noise.truth import oscillator_truth
+from ridgeback.compare.noise.truth import motion_truth
 from ridgeback.numeric.recording.recording import Recording
 
 TRIALS = 5
@@ -16,22 +18,33 @@ NOISE_SECONDS = 120.0
 NOISE_METHODS = ("harmonic-least-squares", "pseudo-wigner", "wigner", "spectrogram", "zero-crossing")
 
 
-def noise_of_motion(case: Setting, trials: int, progress: Progress) -> NoiseStudy | None:
-    """The estimators in noise on this motion; None for a motion that has no reference to hold them against."""
-    try:
-        truth = oscillator_truth(
-            case.oscillator, case.initial, duration=case.duration, rate=case.rate, title=case.oscillator.title
-        )
-    except InputError:
-        return None
-    return monte_carlo(truth, methods=NOISE_METHODS, trials=trials, intervals=False, progress=progress)
+@dataclass(frozen=True)
+class NoisePart:
+    """The noise study, or why there is none."""
+
+    study: NoiseStudy | None
+    left_out: str = ""
+    """A sentence; empty when there is a study, or when none was asked for."""
 
 
-def noise_of_recording(recording: Recording, trials: int, progress: Progress) -> tuple[NoiseStudy | None, str]:
-    """The estimators on the recording's own smooth model in noise, or why there is no such study."""
+def noise_part(source: Motion | Recording, trials: int, progress: Progress) -> NoisePart:
+    """The estimators in noise, within the budget of a report.
+
+    Parameters
+    ----------
+    source
+        An integrated motion, or a recording, whose own smooth model is then the truth.
+    trials
+        Noisy records a point; 0 for no study.
+    progress
+        Called with the share of the work that is done, 0 to 1, and the name of the step.
+    """
+    if not trials:
+        return NoisePart(None)
     try:
+        truth = motion_truth(source) if isinstance(source, Motion) else source
         study = monte_carlo(
-            recording,
+            truth,
             methods=NOISE_METHODS,
             trials=trials,
             intervals=False,
@@ -39,5 +52,5 @@ def noise_of_recording(recording: Recording, trials: int, progress: Progress) ->
             progress=progress,
         )
     except InputError as refusal:
-        return None, f"No noise study: {refusal}."
-    return study, ""
+        return NoisePart(None, f"No noise study: {refusal}.")
+    return NoisePart(study)

@@ -3,34 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.common.quantities import symbol
-from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion.comparison import HIGH_ORDER, compare_decay
 from ridgeback.compare.motion.model_curves import LOW_ORDERS
-from ridgeback.compare.motion.motion import Setting, setting
+from ridgeback.compare.motion.motion import Setting, integrate_motion, setting
 from ridgeback.compare.motion.results import DecayComparison
 from ridgeback.compare.report import csv_tables as tables
-from ridgeback.compare.report.noise_part import TRIALS, noise_of_motion
+from ridgeback.compare.report.noise_part import TRIALS, noise_part
 from ridgeback.compare.report.provenance import provenance
 from ridgeback.compare.report.results import Report
-from ridgeback.compare.report.stages import Stages
+from ridgeback.compare.report.stages import Stopwatch
 from ridgeback.compare.report.standings import standings
 from ridgeback.compare.report.summary import cards, decay_sentences, study_sentences, study_title
 from ridgeback.compare.study.certified import certified
-from ridgeback.compare.study.derivation import Exact, derivation, derive
+from ridgeback.compare.study.derivation import derivation
+from ridgeback.compare.study.derived import Derived, derive
 from ridgeback.compare.study.results import Range, Study, Timing
-from ridgeback.compare.study.study import ranges, study
+from ridgeback.compare.study.study import ranges, study_of
 from ridgeback.compare.study.timing import timings
+from ridgeback.compare.study.truncations import already_derived
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.orbits.potential import peak_limit
-from ridgeback.symbolic.flow.ordering import undamped
-from ridgeback.symbolic.singularities.limits import limits
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.door import OscillatorLike
 
@@ -102,22 +100,42 @@ def assemble_system(
     noise study (0: none).  Raises InputError as the parts do.
     """
     case = chosen if isinstance(chosen, Setting) else setting(chosen)
-    stages = Stages(progress)
-    with stages.stage("deriving", 0.0, 0.05):
-        plan, exact = _plan(case, order, orders, amplitudes, target, trials)
-    with stages.stage("accuracy-order study", 0.05, 0.15):
-        result = study(case.oscillator, plan.orders, plan.amplitudes)
-    with stages.stage("along the motion", 0.15, 0.5) as inner:
-        decay = compare_decay(case, exact=exact, orders=_drawn(exact, order), progress=inner)
-    with stages.stage("every estimator", 0.5, 0.7) as inner:
+    watch = Stopwatch(progress)
+    with watch.stage("deriving", 0.0, 0.05):
+        plan, derived = _plan(case, order, orders, amplitudes, target, trials)
+    with watch.stage("accuracy-order study", 0.05, 0.15):
+        result = study_of(derived.undamped, plan.orders, plan.amplitudes, truncate=already_derived(derived))
+    with watch.stage("along the motion", 0.15, 0.5) as inner:
+        motion = integrate_motion(case)
+        decay = compare_decay(motion, derived=derived, orders=_drawn(derived, order), progress=inner)
+    with watch.stage("every estimator", 0.5, 0.7) as inner:
         ranked = standings(decay, progress=inner)
-    with stages.stage("estimators in noise", 0.7, 0.97) as inner:
-        noisy = noise_of_motion(case, trials, inner) if trials else None
-    with stages.stage("evaluation time", 0.97, 1.0):
-        times = _timings(exact, plan)
+    with watch.stage("estimators in noise", 0.7, 0.97) as inner:
+        noise = noise_part(motion, trials, inner)
+    with watch.stage("evaluation time", 0.97, 1.0):
+        times = _timings(derived, plan)
     progress(1.0, "done")
-    made = _system_report(plan, exact, result, decay, times, command, stages.seconds)
-    return replace(made, standings=ranked, noise=noisy)
+    found = ranges(result, plan.target)
+    finding = next(item for item in found if item.order == plan.order)
+    left_out = (noise.left_out,) if noise.left_out else ()
+    return Report(
+        title=study_title(result, finding),
+        lead=_lead(case),
+        summary=(*study_sentences(result, found), *decay_sentences(decay), *left_out),
+        cards=cards(result, finding, times),
+        derivation=derivation(derived, order=plan.order),
+        study=result,
+        ranges=_shown_ranges(result, plan.target),
+        decay=decay,
+        recording=None,
+        timings=times,
+        provenance=provenance(plan.settings(), command=command, seconds=watch.seconds()),
+        certified=certified(derived.undamped.oscillator, plan.order, float(plan.amplitudes[-1])),
+        standings=ranked,
+        noise=noise.study,
+        csv=_system_csv(result, decay),
+        finding=finding,
+    )
 
 
 def _plan(
@@ -127,66 +145,36 @@ def _plan(
     amplitudes: Sequence[float] | Array | None,
     target: float,
     trials: int,
-) -> tuple[Plan, Exact]:
+) -> tuple[Plan, Derived]:
     if not 0 < target < 1:
         raise InputError(f"target {target} is not a relative error between 0 and 1; use e.g. 0.001")
     cycle = case.oscillator.kind == "limit-cycle"
     wanted = tuple(sorted({*(orders or (CYCLE_ORDERS if cycle else ORDERS)), order}))
-    exact = derive(case.oscillator, max(HIGH_ORDER, *wanted), flow_order=min(max(order, 2), 8))
-    grid = np.asarray(amplitudes, dtype=float) if amplitudes is not None else _amplitudes(case, exact)
-    return Plan(case, order, wanted, np.sort(grid), target, trials), exact
+    derived = derive(case.oscillator, max(HIGH_ORDER, *wanted), flow_order=min(max(order, 2), 8))
+    grid = np.asarray(amplitudes, dtype=float) if amplitudes is not None else _amplitudes(case, derived)
+    return Plan(case, order, wanted, np.sort(grid), target, trials), derived
 
 
-def _amplitudes(case: Setting, exact: Exact) -> Array:
+def _amplitudes(case: Setting, derived: Derived) -> Array:
     """Up to 98 % of the separatrix; without one, beyond the radius of convergence or the initial amplitude."""
-    if exact.expansion.variable == "eps":
+    if derived.expansion.variable == "eps":
         return CYCLE_STRENGTHS
-    separatrix = peak_limit(bind(undamped(case.oscillator)))
-    if np.isfinite(separatrix):
-        return np.linspace(0.02, 0.98, AMPLITUDES) * separatrix
-    radius = limits(exact.expansion).radius
+    if derived.undamped.limit is not None:
+        return np.linspace(0.02, 0.98, AMPLITUDES) * derived.undamped.limit
+    radius = derived.limits.radius
     top = 1.5 * (max(abs(case.initial[0]), 0.1) if radius is None else radius)
     return np.linspace(0.02, 1.0, AMPLITUDES) * top
 
 
-def _drawn(exact: Exact, order: int) -> tuple[int, ...]:
+def _drawn(derived: Derived, order: int) -> tuple[int, ...]:
     """Orders drawn along the motion: the paper's low ones, the chosen one, and a high one."""
-    return tuple(sorted({*LOW_ORDERS, min(order, exact.expansion.order), HIGH_ORDER}))
+    return tuple(sorted({*LOW_ORDERS, min(order, derived.expansion.order), HIGH_ORDER}))
 
 
-def _timings(exact: Exact, plan: Plan) -> tuple[Timing, ...]:
-    expansion = exact.expansion.truncated(plan.order)
-    dynamics = bind(undamped(plan.setting.oscillator))
-    return timings(expansion, dynamics, upper=float(plan.amplitudes[-1]), pendulum=plan.setting.is_pendulum)
-
-
-def _system_report(
-    plan: Plan,
-    exact: Exact,
-    result: Study,
-    decay: DecayComparison,
-    times: tuple[Timing, ...],
-    command: str,
-    seconds: Mapping[str, float],
-) -> Report:
-    found = ranges(result, plan.target)
-    finding = next(item for item in found if item.order == plan.order)
-    shown = Exact(exact.oscillator, exact.expansion.truncated(plan.order), exact.flow)
-    return Report(
-        title=study_title(result, finding),
-        lead=_lead(plan.setting),
-        summary=(*study_sentences(result, found), *decay_sentences(decay)),
-        cards=cards(result, finding, times),
-        derivation=derivation(shown),
-        study=result,
-        ranges=_shown_ranges(result, plan.target),
-        decay=decay,
-        recording=None,
-        timings=times,
-        provenance=provenance(plan.settings(), command=command, seconds=seconds),
-        certified=certified(undamped(plan.setting.oscillator), plan.order, float(plan.amplitudes[-1])),
-        csv=_system_csv(result, decay),
-        finding=finding,
+def _timings(derived: Derived, plan: Plan) -> tuple[Timing, ...]:
+    expansion = derived.expansion.truncated(plan.order)
+    return timings(
+        expansion, derived.undamped.dynamics, upper=float(plan.amplitudes[-1]), pendulum=plan.setting.is_pendulum
     )
 
 

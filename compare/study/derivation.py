@@ -6,21 +6,16 @@ exact rationals they are, whatever decimal k was given.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import replace
 
 import sympy
 
-from ridgeback.compare.binding.bind import bind
-from ridgeback.compare.study.results import Derivation, Formula
-from ridgeback.numeric.orbits.potential import peak_limit
+from ridgeback.compare.study.derived import Derived
+from ridgeback.compare.study.results import Checked, Derivation, Formula
 from ridgeback.symbolic.certificates.certificate import Check, certify
 from ridgeback.symbolic.codegen import generate
 from ridgeback.symbolic.expansion.expansion import Expansion
-from ridgeback.symbolic.expansion.lindstedt import lindstedt
-from ridgeback.symbolic.flow.multiple_scales import multiple_scales
-from ridgeback.symbolic.flow.ordering import small_parameters, undamped
 from ridgeback.symbolic.flow.slow_flow import SlowFlow, Term
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -29,47 +24,41 @@ MAX_HARMONICS = 3
 _LATEX = {sympy.Symbol("eps", real=True): r"\varepsilon", sympy.Symbol("mu", real=True): r"\mu"}
 
 
-@dataclass(frozen=True)
-class Exact:
-    """The derived series of one oscillator: the periodic family, and the slow flow where there is one."""
+def derivation(derived: Derived, *, order: int | None = None) -> Derivation:
+    """Formulas, certificate and code of what was derived.
 
-    oscillator: Oscillator
-    expansion: Expansion
-    flow: SlowFlow | None
+    Parameters
+    ----------
+    derived
+        The series and the slow flow.
+    order
+        The order that formulas, certificate and code are about; by default that of the series.
 
-
-def derive(oscillator: Oscillator, order: int, *, flow_order: int | None = None) -> Exact:
-    """Derive the expansion of the undamped oscillator (or limit cycle), and the slow flow of the damped one.
-
-    Raises InputError for an order below 0 and for an oscillator without a family of periodic orbits.
+    Examples
+    --------
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> sorted(derivation(derive(find("pendulum"), 6), order=2).code)
+    ['C', 'Python']
     """
-    expansion = lindstedt(undamped(oscillator), order)
-    flow = None
-    if small_parameters(oscillator) or oscillator.kind != "damped":
-        flow = multiple_scales(oscillator, min(order, 8) if flow_order is None else flow_order)
-    return Exact(oscillator, expansion, flow)
-
-
-def derivation(exact: Exact) -> Derivation:
-    """Formulas, certificate and code of what was derived."""
+    shown = derived if order is None else replace(derived, expansion=derived.expansion.truncated(order))
     return Derivation(
-        system=exact.oscillator.name,
-        formulas=tuple(_formulas(exact)),
-        certificate=certificate(exact),
-        code=_code(exact),
+        system=shown.oscillator.name,
+        formulas=tuple(_formulas(shown)),
+        certificate=certificate(shown),
+        code=_code(shown),
     )
 
 
-def _formulas(exact: Exact) -> Iterator[Formula]:
-    expansion = exact.expansion
+def _formulas(derived: Derived) -> Iterator[Formula]:
+    expansion = derived.expansion
     yield frequency_formula(expansion)
     if expansion.variable == "A" and expansion.amplitude == "peak":
         yield frequency_formula(expansion.convert("fundamental"))
     if expansion.amplitude_coefficients is not None:
         yield _amplitude_formula(expansion)
     yield from _harmonic_formulas(expansion)
-    if exact.flow is not None:
-        yield from _flow_formulas(exact.flow)
+    if derived.flow is not None:
+        yield from _flow_formulas(derived.flow)
 
 
 def frequency_formula(expansion: Expansion) -> Formula:
@@ -177,18 +166,16 @@ def _in_natural_units(flow: SlowFlow, terms: Iterable[Term]) -> list[sympy.Expr]
     ]
 
 
-def certificate(exact: Exact) -> tuple[str, ...]:
-    """Independent checks, each done now and in exact arithmetic; a failed one says so."""
-    checks = [("", check) for check in certify(undamped(exact.oscillator), exact.expansion)]
-    if exact.flow is not None:
-        checks += [("slow flow, ", check) for check in certify(exact.oscillator, exact.flow)]
-    return tuple(_line(prefix, check) for prefix, check in checks)
+def certificate(derived: Derived) -> tuple[Checked, ...]:
+    """Independent checks, each done now and in exact arithmetic, of the series and of the slow flow."""
+    checks = [_checked("", check) for check in certify(derived.undamped.oscillator, derived.expansion)]
+    if derived.flow is not None:
+        checks += [_checked("slow flow, ", check) for check in certify(derived.oscillator, derived.flow)]
+    return tuple(checks)
 
 
-def _line(prefix: str, check: Check) -> str:
-    failed = "FAILED: " if check.passed is False else ""
-    name = f"{prefix}{check.name}"
-    return f"{failed}{name[0].upper()}{name[1:]}: {check.statement}."
+def _checked(prefix: str, check: Check) -> Checked:
+    return Checked(f"{prefix}{check.name}", check.statement, check.passed)
 
 
 def described(oscillator: Oscillator) -> str:
@@ -202,23 +189,10 @@ def described(oscillator: Oscillator) -> str:
     return f"{oscillator.equation} with {values}" if values else oscillator.equation
 
 
-def limit_of(oscillator: Oscillator) -> float | None:
-    """The peak amplitude at which the oscillation itself ends, where there is one.
-
-    >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> limit_of(find("pendulum")), limit_of(find("van-der-pol"))
-    (3.141592653589793, None)
-    """
-    if oscillator.kind != "conservative" or oscillator.potential is None:
-        return None
-    limit = peak_limit(bind(oscillator))
-    return limit if math.isfinite(limit) else None
-
-
-def _code(exact: Exact) -> dict[str, str]:
-    oscillator = undamped(exact.oscillator)
-    equation, limit = described(oscillator), limit_of(oscillator)
-    names = {"Python": "python", "C": "c"}
+def _code(derived: Derived) -> dict[str, str]:
+    rest = derived.undamped
+    equation = described(rest.oscillator)
     return {
-        title: generate(exact.expansion, language, equation=equation, limit=limit) for title, language in names.items()
+        title: generate(derived.expansion, language, equation=equation, limit=rest.limit)
+        for title, language in (("Python", "python"), ("C", "c"))
     }

@@ -23,7 +23,7 @@ _BITS = 64
 
 
 @dataclass(frozen=True)
-class Exact:
+class Reference:
     """Frequency of the periodic motion at each value of the variable, with its relative uncertainty."""
 
     omega: Array
@@ -31,7 +31,7 @@ class Exact:
     name: str
 
 
-def conservative_reference(dynamics: Dynamics, peaks: Array) -> Exact:
+def conservative_reference(dynamics: Dynamics, peaks: Array) -> Reference:
     """Exact omega0 at peak amplitudes: the closed form where there is one, else quadrature.
 
     With both, the uncertainty is their difference plus the quadrature's own error.
@@ -39,12 +39,12 @@ def conservative_reference(dynamics: Dynamics, peaks: Array) -> Exact:
     table = exact_frequency(dynamics, peaks)
     spread = table.error / table.omega
     if dynamics.closed_form is None:
-        return Exact(table.omega, spread, "quadrature of the period")
+        return Reference(table.omega, spread, "quadrature of the period")
     closed = dynamics.closed_form(peaks)
-    return Exact(closed, np.abs(table.omega / closed - 1) + spread, "closed form, checked by quadrature")
+    return Reference(closed, np.abs(table.omega / closed - 1) + spread, "closed form, checked by quadrature")
 
 
-def enclosed_reference(oscillator: Oscillator, peaks: Array) -> Exact:
+def enclosed_reference(oscillator: Oscillator, peaks: Array) -> Reference:
     """Exact omega0 at peak amplitudes from certified enclosures, for forces a(u) + b(u) u'^2.
 
     Raises InputError as ``ridgeback.symbolic.enclosure.enclosure.enclose`` does.
@@ -52,23 +52,23 @@ def enclosed_reference(oscillator: Oscillator, peaks: Array) -> Exact:
     found = [enclose(oscillator, float(peak), bits=_BITS).omega for peak in peaks]
     omega = np.array([float(ball.mid()) for ball in found])
     error = np.array([float(ball.rad() / ball) for ball in found]) + np.finfo(float).eps
-    return Exact(omega, error, "certified enclosure")
+    return Reference(omega, error, "certified enclosure")
 
 
-def integrated_reference(dynamics: Dynamics, peaks: Array) -> Exact:
+def integrated_reference(dynamics: Dynamics, peaks: Array) -> Reference:
     """Frequency at peak amplitudes from one integrated cycle each, for families of orbits that nothing else gives.
 
     Raises InputError where an orbit does not close; see ``ridgeback.numeric.motion.closed_orbit``.
     """
     found = [closed_orbit(dynamics, float(peak)) for peak in peaks]
     omega, error = (np.array(values) for values in zip(*((o.omega, o.relative_error) for o in found), strict=True))
-    return Exact(omega, error, "one cycle integrated by Taylor series to 20 digits")
+    return Reference(omega, error, "one cycle integrated by Taylor series to 20 digits")
 
 
-def limit_cycle_reference(oscillator: Oscillator, strengths: Array) -> Exact:
+def limit_cycle_reference(oscillator: Oscillator, strengths: Array) -> Reference:
     """Frequency of the limit cycle at each eps, from the periodic orbit found by shooting."""
     name = oscillator.small or "eps"
     orbits = [periodic_orbit(bind(oscillator, values={name: float(eps)})) for eps in strengths]
     omega = np.array([orbit.omega for orbit in orbits])
     error = np.array([orbit.period_error / orbit.period for orbit in orbits])
-    return Exact(omega, error, "periodic orbit found by shooting")
+    return Reference(omega, error, "periodic orbit found by shooting")

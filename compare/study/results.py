@@ -113,11 +113,21 @@ class Timing:
 
 
 @dataclass(frozen=True)
+class Checked:
+    """One check of a certificate, made in exact arithmetic."""
+
+    name: str
+    statement: str
+    passed: bool | None
+    """None: it does not apply to this oscillator, and the statement says why."""
+
+
+@dataclass(frozen=True)
 class Derivation:
-    """The exact side of the page: formulas, certificate lines, generated code."""
+    """The exact side of the page: formulas, certificate, generated code."""
 
     system: str
     formulas: tuple[Formula, ...]
-    certificate: tuple[str, ...]
+    certificate: tuple[Checked, ...]
     code: Mapping[str, str]
     """Language name to source text."""

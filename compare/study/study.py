@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.binding.bind import bind
+from ridgeback.compare.study.derived import Undamped, without_damping
 from ridgeback.compare.study.reference import (
-    Exact,
+    Reference,
     conservative_reference,
     enclosed_reference,
     integrated_reference,
@@ -27,10 +27,8 @@ from ridgeback.compare.study.results import Range, Study
 from ridgeback.compare.study.truncations import METHODS, Method
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics
-from ridgeback.numeric.orbits.potential import peak_limit
 from ridgeback.symbolic.enclosure.enclosure import separatrix
 from ridgeback.symbolic.enclosure.well import well_of
-from ridgeback.symbolic.flow.ordering import undamped
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, V, Value
 
@@ -70,12 +68,19 @@ def study(
     ((2, 2), True)
     """
     oscillator = as_oscillator(oscillator)
-    bound = undamped(oscillator.with_parameters(values) if values else oscillator)
+    rest = without_damping(oscillator.with_parameters(values) if values else oscillator)
+    return study_of(rest, orders, amplitudes, method=method, truncate=_method(method))
+
+
+def study_of(
+    rest: Undamped, orders: Sequence[int], amplitudes: ArrayLike, *, truncate: Method, method: str = "lindstedt"
+) -> Study:
+    """The same for an oscillator whose damping is left out already, ``truncate`` giving the series of ``method``."""
+    bound = rest.oscillator
     kept, grid = _checked_orders(orders), _checked_amplitudes(amplitudes)
     _check_size(len(kept), grid.size, limit_cycle=bound.kind == "limit-cycle")
-    truncate = _method(method)
-    limit, exact = _reference(bound, grid)
-    series = truncate(bound, kept, grid)
+    limit, exact = _reference(rest, grid)
+    series = truncate(rest, kept, grid)
     return Study(
         system=bound.name,
         title=bound.title,
@@ -165,15 +170,15 @@ def _method(method: str) -> Method:
     return METHODS[method]
 
 
-def _reference(oscillator: Oscillator, grid: Array) -> tuple[float | None, Exact]:
+def _reference(rest: Undamped, grid: Array) -> tuple[float | None, Reference]:
+    oscillator = rest.oscillator
     if oscillator.kind == "limit-cycle":
         return None, limit_cycle_reference(oscillator, grid)
-    dynamics = bind(oscillator)
+    dynamics = rest.dynamics
     if oscillator.substituted_force.has(V) or dynamics.restoring is None:  # f(u, 0) alone does not set the motion
         return _enclosed(oscillator, grid) if _has_well(oscillator) else (None, _integrated(dynamics, grid))
-    limit = peak_limit(dynamics)
-    _check_inside(dynamics, grid, limit)
-    return (limit if math.isfinite(limit) else None), conservative_reference(dynamics, grid)
+    _check_inside(dynamics, grid, math.inf if rest.limit is None else rest.limit)
+    return rest.limit, conservative_reference(dynamics, grid)
 
 
 def _has_well(oscillator: Oscillator) -> bool:
@@ -185,7 +190,7 @@ def _has_well(oscillator: Oscillator) -> bool:
     return True
 
 
-def _integrated(dynamics: Dynamics, grid: Array) -> Exact:
+def _integrated(dynamics: Dynamics, grid: Array) -> Reference:
     """The reference where no energy is known, one cycle integrated at each amplitude."""
     if grid.size > MAX_ORBITS:
         raise InputError(
@@ -194,7 +199,7 @@ def _integrated(dynamics: Dynamics, grid: Array) -> Exact:
     return integrated_reference(dynamics, grid)
 
 
-def _enclosed(oscillator: Oscillator, grid: Array) -> tuple[float | None, Exact]:
+def _enclosed(oscillator: Oscillator, grid: Array) -> tuple[float | None, Reference]:
     """The reference where u' is in the force, by certified enclosures."""
     if grid.size > MAX_ENCLOSED:
         raise InputError(f"{grid.size} amplitudes exceed {MAX_ENCLOSED} enclosures; use at most {MAX_ENCLOSED}")

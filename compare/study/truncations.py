@@ -13,15 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.binding.bind import bind
+from ridgeback.compare.study.derived import Derived, Undamped
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
-from ridgeback.symbolic.singularities.limits import limits
-from ridgeback.symbolic.systems.oscillator import Oscillator
+from ridgeback.symbolic.singularities.limits import Limits, limits
 
 
 @dataclass(frozen=True)
@@ -37,21 +36,27 @@ class Truncations:
     note: str
 
 
-Method = Callable[[Oscillator, Sequence[int], Array], Truncations]
+Method = Callable[[Undamped, Sequence[int], Array], Truncations]
 
 
-def by_lindstedt(oscillator: Oscillator, orders: Sequence[int], grid: Array) -> Truncations:
+def by_lindstedt(rest: Undamped, orders: Sequence[int], grid: Array) -> Truncations:
     """Lindstedt-Poincaré in the peak amplitude, or in eps for a limit cycle."""
-    return _of_expansion(lindstedt(oscillator, max(orders)), orders, grid)
+    return of_expansion(lindstedt(rest.oscillator, max(orders)), orders, grid)
 
 
-def by_energy_integral(oscillator: Oscillator, orders: Sequence[int], grid: Array) -> Truncations:
+def by_energy_integral(rest: Undamped, orders: Sequence[int], grid: Array) -> Truncations:
     """The energy integral in the peak amplitude."""
-    return _of_expansion(energy_integral(oscillator, max(orders)), orders, grid)
+    return of_expansion(energy_integral(rest.oscillator, max(orders)), orders, grid)
 
 
-def _of_expansion(expansion: Expansion, orders: Sequence[int], grid: Array) -> Truncations:
-    found = limits(expansion)
+def already_derived(derived: Derived) -> Method:
+    """The method lindstedt for a series that is there already, of at least the highest order studied."""
+    return lambda _, orders, grid: of_expansion(derived.expansion, orders, grid, derived.limits)
+
+
+def of_expansion(expansion: Expansion, orders: Sequence[int], grid: Array, found: Limits | None = None) -> Truncations:
+    """Truncations of one series; ``found`` saves looking for its limits again."""
+    found = limits(expansion) if found is None else found
     return Truncations(
         omega=np.stack([np.asarray(expansion.truncated(order)(grid), dtype=float) for order in orders]),
         variable=expansion.variable,
@@ -63,15 +68,16 @@ def _of_expansion(expansion: Expansion, orders: Sequence[int], grid: Array) -> T
     )
 
 
-def by_multiple_scales(oscillator: Oscillator, orders: Sequence[int], grid: Array) -> Truncations:
+def by_multiple_scales(rest: Undamped, orders: Sequence[int], grid: Array) -> Truncations:
     """Multiple scales without damping, at the fundamental amplitude of the orbit with each peak.
 
     Raises InputError for a limit cycle, whose slow flow holds for every amplitude and not for the cycle alone.
     """
+    oscillator = rest.oscillator
     if oscillator.kind == "limit-cycle":
         raise InputError(f"{oscillator.name} is a limit cycle; study it with the method lindstedt, in eps")
     flow = multiple_scales(oscillator, max(orders))
-    fundamental = orbit_harmonics(bind(oscillator), grid, count=1).cosine[1]
+    fundamental = orbit_harmonics(rest.dynamics, grid, count=1).cosine[1]
     powers = {term.powers[0]: float(term.coefficient) for term in flow.frequency if not any(term.powers[1:])}
     coefficients = np.array([powers.get(n, 0.0) for n in range(max(orders) + 1)])
     values = [np.polynomial.polynomial.polyval(fundamental, coefficients[: order + 1]) for order in orders]

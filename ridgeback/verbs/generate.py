@@ -101,11 +101,12 @@ def written_out(
     up_to: Fraction | None,
 ) -> str:
     """The source with what is known about the formula: where the oscillation ends, and its certified error."""
-    from ridgeback.compare.study.derivation import described, limit_of
+    from ridgeback.compare.study.derivation import described
+    from ridgeback.compare.study.derived import Undamped
     from ridgeback.symbolic.codegen import generate
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
 
-    limit = limit_of(oscillator) if result.amplitude == "peak" and not free(oscillator) else None
+    limit = Undamped(oscillator).limit if result.amplitude == "peak" and not free(oscillator) else None
     if isinstance(result, SlowFlow) or isinstance(series, SlowFlow):
         return generate(result, language, equation=described(oscillator), limit=limit)
     from ridgeback.symbolic.codegen.facts import before_pole, certified_facts, reach_of

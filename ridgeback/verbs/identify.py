@@ -124,21 +124,17 @@ def identified(
     progress: Progress,
 ) -> Identification:
     """The ranking and, when cycles are given, the prediction in it."""
-    from dataclasses import replace
-
     from ridgeback.compare.identification.candidates import LAWS, NAMES
     from ridgeback.compare.identification.identify import identify
     from ridgeback.compare.identification.prediction import predict
+    from ridgeback.compare.identification.preparation import prepared
 
     candidates = NAMES if chosen is None else chosen
     laws = LAWS if damping is None else tuple(law for law in LAWS if law.split(" + ")[-1] == damping)
-    ahead = None
+    ready, ahead = prepared(recording, span=span), None
     if cycles is not None:
-        ahead = predict(
-            recording, cycles=cycles, candidates=candidates, laws=laws, kind=kind, span=span, progress=progress
-        )
-    found = identify(recording, candidates=candidates, laws=laws, kind=kind, span=span, progress=progress)
-    return found if ahead is None else replace(found, prediction=ahead)
+        ahead = predict(ready, cycles=cycles, candidates=candidates, laws=laws, kind=kind, progress=progress)
+    return identify(ready, candidates=candidates, laws=laws, kind=kind, prediction=ahead, progress=progress)
 
 
 def text_of(found: Identification, style: str) -> str:

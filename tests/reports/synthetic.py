@@ -32,7 +32,7 @@ from ridgeback.compare.motion.results import (
 from ridgeback.compare.noise.results import NoiseCell, NoiseStudy
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.results import Card, Provenance, Report, Standing
-from ridgeback.compare.study.results import Certified, CertifiedRow, Derivation, Formula, Range, Study, Timing
+from ridgeback.compare.study.results import Certified, CertifiedRow, Checked, Derivation, Formula, Range, Study, Timing
 
 Array = NDArray[np.float64]
 
@@ -247,7 +247,10 @@ def make_derivation() -> Derivation:
             Formula("Fundamental frequency", r"\frac{\omega_0}{k}", terms, "Lindstedt-Poincaré.", "1 - A**2/16"),
             Formula("Slow flow", r"\frac{a'}{a}", slow, "Multiple scales; weight of μ is 2."),
         ),
-        certificate=("The residual vanishes identically through order 8.", "Equal to the energy-integral series."),
+        certificate=(
+            Checked("residual", "it vanishes identically through order 8", True),
+            Checked("energy integral", "equal to the series", True),
+        ),
         code={
             "Python": "def omega0(A):\n    return 1.0 - 0.0625 * A * A\n",
             "C": "double omega0(double A)\n{\n    return A < 1.0 && A > 0.0 ? 1.0 - 0.0625 * A * A : 1.0;\n}\n",
@@ -386,7 +389,7 @@ def make_identification() -> Identification:
         criterion_name="BIC",
         candidates=(best, other),
         data=MeasuredBackbone(a, best.omega[::3] * 1.0005, a * 0 + 0.01, best.damping[::3] + 0.001, a * 0 + 0.002),
-        verdict="A softening Duffing oscillator, with weight 90 %; a pendulum cannot be ruled out.",
+        unexplained=0.02,
         indistinguishable=("duffing-softening", "pendulum"),
         notes=("Independent samples are counted from the residual's correlation.",),
         failed=("bilinear: no switch in reach",),

@@ -12,7 +12,8 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from ridgeback.compare.report.results import Report
-from ridgeback.compare.study.derivation import derivation, derive
+from ridgeback.compare.study.derivation import derivation
+from ridgeback.compare.study.derived import derive
 from ridgeback.compare.study.results import Formula
 from ridgeback.reports.drawing.theme import SERIES, TOKENS, variables_css
 from ridgeback.reports.text.mathml import formula_latex, formula_mathml

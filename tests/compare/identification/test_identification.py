@@ -12,9 +12,10 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.identification.candidates import NAMES, level_at, models_of, van_der_pol_flow
 from ridgeback.compare.identification.confusion import DRAWS, confusion, noisy
 from ridgeback.compare.identification.fitting import spread_of
-from ridgeback.compare.identification.identify import identify, usable
+from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.potentials import POTENTIALS, helmholtz_limit, pendulum_orbits
 from ridgeback.compare.identification.prediction import predict
+from ridgeback.compare.identification.preparation import usable
 from ridgeback.compare.identification.ranking import effective_number
 from ridgeback.compare.identification.results import Identification
 from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
