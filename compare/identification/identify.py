@@ -190,15 +190,10 @@ def with_law(found: Fit, law: str) -> Model:
 
 
 def assembled(
-    recording: Recording,
-    data: Data,
-    ranked: Ranked,
-    kind: str,
-    notes: tuple[str, ...],
-    method: str,
-    prediction: Prediction | None,
+    ready: Prepared, data: Data, ranked: Ranked, kind: str, notes: tuple[str, ...], prediction: Prediction | None
 ) -> Identification:
     """Put the ranking into its result."""
+    recording = ready.recording
     best, total = ranked.scores[0], float(np.sum(np.exp(-0.5 * (np.array(ranked.scores) - ranked.scores[0]))))
     candidates = tuple(
         candidate(f, data, recording.units, score, best, total)

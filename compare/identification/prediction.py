@@ -1,4 +1,4 @@
-"""The rest of a decay foretold from its first cycles, and held against what was then measured.
+"""The rest of a decay predicted from its first cycles, and held against what was then measured.
 
 Candidates are fitted to the first part alone.  The prediction is their mean by Akaike weights, and its variance is that
 of the parameters and of the candidates' disagreement: sum of w (sigma^2 + (value - mean)^2).  Where no candidate is

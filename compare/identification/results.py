@@ -119,7 +119,7 @@ class MeasuredBackbone(_Values):
 
 @dataclass(frozen=True)
 class Prediction(_Values):
-    """The rest of a decay as foretold from its first cycles, against what was then measured.
+    """The rest of a decay as predicted from its first cycles, against what was then measured.
 
     ``*_low`` and ``*_high`` are 95 % bands; ``measured_*`` are local harmonic least squares on the part that the fit
     did not see.  ``phase_error`` is measured less predicted, in rad, unwrapped; ``phase_band`` is half its band.

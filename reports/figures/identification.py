@@ -97,36 +97,36 @@ def damping_figure(found: Identification) -> Block:
 
 
 def prediction_figures(made: Prediction, found: Identification) -> tuple[Block, ...]:
-    """The rest of the decay as foretold from its first cycles, against what was measured."""
+    """The rest of the decay as predicted from its first cycles, against what was measured."""
     f = CLOCK.factor
     share = ", ".join(f"{name} {100 * value:.0f} %" for name, value in made.coverage.items())
     errors = made.errors
     caption = (
         f"{_title(made.candidate, found)} fitted to the first "
-        f"{number(made.cycles, 3)} cycles (up to t = {number(made.until)} s) foretells the rest. Bands: 95 %; share of "
+        f"{number(made.cycles, 3)} cycles (up to t = {number(made.until)} s) predicts the rest. Bands: 95 %; share of "
         f"the measured values inside: {share}. Rms distance: amplitude {relative(errors.get('amplitude'))}, "
         f"frequency {relative(errors.get('omega'))}, phase {number(errors.get('phase'), 3)} rad."
     )
     return (
-        _foretold(
+        _prediction_block(
             "prediction-amplitude",
             made,
             (made.amplitude, made.amplitude_low, made.amplitude_high, made.measured_amplitude),
-            texts=("Amplitude foretold", f"amplitude{_unit(found)}", caption),
+            texts=("Amplitude predicted", f"amplitude{_unit(found)}", caption),
             unit=found.unit,
         ),
-        _foretold(
+        _prediction_block(
             "prediction-frequency",
             made,
             (made.omega * f, made.omega_low * f, made.omega_high * f, made.measured_omega * f),
-            texts=("Frequency foretold", CLOCK.y_title("ω₀"), "The same for the fundamental frequency."),
+            texts=("Frequency predicted", CLOCK.y_title("ω₀"), "The same for the fundamental frequency."),
             unit="Hz",
         ),
-        _foretold(
+        _prediction_block(
             "prediction-phase",
             made,
             (np.zeros_like(made.time), -made.phase_band, made.phase_band, made.phase_error),
-            texts=("Phase error", "phase / rad", "Measured less foretold phase, unwrapped; band: 95 %."),
+            texts=("Phase error", "phase / rad", "Measured less predicted phase, unwrapped; band: 95 %."),
             unit="rad",
         ),
     )
@@ -137,12 +137,12 @@ def _title(name: str, found: Identification) -> str:
     return next((c.title for c in found.candidates if c.name == name), name)
 
 
-def _foretold(
+def _prediction_block(
     key: str, made: Prediction, values: tuple[Array, Array, Array, Array], *, texts: tuple[str, str, str], unit: str
 ) -> Block:
     title, y_title, caption = texts
     centre, low, high, measured = values
-    lines = [Line(made.time, centre, "foretold", "s1", width=2.2), Line(made.time, measured, "measured", "s2")]
+    lines = [Line(made.time, centre, "predicted", "s1", width=2.2), Line(made.time, measured, "measured", "s2")]
 
     def drawing(canvas: Canvas) -> None:
         (axes,) = canvas.stack()

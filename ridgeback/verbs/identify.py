@@ -217,7 +217,7 @@ def best_of(found: Identification) -> str:
 
 
 def prediction_of(ahead: Prediction) -> str:
-    """How well the rest was foretold."""
+    """How well the rest was predicted."""
     rows: list[Row] = [
         {
             "predicted": name,

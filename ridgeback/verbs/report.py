@@ -49,7 +49,7 @@ class Scope:
 
 @dataclass(frozen=True)
 class Source:
-    """A recording, where its samples are, and how many of its first cycles foretell the rest."""
+    """A recording, where its samples are, and how many of its first cycles predict the rest."""
 
     file: str
     column: str | None
@@ -76,7 +76,7 @@ class Source:
 @click.option("--time-column", default=None, metavar="NAME", help="The recording's times.")
 @treatment_options
 @click.option(
-    "--predict-from", type=POSITIVE, default=None, metavar="CYCLES", help="Foretell the rest of a recording from these."
+    "--predict-from", type=POSITIVE, default=None, metavar="CYCLES", help="Predict the rest of a recording from these."
 )
 @click.option(
     "--trials",

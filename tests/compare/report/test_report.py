@@ -2,22 +2,28 @@
 
 import csv
 import io
+from collections import Counter
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.errors import InputError as NumericError
 from ridgeback.common.numbers import relative
+from ridgeback.common.progress import silent
 from ridgeback.common.quantities import amplitude
+from ridgeback.compare.motion import motion
 from ridgeback.compare.motion.motion import setting
+from ridgeback.compare.noise import truth
+from ridgeback.compare.report.noise_part import NoisePart, noise_part
 from ridgeback.compare.report.provenance import settings_hash
 from ridgeback.compare.report.recording_report import assemble_recording
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.report.system_report import assemble_system, paper_case
+from ridgeback.compare.study import derived, truncations
 from ridgeback.compare.study.study import ranges
 from ridgeback.numeric.estimators.estimate import METHODS
+from ridgeback.numeric.recording.recording import Recording
 from ridgeback.symbolic.systems.catalogue import find
 
 
@@ -29,8 +35,44 @@ def small(**options) -> Report:
 
 
 @pytest.fixture(scope="module")
-def report():
-    return small(command="ridgeback report duffing")
+def calls() -> Counter[str]:
+    """How often the costly steps ran for the one report below."""
+    return Counter()
+
+
+@pytest.fixture(scope="module")
+def report(calls):
+    watched = [(derived, "bind"), (motion, "bind"), (truth, "bind"), (derived, "lindstedt"), (truncations, "lindstedt")]
+    watched += [(motion, "integrate"), (truth, "integrate"), (truncations, "limits")]
+    with pytest.MonkeyPatch.context() as patch:
+        for module, name in watched:
+            patch.setattr(module, name, counted(getattr(module, name), calls, name))
+        return small(command="ridgeback report duffing")
+
+
+def counted(function, calls, name):
+    def wrapped(*args, **options):
+        calls[name] += 1
+        return function(*args, **options)
+
+    return wrapped
+
+
+def test_nothing_is_derived_bound_or_integrated_twice(report, calls):
+    assert report.noise is not None
+    # bound as it is for the motion, and without damping for the study, the code and the timings
+    assert calls == {"bind": 2, "lindstedt": 1, "integrate": 1}
+
+
+def test_a_noise_study_over_its_budget_is_refused_with_a_reason_for_motions_and_recordings_alike():
+    swing = motion.integrate_motion(setting(find("damped-pendulum"), initial=(1.0, 0.0), duration=60.0, rate=4.0))
+    run = swing.trajectory
+    recording = Recording(run.time, run.u, run.rate, "u", "rad", "run.csv", "")
+    for source in (swing, recording):
+        part = noise_part(source, 100_000, silent)
+        assert part.study is None
+        assert "over the budget of 120 s" in part.left_out
+        assert noise_part(source, 0, silent) == NoisePart(None)
 
 
 def test_the_title_is_the_range_of_the_chosen_order(report):
@@ -118,7 +160,7 @@ def test_bad_requests_are_refused():
         small(target=2.0)
     with pytest.raises(InputError, match="order -1"):
         assemble_system(paper_case(), order=-1)
-    with pytest.raises(NumericError, match="the suffix"):
+    with pytest.raises(InputError, match="the suffix"):
         assemble_recording("missing.unknown")
     with pytest.raises(OSError, match=r"missing\.csv"):
         assemble_recording("missing.csv")
