@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from enum import StrEnum
 from functools import lru_cache
 
 import numpy as np
@@ -24,8 +25,25 @@ from ridgeback.symbolic.systems.catalogue import find
 
 Described = tuple[str, float, str, str]
 """Name, value, unit and meaning of a parameter of the equation; U and T in a unit stand for those of the signal."""
-LAWS = ("linear", "linear + quadratic", "linear + cubic")
-LAW_TEXT = {LAWS[0]: "2 mu u'", LAWS[1]: "2 mu u' + beta |u'| u'", LAWS[2]: "2 mu u' + gamma u'^3"}
+
+
+class DampingLaw(StrEnum):
+    """How the damping force depends on the velocity."""
+
+    LINEAR = "linear"
+    QUADRATIC = "linear + quadratic"
+    CUBIC = "linear + cubic"
+    VAN_DER_POL = "van der Pol"
+    """That of the van der Pol oscillator, which no other candidate has."""
+
+
+LAWS = (DampingLaw.LINEAR, DampingLaw.QUADRATIC, DampingLaw.CUBIC)
+"""The laws that are tried with every potential."""
+LAW_TEXT = {
+    DampingLaw.LINEAR: "2 mu u'",
+    DampingLaw.QUADRATIC: "2 mu u' + beta |u'| u'",
+    DampingLaw.CUBIC: "2 mu u' + gamma u'^3",
+}
 VAN_DER_POL = "van-der-pol"
 BACKBONE = "backbone-polynomial"
 NAMES = (*(p.name for p in POTENTIALS), VAN_DER_POL, BACKBONE)
@@ -39,7 +57,7 @@ class Model:
     name: str
     title: str
     equation: str
-    law: str
+    law: DampingLaw
     size: int
     """Length of the part of theta between k and ln a0: shape and rates."""
     flow: Callable[[Array, float], Flow]
@@ -84,11 +102,11 @@ def level_at(flow: Flow, log_amplitude: float) -> float:
     return float(np.interp(log_amplitude, known, flow.level))
 
 
-def rates_of(law: str, values: Array) -> tuple[float, float, float]:
+def rates_of(law: DampingLaw, values: Array) -> tuple[float, float, float]:
     """(2 mu, beta L k, gamma L^2 k^2) of a law from its fitted rates."""
     first = float(values[0])
     second = float(values[1]) if values.size > 1 else 0.0
-    return (first, second, 0.0) if law == LAWS[1] else (first, 0.0, second)
+    return (first, second, 0.0) if law == DampingLaw.QUADRATIC else (first, 0.0, second)
 
 
 def least_rates(rates: int) -> tuple[float, ...]:
@@ -96,20 +114,20 @@ def least_rates(rates: int) -> tuple[float, ...]:
     return (0.0,) if rates == 1 else (-1.0, -1.0)
 
 
-def damping_parameters(law: str, rates: Array, speed: float) -> tuple[Described, ...]:
+def damping_parameters(law: DampingLaw, rates: Array, speed: float) -> tuple[Described, ...]:
     """mu, and beta or gamma, from the rates at the ``speed`` L k."""
     mu: Described = ("mu", 0.5 * float(rates[0]), "1/T", "linear damping")
-    if law == LAWS[0]:
+    if law == DampingLaw.LINEAR:
         return (mu,)
-    if law == LAWS[1]:
+    if law == DampingLaw.QUADRATIC:
         return (mu, ("beta", float(rates[1]) / speed, "1/U", "quadratic damping"))
     return (mu, ("gamma", float(rates[1]) / speed**2, "T/U^2", "cubic damping"))
 
 
-def potential_model(potential: Potential, law: str) -> Model:
+def potential_model(potential: Potential, law: DampingLaw) -> Model:
     """A potential with a damping law, along its exact orbits."""
     orbits = lru_cache(maxsize=8)(potential.orbits)
-    shapes, rates = len(potential.lower), 1 if law == LAWS[0] else 2
+    shapes, rates = len(potential.lower), 1 if law == DampingLaw.LINEAR else 2
 
     @lru_cache(maxsize=4)
     def numbers_to_flow(numbers: tuple[float, ...]) -> Flow:
@@ -147,9 +165,9 @@ def potential_model(potential: Potential, law: str) -> Model:
 
 # phi' = k (1 + s1 X^2 + s2 X^4 + ..), X = a/L; damping as on orbits of the harmonic oscillator; the mean and harmonics
 # with their leading powers of the amplitude, h0 a^2, h2 a^2, h3 a^3, as any smooth equation gives them.
-def backbone_model(terms: int, law: str) -> Model:
+def backbone_model(terms: int, law: DampingLaw) -> Model:
     """The slow flow alone, without an equation: an even polynomial of ``terms`` terms, and free harmonics."""
-    rates = 1 if law == LAWS[0] else 2
+    rates = 1 if law == DampingLaw.LINEAR else 2
     bends = terms - 1
     size = bends + 3 + rates
 
@@ -246,7 +264,7 @@ def van_der_pol_model() -> Model:
         name=VAN_DER_POL,
         title="Van der Pol oscillator",
         equation="u'' - eps k (1 - (u/b)^2) u' + k^2 u = 0",
-        law="van der Pol",
+        law=DampingLaw.VAN_DER_POL,
         size=2,
         flow=flow,
         physical=physical,
@@ -303,7 +321,7 @@ def limit_cycle(slopes: Array) -> float:
     return float(real[np.argmin(np.abs(real - 4.0))]) if real.size else 4.0
 
 
-def models_of(name: str, law: str) -> Model:
+def models_of(name: str, law: DampingLaw) -> Model:
     """The model of a candidate's name with a damping law (van der Pol's has its own)."""
     if name == VAN_DER_POL:
         return van_der_pol_model()

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.identification.candidates import LAWS, Model, level_at
+from ridgeback.compare.identification.candidates import DampingLaw, Model, level_at
 from ridgeback.compare.identification.potentials import Shape
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
@@ -161,9 +161,9 @@ def first_rates(model: Model, data: Data) -> list[float]:
     b = data.measured
     a, loss = b.amplitude / data.length, -2 * b.damping
     columns = [np.ones_like(a)]
-    if model.law == LAWS[1]:
+    if model.law == DampingLaw.QUADRATIC:
         columns.append(8 / (3 * np.pi) * a)
-    elif model.law == LAWS[2]:
+    elif model.law == DampingLaw.CUBIC:
         columns.append(0.75 * a**2)
     weight = 1 / np.maximum(b.damping_sd, 1e-3 * np.abs(loss).max() + 1e-12)
     matrix = np.array(columns).T * weight[:, None]

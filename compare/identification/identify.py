@@ -14,6 +14,7 @@ from ridgeback.compare.identification.candidates import (
     LAWS,
     NAMES,
     VAN_DER_POL,
+    DampingLaw,
     Model,
     backbone_model,
     models_of,
@@ -103,7 +104,7 @@ def identify(
     >>> found.best.name, bool(abs(found.best.parameter("k").value - np.hypot(1.1, 0.01)) < 5e-4)
     ('linear', True)
     """
-    names, laws = checked(candidates, laws, kind)
+    names, allowed = checked(candidates, laws, kind)
     progress(0.0, "frequency track")
     ready = prepared(recording, span=span) if isinstance(recording, Recording) else recording
     used = ready.recording
@@ -111,12 +112,14 @@ def identify(
     cycles = float(data.time[-1]) / data.cycle
     if cycles < FEWEST_CYCLES:
         raise InputError(f"{used.source}: {cycles:.1f} cycles are too few to tell oscillators apart; give 6 or more")
-    ranked = rank(data, names, laws, kind, progress)
+    ranked = rank(data, names, allowed, kind, progress)
     said = (*used.notes, *ready.notes, *data.measured.notes, *notes)
     return assembled(ready, data, ranked, kind, said, prediction)
 
 
-def checked(candidates: Iterable[str], laws: Sequence[str], kind: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def checked(
+    candidates: Iterable[str], laws: Sequence[str], kind: str
+) -> tuple[tuple[str, ...], tuple[DampingLaw, ...]]:
     """The names, once each, when all are known.
 
     >>> checked(["linear", "linear"], ["linear"], "aic")
@@ -135,7 +138,7 @@ def checked(candidates: Iterable[str], laws: Sequence[str], kind: str) -> tuple[
     return names, tuple(law for law in LAWS if law in laws)
 
 
-def rank(data: Data, names: tuple[str, ...], laws: tuple[str, ...], kind: str, progress: Progress) -> Ranked:
+def rank(data: Data, names: tuple[str, ...], laws: tuple[DampingLaw, ...], kind: str, progress: Progress) -> Ranked:
     """Fit every candidate with the first damping law, the promising ones with the others, and order them."""
     first, failed = [], []
     for i, name in enumerate(names):
@@ -158,7 +161,7 @@ def rank(data: Data, names: tuple[str, ...], laws: tuple[str, ...], kind: str, p
     return Ranked(tuple(kept[i] for _, i in scored), tuple(s for s, _ in scored), effective, tuple(failed))
 
 
-def best_with(name: str, law: str, data: Data) -> Fit:
+def best_with(name: str, law: DampingLaw, data: Data) -> Fit:
     """The fit of a candidate; a polynomial backbone with as many terms as BIC asks for."""
     if name != BACKBONE:
         return fit(models_of(name, law), data)
@@ -166,7 +169,7 @@ def best_with(name: str, law: str, data: Data) -> Fit:
     return min(fits, key=lambda f: criterion(f, f.residual.size, "bic"))
 
 
-def polished(found: Fit, laws: tuple[str, ...], data: Data) -> list[Fit]:
+def polished(found: Fit, laws: tuple[DampingLaw, ...], data: Data) -> list[Fit]:
     """The fit to rounding, and the same class with other damping laws, started from it."""
     fine = refit(found.model, data, found.theta)
     if found.model.name == VAN_DER_POL:
@@ -182,7 +185,7 @@ def polished(found: Fit, laws: tuple[str, ...], data: Data) -> list[Fit]:
     return tried
 
 
-def with_law(found: Fit, law: str) -> Model:
+def with_law(found: Fit, law: DampingLaw) -> Model:
     """The model of a fit with another damping law."""
     if found.model.name == BACKBONE:
         return backbone_model(found.model.size - found.model.rates - 2, law)

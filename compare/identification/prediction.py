@@ -93,7 +93,7 @@ def predict(
     >>> ahead.candidate, ahead.errors["amplitude"] < 0.05, ahead.errors["phase"] < 0.1
     ('linear', True, True)
     """
-    names, laws = checked(candidates, laws, kind)
+    names, allowed = checked(candidates, laws, kind)
     ready = prepared(recording, span=span) if isinstance(recording, Recording) else recording
     used, whole = ready.recording, ready.track
     start = float(used.time[0])
@@ -103,7 +103,7 @@ def predict(
     first = part_of(used, used.time[:cut], used.values[:cut], used.rate)
     track = local_track(first)
     data = prepare(first, track)
-    ranked = rank(data, names, laws, kind, progress)
+    ranked = rank(data, names, allowed, kind, progress)
     rest = measured_rest(used, whole, phase, first.time[-1] - start)
     progress(0.95, "prediction")
     kept = Weighted.of(ranked)

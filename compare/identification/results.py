@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
+from ridgeback.compare.identification.candidates import DampingLaw
 from ridgeback.numeric.arrays import Array, freeze
 
 NORMAL_95 = 1.959963984540054
@@ -80,8 +81,7 @@ class Candidate(_Values):
     title: str
     equation: str
     """As text, with the fitted parameters by name."""
-    damping_law: str
-    """``linear``, ``linear + quadratic``, ``linear + cubic`` or ``van der Pol``."""
+    damping_law: DampingLaw
     parameters: tuple[Parameter, ...]
     criterion: float
     delta: float

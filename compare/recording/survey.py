@@ -271,12 +271,3 @@ def common(measured: Sequence[Measurement], over: str) -> Iterator[Common]:
         if len(members) > 1:
             curves = [m.backbone for m in members if m.backbone is not None]
             yield Common(channel, combine(curves, [m.recording.label for m in members]))
-
-
-def of_channel(found: Survey, channel: str) -> Survey:
-    """The part of a survey that is about one channel."""
-    return replace(
-        found,
-        measured=tuple(m for m in found.measured if m.recording.channel == channel),
-        combined=tuple(c for c in found.combined if c.channel in (channel, "all channels")),
-    )

@@ -2,38 +2,16 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
+from ridgeback.common.csv_text import csv_text
 from ridgeback.compare.motion.results import BudgetRow, Curve, DecayComparison, Score
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.study.results import Study
 from ridgeback.numeric.arrays import Array
-
-
-def csv_text(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    r"""CSV with ``\n`` line ends; None and NaN become empty cells, floats keep every digit.
-
-    >>> csv_text(["a", "b"], [[0.1, None]])
-    'a,b\n0.1,\n'
-    """
-    out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(header)
-    writer.writerows([_cell(value) for value in row] for row in rows)
-    return out.getvalue()
-
-
-def _cell(value: object) -> object:
-    if value is None:
-        return ""
-    if isinstance(value, float):
-        return "" if math.isnan(value) else repr(float(value))
-    return value
 
 
 def study_table(study: Study) -> str:

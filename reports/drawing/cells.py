@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Bands = NDArray[np.int64]
-Segment = tuple[float, float, float, float]
 
 # |relative error| up to which a cell belongs to the band; beyond the last is band 5.
 THRESHOLDS = (1e-6, 1e-4, 1e-3, 1e-2, 1e-1)

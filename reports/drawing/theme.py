@@ -132,19 +132,3 @@ def variables_css() -> str:
     light = f":root{{{_declarations(0)}}}"
     dark = f"@media screen and (prefers-color-scheme:dark){{:root{{{_declarations(1)}}}}}"
     return f"{light}\n{dark}\n"
-
-
-def contrast(first: str, second: str) -> float:
-    """Contrast ratio of two ``#RRGGBB`` colours, as WCAG 2.1 defines it.
-
-    >>> contrast("#000000", "#FFFFFF")
-    21.0
-    """
-    bright, dim = sorted((_luminance(first), _luminance(second)), reverse=True)
-    return (bright + 0.05) / (dim + 0.05)
-
-
-def _luminance(colour: str) -> float:
-    channels = (int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5))
-    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]

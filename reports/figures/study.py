@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 
 from ridgeback.common.numbers import listing, number, relative, rounded_down, threshold
 from ridgeback.compare.study.results import Range, Study
+from ridgeback.compare.study.study import order_needed as smallest_orders
 from ridgeback.reports.drawing import cells
 from ridgeback.reports.drawing.block import Block, Key, Readout, Toggle, block
 from ridgeback.reports.drawing.canvas import (
@@ -314,16 +315,15 @@ def order_needed(study: Study, ranges: Sequence[Range]) -> Block | None:
 
 
 def _stairs(study: Study, ranges: Sequence[Range]) -> list[tuple[float, Array, Array]]:
+    """Corners of the stair of each target: amplitudes, and the smallest order that serves them."""
     found = []
     for target in sorted({r.target for r in ranges}, reverse=True)[:5]:
-        reach: list[tuple[float, int]] = []
-        for r in sorted((r for r in ranges if r.target == target), key=lambda r: r.order):
-            if r.up_to is not None and (not reach or r.up_to > reach[-1][0]):
-                reach.append((r.up_to, r.order))
-        if len(reach) > 1 or (reach and len({r.order for r in ranges}) > 1):
-            starts = [float(study.amplitudes[0]), *(end for end, _ in reach[:-1])]
-            x = np.array([v for a, (b, _) in zip(starts, reach, strict=True) for v in (a, b)])
-            y = np.array([float(order) for _, order in reach for _ in (0, 1)])
+        needs = [need for need in smallest_orders(study, target) if need.order is not None]
+        treads = [list(group) for _, group in itertools.groupby(needs, key=lambda need: need.order)]
+        if len(treads) > 1 or (treads and len(study.orders) > 1):
+            ends = [tread[-1].amplitude for tread in treads]
+            x = np.array([v for pair in zip([needs[0].amplitude, *ends[:-1]], ends, strict=True) for v in pair])
+            y = np.array([float(tread[0].order or 0) for tread in treads for _ in (0, 1)])
             found.append((target, x, y))
     return found
 

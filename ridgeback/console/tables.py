@@ -2,28 +2,14 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from ridgeback.common import csv_text as csv_of
+from ridgeback.common.csv_text import cell
+
 Row = Mapping[str, Any]
-
-
-def cell(value: Any) -> str:
-    """A value for CSV: floats with every digit they need to be read back the same, nothing for a missing one.
-
-    >>> cell(0.1), cell(None), cell(float("nan")), cell(True)
-    ('0.1', '', '', 'true')
-    """
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, float):
-        return repr(float(value)) if math.isfinite(value) else ""
-    return str(value)
 
 
 def csv_text(columns: Sequence[str], rows: Iterable[Row]) -> str:
@@ -32,11 +18,7 @@ def csv_text(columns: Sequence[str], rows: Iterable[Row]) -> str:
     >>> csv_text(["time_s", "u"], [{"time_s": 0.0, "u": 1e-17}])
     'time_s,u\n0.0,1e-17\n'
     """
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows([cell(row.get(name)) for name in columns] for row in rows)
-    return text.getvalue()
+    return csv_of.csv_text(columns, ([row.get(name) for name in columns] for row in rows))
 
 
 def readable(value: Any) -> str:

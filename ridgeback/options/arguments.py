@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, TypeVar
 
@@ -64,11 +63,19 @@ def number(text: str) -> float:
     >>> number("2.984513"), number("1/4")
     (2.984513, 0.25)
     """
-    exact, word = rational(text), text.strip()
-    value = float(word) if DECIMAL.fullmatch(word) else exact.numerator / exact.denominator
-    if not math.isfinite(value):
-        raise ValueError(f"{shown(text)} is beyond the largest double, 1.8e308; give a smaller number")
-    return value
+    return rounded(rational(text), text)
+
+
+def rounded(exact: Fraction, text: str) -> float:
+    """The nearest float; ``text`` is what the message shows.
+
+    >>> rounded(Fraction(1, 3), "1/3")
+    0.3333333333333333
+    """
+    try:
+        return exact.numerator / exact.denominator
+    except OverflowError:
+        raise ValueError(f"{shown(text)} is beyond the largest double, 1.8e308; give a smaller number") from None
 
 
 def assignment(text: str) -> tuple[str, Fraction]:
@@ -122,35 +129,45 @@ def orders(text: str) -> tuple[int, ...]:
     return tuple(sorted({int(word) for word in words}))
 
 
+def amplitudes(text: str) -> tuple[Fraction, ...]:
+    """Exact amplitudes, as a list with commas or as START:STOP:COUNT with both ends.
+
+    >>> amplitudes("1,2.5"), amplitudes("0.1:0.3:3")
+    ((Fraction(1, 1), Fraction(5, 2)), (Fraction(1, 10), Fraction(1, 5), Fraction(3, 10)))
+    """
+    values = spaced(text) if ":" in text else tuple(rational(word) for word in text.split(","))
+    if len(values) > MAX_GRID:
+        raise ValueError(f"{len(values)} amplitudes are more than {MAX_GRID}; give fewer")
+    if any(value <= 0 for value in values):
+        raise ValueError(f"{shown(text)} holds {min(values)}; every amplitude must be above 0")
+    return values
+
+
+def spaced(text: str) -> tuple[Fraction, ...]:
+    """COUNT equidistant fractions from START to STOP.
+
+    >>> spaced("1:2:3")
+    (Fraction(1, 1), Fraction(3, 2), Fraction(2, 1))
+    """
+    parts = text.split(":")
+    if len(parts) != 3:
+        raise ValueError(f"{shown(text)} is not START:STOP:COUNT; write for example 0.1:3.0:30")
+    start, stop, count = rational(parts[0]), rational(parts[1]), parts[2].strip()
+    if not re.fullmatch(r"\d{1,6}", count, re.ASCII) or not 2 <= int(count) <= MAX_GRID:
+        raise ValueError(f"{shown(count)} is not a count; give an integer from 2 to {MAX_GRID}")
+    if not start < stop:
+        raise ValueError(f"START {parts[0].strip()} is not below STOP {parts[1].strip()}; swap them")
+    last = int(count) - 1
+    return tuple(start + (stop - start) * Fraction(i, last) for i in range(last + 1))
+
+
 def grid(text: str) -> tuple[float, ...]:
-    """Amplitudes, as START:STOP:COUNT (both ends included) or as a list with commas.
+    """Amplitudes as floats, each rounded once from its exact value.
 
     >>> grid("0.5:1.5:3"), grid("0.1,2")
     ((0.5, 1.0, 1.5), (0.1, 2.0))
     """
-    values = spaced(text.split(":")) if ":" in text else tuple(number(word) for word in text.split(","))
-    if len(values) > MAX_GRID:
-        raise ValueError(f"{len(values)} amplitudes are more than {MAX_GRID}; give fewer")
-    if any(value <= 0 for value in values):
-        raise ValueError(f"{shown(text)} holds {min(values):g}; every amplitude must be above 0")
-    return values
-
-
-def spaced(parts: Sequence[str]) -> tuple[float, ...]:
-    """COUNT equidistant values from START to STOP.
-
-    >>> spaced(["1", "2", "5"])
-    (1.0, 1.25, 1.5, 1.75, 2.0)
-    """
-    if len(parts) != 3:
-        raise ValueError(f"{shown(':'.join(parts))} is not START:STOP:COUNT; write for example 0.1:3.0:30")
-    start, stop, count = number(parts[0]), number(parts[1]), parts[2].strip()
-    if not re.fullmatch(r"\d{1,6}", count, re.ASCII) or not 2 <= int(count) <= MAX_GRID:
-        raise ValueError(f"{shown(count)} is not a count; give an integer from 2 to {MAX_GRID}")
-    if not start < stop:
-        raise ValueError(f"START {start:g} is not below STOP {stop:g}; swap them")
-    last = int(count) - 1
-    return (*(start + (stop - start) * (i / last) for i in range(last)), stop)
+    return tuple(rounded(value, text) for value in amplitudes(text))
 
 
 def positive(text: str) -> float:

@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from ridgeback.options.demand_options import OPTIONS
+from ridgeback.options.shared import added
 
 Command = Callable[..., None]
 
@@ -98,6 +99,4 @@ def demanding(command: Command) -> Command:
         demand.check()
         command(demand=demand, **options)
 
-    for option in reversed(OPTIONS):
-        wrapped = option(wrapped)
-    return wrapped
+    return added(wrapped, OPTIONS)

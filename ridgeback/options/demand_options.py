@@ -7,9 +7,8 @@ from typing import Final
 
 import click
 
-from ridgeback.options.arguments import MAX_GRID, number, positive, rational, shown, written
+from ridgeback.options.arguments import MAX_GRID, amplitudes, number, positive, rational, shown, written
 from ridgeback.options.budget import checkpoint_path
-from ridgeback.options.grids import amplitudes
 
 
 def degrees(text: str) -> tuple[int, int]:

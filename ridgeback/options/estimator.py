@@ -11,6 +11,7 @@ import click
 
 from ridgeback.options.arguments import BAND, POSITIVE
 from ridgeback.options.model import Model
+from ridgeback.options.shared import added
 
 Command = Callable[..., None]
 WINDOWS = ("blackman", "gaussian", "hamming", "hann", "rectangular")
@@ -84,9 +85,7 @@ def estimator_options(command: Command) -> Command:
         estimator = Estimator(method, band, lag, remove_bias, window, smoothing, harmonics, order, band_limited, single)
         command(*args, estimator=estimator, **rest)
 
-    for option in reversed(OPTIONS):
-        wrapped = option(wrapped)
-    return wrapped
+    return added(wrapped, OPTIONS)
 
 
 OPTIONS = (

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ridgeback.options.arguments import POSITIVE
+from ridgeback.options.shared import added
 
 if TYPE_CHECKING:
     from ridgeback.numeric.recording.recording import Recording
@@ -61,13 +62,6 @@ class Reading:
             run_column=self.run_column,
             **self.treatment.given(),
         )
-
-
-def added(command: Command, options: Sequence[Callable[[Command], Command]]) -> Command:
-    """Give a command options, the first of them first in its help."""
-    for option in reversed(options):
-        command = option(command)
-    return command
 
 
 def treatment_options(command: Command) -> Command:

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import click
 
 from ridgeback.console.output import STDOUT, output_path
 from ridgeback.options.arguments import ASSIGNMENT, WEIGHTS
 
-if TYPE_CHECKING:
-    pass
-
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 METHODS = ("lindstedt", "multiple-scales", "energy-integral")
 AMPLITUDES = ("peak", "trough", "fundamental", "action", "energy")
+
+
+def added(command: Decorated, options: Iterable[Callable[[Decorated], Decorated]]) -> Decorated:
+    """Give a command options, the first of them first in its help."""
+    for option in reversed(tuple(options)):
+        command = option(command)
+    return command
 
 
 def set_option(command: Decorated) -> Decorated:

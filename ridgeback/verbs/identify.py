@@ -130,7 +130,7 @@ def identified(
     from ridgeback.compare.identification.preparation import prepared
 
     candidates = NAMES if chosen is None else chosen
-    laws = LAWS if damping is None else tuple(law for law in LAWS if law.split(" + ")[-1] == damping)
+    laws = LAWS if damping is None else tuple(law for law in LAWS if law.name.lower() == damping)
     ready, ahead = prepared(recording, span=span), None
     if cycles is not None:
         ahead = predict(ready, cycles=cycles, candidates=candidates, laws=laws, kind=kind, progress=progress)

@@ -15,6 +15,7 @@ from scipy.integrate import solve_ivp
 from scipy.signal import stft
 from scipy.special import ellipk
 
+from ridgeback.compare.identification.candidates import DampingLaw
 from ridgeback.compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
 from ridgeback.compare.motion.results import (
     Amplitudes,
@@ -340,7 +341,7 @@ def _candidate(name: str, title: str, delta: float, cubic: float) -> Candidate:
         name=name,
         title=title,
         equation="u'' + 2*mu*u' + k**2*u + c3*u**3 = 0",
-        damping_law="linear + quadratic",
+        damping_law=DampingLaw.QUADRATIC,
         parameters=(Parameter("k", 7.85, 0.002, "rad/s", "natural frequency"), Parameter("c3", -0.3, 0.01)),
         criterion=100.0 + delta,
         delta=delta,
