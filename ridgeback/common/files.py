@@ -31,17 +31,36 @@ def write_whole(target: Path, parts: Iterable[bytes]) -> None:
     ...     (Path(folder) / "a.txt").read_text(), len(list(Path(folder).iterdir()))
     ('one two', 1)
     """
-    target = target.resolve()
-    clear_abandoned(target)
-    mode = target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~current_umask()
-    with locked_beside(target) as (descriptor, temporary):
-        with os.fdopen(os.dup(descriptor), "wb") as file:
-            file.writelines(parts)
-            file.flush()
-            os.fsync(file.fileno())
-        temporary.chmod(mode)
-        temporary.replace(target)
-        settle(target.parent)
+    with naming(target):
+        target = target.resolve()
+        clear_abandoned(target)
+        mode = target.stat().st_mode & 0o7777 if target.exists() else 0o666 & ~current_umask()
+        with locked_beside(target) as (descriptor, temporary):
+            with os.fdopen(os.dup(descriptor), "wb") as file:
+                file.writelines(parts)
+                file.flush()
+                os.fsync(file.fileno())
+            temporary.chmod(mode)
+            temporary.replace(target)
+            settle(target.parent)
+
+
+@contextmanager
+def naming(path: str | Path) -> Iterator[None]:
+    """Give an OSError of the block this file's name where it has none, or that of an unfinished file.
+
+    >>> with naming("run.csv"):
+    ...     raise OSError(28, "No space left on device")
+    Traceback (most recent call last):
+        ...
+    OSError: [Errno 28] No space left on device: 'run.csv'
+    """
+    try:
+        yield
+    except OSError as error:
+        if error.filename is None or str(error.filename).endswith(SUFFIX):
+            error.filename = str(path)
+        raise
 
 
 @contextmanager

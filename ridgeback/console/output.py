@@ -16,7 +16,7 @@ from typing import Any
 
 import click
 
-from ridgeback.common.files import write_whole
+from ridgeback.common.files import naming, write_whole
 
 STDOUT = "-"
 DESCRIPTORS = {"/dev/stdin": "/dev/fd/0", "/dev/stdout": "/dev/fd/1", "/dev/stderr": "/dev/fd/2"}
@@ -77,7 +77,8 @@ def resolved(path: str) -> Path:
     """
     with suppress(FileNotFoundError):
         os.stat(path)  # noqa: PTH116 - by Path.resolve a loop is another error in each version of Python
-    return Path(path).resolve()
+    with naming(path):  # the folder that a relative path starts from may be gone
+        return Path(path).resolve()
 
 
 def open_descriptor(path: str) -> int | None:
@@ -146,11 +147,12 @@ def write_bytes(path: str, data: bytes) -> None:
     check_writable(path)
     descriptor = open_descriptor(path)
     if descriptor is None and not is_special(path):
-        write_whole(resolved(path), [data])
+        write_whole(Path(path), [data])
         return
     if descriptor is not None:
         sys.stdout.flush()  # what was printed before comes before
-    with open(path if descriptor is None else os.dup(descriptor), "wb") as stream:  # noqa: PTH123 - or a descriptor
+    place = path if descriptor is None else os.dup(descriptor)
+    with naming(path), open(place, "wb") as stream:  # noqa: PTH123 - or a descriptor
         stream.write(data)
 
 

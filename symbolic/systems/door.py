@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TypeAlias, Union
@@ -20,8 +19,8 @@ from ridgeback.symbolic.systems.parameters import Value
 OscillatorLike: TypeAlias = Union[Oscillator, str, "os.PathLike[str]", sympy.Expr, sympy.Eq]
 """An oscillator, a name of the catalogue, an equation as text, a TOML path, or a SymPy equation or expression."""
 
-PLAIN = re.compile(r"[\w -]*")
-"""What a name of the catalogue can be made of; an equation holds at least one other character."""
+MARKS = frozenset("'\u2019\u2032=+*^(")
+"""What an equation holds and neither a name nor a file's does: a prime, as it is typed or set, or an operation."""
 
 
 def as_oscillator(
@@ -83,7 +82,7 @@ def _equation(given: OscillatorLike, unknown: str | None) -> str | None:
     """The text of what is an equation of motion; None for what only names one."""
     if isinstance(given, sympy.Expr | sympy.Eq):
         return equation_text(given, unknown=unknown)
-    if isinstance(given, str) and not given.endswith(".toml") and not PLAIN.fullmatch(given):
+    if isinstance(given, str) and not given.endswith(".toml") and MARKS & set(given):
         return given
     return None
 

@@ -79,7 +79,7 @@ STREAMS: tuple[Case, ...] = (
     shell("$R simulate linear --duration 300 --rate 300 > /dev/full", 4, "No space"),
     shell("$R --help > /dev/full", 4, "No space"),
     shell("$R --version > /dev/full", 4, "No space"),
-    shell("$R derive pendulum -o /dev/full", 4, "No space"),
+    shell("$R derive pendulum -o /dev/full", 4, "'/dev/full'", "No space"),
     shell("$R derive pendulmu 2> /dev/full; [ $? = 2 ]", 0),
     shell("$R derive pendulum -o /dev/null", 0),
     shell("$R simulate linear --duration 300 --rate 300 | head -n 1; [ ${PIPESTATUS[0]} = 141 ]", 0, "time_s,u"),
@@ -92,7 +92,10 @@ STREAMS: tuple[Case, ...] = (
 NAMES: tuple[Case, ...] = (
     shell(f"{IN_A_FOLDER}mkdir $d/gone && cd $d/gone && rmdir ../gone && $R derive pendulum --order 2", 0, "-1/16"),
     shell(
-        f"{IN_A_FOLDER}mkdir $d/gone && cd $d/gone && rmdir ../gone && $R derive pendulum -o a.txt", 4, "No such file"
+        f"{IN_A_FOLDER}mkdir $d/gone && cd $d/gone && rmdir ../gone && $R derive pendulum -o a.txt",
+        4,
+        "'a.txt'",
+        "No such file",
     ),
     shell(
         rf"{IN_A_FOLDER}cp decay.csv $d/$'\xff'.csv && $R estimate $d/$'\xff'.csv --method hilbert", 0, "400 samples"
@@ -120,7 +123,10 @@ NAMES: tuple[Case, ...] = (
 
 LIMITS: tuple[Case, ...] = (
     shell(
-        f"{IN_A_FOLDER}(ulimit -f 4; $R simulate pendulum --duration 2000 -o $d/run.csv){NOTHING_LEFT}", 4, "too large"
+        f"{IN_A_FOLDER}(ulimit -f 4; $R simulate pendulum --duration 2000 -o $d/run.csv){NOTHING_LEFT}",
+        4,
+        "run.csv'",
+        "too large",
     ),
     shell("timeout --preserve-status -s INT 2 $R derive van-der-pol --order 300 --digits 30", 130, "interrupted"),
 )
@@ -136,9 +142,15 @@ WORKING: tuple[Case, ...] = (
 )
 
 DISKS: tuple[Case, ...] = (
-    with_disk("size=16k", f"$R simulate pendulum -o $d/run.csv{NOTHING_LEFT}", 4, "No space"),
+    with_disk("size=16k", f"$R simulate pendulum -o $d/run.csv{NOTHING_LEFT}", 4, "'folder.csv/run.csv'", "No space"),
     with_disk("size=16k", f"{HILBERT} --plot $d/a.svg > /dev/null{NOTHING_LEFT}", 4, "No space"),
-    with_disk("size=16k", f"$R generate pendulum --order 80 --language c -o $d/p.c{NOTHING_LEFT}", 4, "No space"),
+    with_disk(
+        "size=16k",
+        f"$R generate pendulum --order 80 --language c -o $d/p.c{NOTHING_LEFT}",
+        4,
+        "'folder.csv/p.c'",
+        "No space",
+    ),
     with_disk("ro", "$R derive pendulum -o $d/a.txt", 4, "No permission"),
     with_disk("ro", f"{HILBERT} --plot $d/a.svg", 4, "No permission"),
     with_disk("ro", "$R derive pendulum --digits 30 --checkpoint $d/state", 4, "No permission"),
