@@ -34,7 +34,7 @@ CASES: tuple[Case, ...] = (
     refused("derive about_symbol.toml", "'k'", "use e.g. 1"),
     refused("derive code.toml", "code.toml: the prime at column", "write the derivative"),
     refused("derive date.toml", "date.toml: no [oscillator] table with", "write e.g. equation"),
-    refused("derive long.toml", "long.toml: 200002 bytes is more"),
+    refused("derive long.toml", "long.toml", "over 0.1 MB"),
     refused("derive latin.toml", "'utf-8'", "codec can't decode byte"),
     unusable("derive missing.toml", "'missing.toml'", "check the path"),
     unusable("derive folder.toml", "'folder.toml'", "check the path"),
@@ -69,4 +69,7 @@ CASES: tuple[Case, ...] = (
     refused("study good.toml --amplitudes 1 -o good.toml", "'good.toml'", "give each a"),
     refused("report good.toml -o good.toml", "'good.toml'", "give each a"),
     refused("estimate good.toml", "'.toml'", "use one of"),
+    refused("derive nested.toml", "nested.toml", "too deeply"),
+    refused("derive zero.toml", "zero.toml", "is a device"),
+    refused("estimate decay.csv --method model-fit --system zero.toml", "zero.toml", "is a device"),
 )
