@@ -70,4 +70,4 @@ def _of(module: Any) -> dict[str, Callable[[Any], Any]]:
 SCALAR: Final = Library("float", _of(math), _is_number, _rounded, _float_power)
 ARRAY: Final = Library("numpy", _of(np), _is_number, _rounded, _float_power)
 PRECISE: Final = Library("mpmath", _of(mpmath), _is_number, _at_working_precision, _precise_power)
-"""Constants are made anew at each evaluation, at mpmath's precision of the moment."""
+"""Constants are made again at each evaluation, at mpmath's precision of the moment."""

@@ -236,7 +236,7 @@ def _read(path: Path, settings: Mapping[str, Any]) -> dict[str, NoiseStudy]:
             raise InputError(f"{path} was made with {head['settings']}, not {settings}; name another file or remove it")
         done = {key: read_study(next(lines)) for key in head["done"]}
     if not all(_made_with(study, settings) for study in done.values()):
-        raise InputError(f"{path} claims other settings than its own cases have; remove it and begin anew")
+        raise InputError(f"{path} claims other settings than its own cases have; remove it and start again")
     return done
 
 

@@ -39,7 +39,7 @@ def solution_jet(force: Callable[[Input, Input], Node]) -> Jet:
     Parameters
     ----------
     force
-        Builds f over u and u' from the nodes of ``ridgeback.common.recurrences``; called anew for every state.
+        Builds f over u and u' from the nodes of ``ridgeback.common.recurrences``; called again for every state.
 
     Returns
     -------

@@ -38,13 +38,13 @@ def reading_signed(path: Path, form: str, version: int) -> Iterator[tuple[Mappin
         with path.open(encoding="ascii") as file:
             head = json.loads(next(file))
             if not isinstance(head, dict) or head.get("format") != form or head.get("version") != version:
-                raise InputError(f"{path} is not a checkpoint of this version ({form}, version {version}); begin anew")
+                raise InputError(f"{path} is not a checkpoint of this version ({form}, version {version}); start again")
             yield head, map(json.loads, file)
     except InputError:
         raise
     except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RuntimeError) as error:
         # a generator's StopIteration arrives as RuntimeError
-        raise InputError(f"{path} is not a checkpoint that was written here ({error}); begin anew") from None
+        raise InputError(f"{path} is not a checkpoint that was written here ({error}); start again") from None
 
 
 def check_whole(path: Path) -> None:
@@ -56,4 +56,6 @@ def check_whole(path: Path) -> None:
             digest.update(last)
             last = line
     if last != (json.dumps({"sha256": digest.hexdigest()}) + "\n").encode("ascii"):
-        raise InputError(f"{path} is not a checkpoint, or damaged: its digest does not match; remove it and begin anew")
+        raise InputError(
+            f"{path} is not a checkpoint, or damaged: its digest does not match; remove it and start again"
+        )

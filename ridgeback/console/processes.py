@@ -32,7 +32,7 @@ def processes(workers: int) -> Iterator[Executor | None]:
     others = set(active_children())
     executor = ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=end_with_parent)
     try:
-        with _deaf():
+        with _ignoring_interrupts():
             for _ in range(workers):
                 executor.submit(int)  # each call starts a process
         yield executor
@@ -57,7 +57,7 @@ def _end_after_parent() -> None:
 
 
 @contextmanager
-def _deaf() -> Iterator[None]:
+def _ignoring_interrupts() -> Iterator[None]:
     """Ignore requests to stop for a moment: processes that start now ignore them for good, and leave the answer to us.
 
     A terminal sends Ctrl-C, and a batch system SIGTERM, to every process of the group.  Only the main thread may say

@@ -130,7 +130,7 @@ def command(
     write_text(output, survey_text(found, style, backbone=backbone_wanted))
     if style == "csv":
         tell(found)
-    own_up(found, backbone=backbone_wanted)
+    refuse_empty(found, backbone=backbone_wanted)
 
 
 def refuse_beside(estimator: Estimator, option: str, *names: str) -> None:
@@ -187,11 +187,11 @@ def tell(found: Survey) -> None:
         say(note)
 
 
-def own_up(found: Survey, *, backbone: bool) -> None:
-    """Raise PartialError where a signal gave nothing, or nothing that its estimator vouches for."""
+def refuse_empty(found: Survey, *, backbone: bool) -> None:
+    """Raise PartialError where a signal gave nothing, or nothing that its estimator can bound the error of."""
     reasons = [f"{one.recording.label}: {said.rstrip('.')}" for one in found.measured for said in misfit(one)]
     reasons += [
-        f"{one.recording.label}: {one.method} found no sample it can vouch for; give a longer recording or a "
+        f"{one.recording.label}: {one.method} found no sample whose error it can bound; give a longer recording or a "
         "shorter --lag"
         for one in found.measured
         if not one.usable

@@ -1,4 +1,4 @@
-"""The exact frequency at given amplitudes, enclosed, and a formula held against it there with its certified error."""
+"""The exact frequency at given amplitudes, enclosed, and a formula compared with it there with its certified error."""
 
 from __future__ import annotations
 

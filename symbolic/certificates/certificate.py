@@ -1,4 +1,4 @@
-"""Independent checks of an expansion, each done anew in exact arithmetic.
+"""Independent checks of an expansion, each done again in exact arithmetic.
 
 A residual alone misses the last homogeneous term, so the normalisation is a check of its own; the energy integral and
 multiple scales share nothing with Lindstedt-Poincaré but the Taylor coefficients of the force.
@@ -25,7 +25,7 @@ FLOW_ORDER = 24
 """Multiple scales is compared through this order at most; beyond it costs more than it tells."""
 
 BALL_ORDER = 48
-"""Balls are held against exact coefficients through this order at most."""
+"""Balls are compared with exact coefficients through this order at most."""
 
 
 @dataclass(frozen=True)
@@ -169,6 +169,6 @@ def _agreement(name: str, expansion: Expansion, flow: SlowFlow) -> Check:
 def _flow_residual(flow: SlowFlow) -> Check:
     left = flow.residual()
     if left:
-        return Check("residual", False, f"substituted into the equation, grades {left} do not cancel")
+        return Check("residual", False, f"substituted into the equation, weighted degrees {left} do not cancel")
     text = f"u, phi' and a' substituted into the equation cancel identically through weighted degree {flow.order}"
     return Check("residual", True, text)

@@ -58,7 +58,7 @@ _COMPLEX: Final[dict[str, Function]] = {
 
 
 def ball_function(expression: sympy.Expr, bits: int, *, complex_: bool = False) -> Function:
-    """The expression as a function of ``U`` on balls, its constants held to ``bits`` bits.
+    """The expression as a function of ``U`` on balls, its constants known to ``bits`` bits.
 
     The answer to a ball contains the value at each of its points.  Raises InputError for a symbol without a value and
     for a function that balls do not know.
@@ -149,4 +149,4 @@ def _squared(y: Ball) -> Ball:
 
 REAL: Final = Library("balls", REAL_FUNCTIONS, _is_leaf, _real_constant, _real_power)
 COMPLEX: Final = Library("complex balls", _COMPLEX, _is_leaf, _complex_constant, _complex_power)
-"""The constants of both are held to the working precision at which the closure is made."""
+"""The constants of both have the working precision at which the closure is made."""

@@ -102,7 +102,7 @@ def well_of(oscillator: Oscillator, *, mirrored: bool = False) -> Well:
 
 @lru_cache(maxsize=256)
 def curves(well: Well, bits: int, *, complex_: bool = False) -> Curves:
-    """V, V', V'' and I on real or complex balls, constants held to ``bits`` bits."""
+    """V, V', V'' and I on real or complex balls, constants known to ``bits`` bits."""
     expressions = (well.potential, well.force, well.force.diff(U), well.inertia)
     return Curves(*(ball_function(e, bits, complex_=complex_) for e in expressions))
 

@@ -105,7 +105,7 @@ class Expansion:
         return sympy.expand(value.subs({sympy.Symbol(name, real=True): c for name, c in self.constants.items()}))
 
     @property
-    def held(self) -> tuple[str, ...]:
+    def symbolic_names(self) -> tuple[str, ...]:
         """Parameters left symbolic, by the names that the equation has for them."""
         own = {name for name in self.names if name not in self.constants}
         return tuple(sorted(own | {str(symbol) for symbol in self.scale.free_symbols}))
@@ -146,11 +146,13 @@ class Expansion:
         It encloses the series, not the exact frequency.  Raises InputError when a parameter is still symbolic.
         """
         if not all(isinstance(c, fmpq) for c in self.coefficients):
-            if not self.held:
+            if not self.symbolic_names:
                 raise InputError(
                     "the coefficients are irrational; give the equation's numbers as decimals to enclose it"
                 )
-            raise InputError(f"the coefficients hold {', '.join(self.held)} as symbols; set them before evaluating")
+            raise InputError(
+                f"the coefficients hold {', '.join(self.symbolic_names)} as symbols; set them before evaluating"
+            )
         k, total = natural_frequency(self.scale), arb(0)
         x = value / k if self.scaled_variable else value
         for c in reversed(self.coefficients):
@@ -176,7 +178,7 @@ class Expansion:
         Raises InputError when ``order`` is not between 0 and the present order.
         """
         if not 0 <= order <= self.order:
-            raise InputError(f"order {order} is not within 0..{self.order} of this expansion; derive it anew")
+            raise InputError(f"order {order} is not within 0..{self.order} of this expansion; derive it again")
         return replace(
             self,
             order=order,

@@ -12,7 +12,7 @@ from flint import fmpq, fmpq_poly
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.expansion.expansion import Expansion, first_harmonic
-from ridgeback.symbolic.expansion.recursion import Recursion, Watch, compiled, normalise, residual, unwatched
+from ridgeback.symbolic.expansion.recursion import BetweenOrders, Recursion, compiled, no_watch, normalise, residual
 from ridgeback.symbolic.series.spaces import Scalar, Space, space_for
 from ridgeback.symbolic.series.trigonometric import Trig, at_zero, constant, cosine, harmonic, solve_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
@@ -42,12 +42,12 @@ def limit_cycle(oscillator: Oscillator, order: int, amplitude: str) -> Expansion
         coefficients=tuple(recursion.omega[: order + 1]),
         waveform=tuple(recursion.u[: order + 1]),
         amplitude_coefficients=tuple(read(p) for p in recursion.u[: order + 1]),
-        residual_of=lambda e: residual(e, natural.force, _graded(oscillator, recursion.space)),
+        residual_of=lambda e: residual(e, natural.force, _with_small(oscillator, recursion.space)),
     )
 
 
 def cycle_recursion(
-    oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: Watch = unwatched
+    oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: BetweenOrders = no_watch
 ) -> Recursion:
     """Run the orders of a limit cycle over a given coefficient space; ``watch`` sees the recursion before each order.
 
@@ -61,7 +61,7 @@ def cycle_recursion(
     averaged = _averaged_sine(rest, oscillator)
     a0 = _first_amplitude(averaged, oscillator)
     start = cosine(space).scale(a0)
-    recursion = Recursion(compiled(rest, (), start, _graded(oscillator, space)), [start], space)
+    recursion = Recursion(compiled(rest, (), start, _with_small(oscillator, space)), [start], space)
     for n in range(1, order + 2):
         watch(recursion, n)
         _cycle_step(recursion, n, amplitude, averaged.derivative()(a0))
@@ -87,7 +87,7 @@ def _at_zero_eps(rest: sympy.Expr, oscillator: Oscillator) -> sympy.Expr:
     return rest.subs(sympy.Symbol(str(oscillator.small), real=True), 0)
 
 
-def _graded(oscillator: Oscillator, space: Space) -> dict[sympy.Symbol, list[Trig]]:
+def _with_small(oscillator: Oscillator, space: Space) -> dict[sympy.Symbol, list[Trig]]:
     """eps as the series 0 + 1 eps."""
     return {sympy.Symbol(str(oscillator.small), real=True): [constant(space, fmpq(0)), constant(space, fmpq(1))]}
 
@@ -123,7 +123,7 @@ def _averaged_sine(rest: sympy.Expr, oscillator: Oscillator) -> fmpq_poly:
     """Return Q(a), the secular sine of order 1 for u_0 = a cos tau: the first-order averaged equation."""
     space = space_for(("a",))
     start = cosine(space).scale(space.gen("a"))
-    _, _, q = solve_oscillator(-compiled(rest, (), start, _graded(oscillator, space)).root.get(1))
+    _, _, q = solve_oscillator(-compiled(rest, (), start, _with_small(oscillator, space)).root.get(1))
     rows = {powers[1]: value for powers, value in q.to_dict().items()} if q != 0 else {}
     return fmpq_poly([rows.get(n, fmpq(0)) for n in range(max(rows, default=-1) + 1)])
 

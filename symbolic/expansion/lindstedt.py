@@ -1,6 +1,6 @@
 r"""Lindstedt-Poincaré expansions of periodic orbits, to any order.
 
-Nayfeh and Mook, Nonlinear Oscillations (1979), 2.3.  Strained time ``tau = omega t``, ' = d/dtau, units with k = 1:
+Nayfeh and Mook, Nonlinear Oscillations (1979), 2.3.  Rescaled time ``tau = omega t``, ' = d/dtau, units with k = 1:
 
     omega^2 u'' + f(u, omega u') = 0,      u = sum X^n u_n(tau),      omega^2 = sum X^n w_n
 
@@ -24,7 +24,7 @@ from ridgeback.symbolic.expansion.amplitude import DEFINITIONS, check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order
 from ridgeback.symbolic.expansion.limit_cycle import limit_cycle
-from ridgeback.symbolic.expansion.recursion import Recursion, Watch, compiled, normalise, residual, unwatched
+from ridgeback.symbolic.expansion.recursion import BetweenOrders, Recursion, compiled, no_watch, normalise, residual
 from ridgeback.symbolic.series.spaces import Space, is_zero, space_for
 from ridgeback.symbolic.series.trigonometric import constant, cosine, solve_oscillator
 from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
@@ -83,7 +83,7 @@ def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Bu
 
 
 def conservative_recursion(
-    oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: Watch = unwatched
+    oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: BetweenOrders = no_watch
 ) -> Recursion:
     """Run the orders of a conservative oscillator over a given coefficient space; ``watch`` sees each order begin.
 

@@ -1,6 +1,6 @@
 """What the two Lindstedt-Poincaré expansions share: the orders found so far, normalisation, and the residual.
 
-Notation as in ``lindstedt``: strained time tau = omega t, ' = d/dtau, omega^2 = sum X^n w_n.
+Notation as in ``lindstedt``: time is rescaled to tau = omega t, ' = d/dtau, omega^2 = sum X^n w_n.
 """
 
 from __future__ import annotations
@@ -61,12 +61,12 @@ class Recursion:
         self.curve.append(self.slope[-1].derivative())
 
 
-Watch: TypeAlias = Callable[[Recursion, int], None]
-"""Told the recursion and the order about to be found."""
+BetweenOrders: TypeAlias = Callable[[Recursion, int], None]
+"""Called before each order, with the recursion and the order about to be found."""
 
 
-def unwatched(recursion: Recursion, order: int) -> None:
-    """Watch nothing."""
+def no_watch(recursion: Recursion, order: int) -> None:
+    """Do nothing between two orders."""
 
 
 def normalise(p: Trig, amplitude: str, *, size: bool) -> Trig:
@@ -91,7 +91,7 @@ def compiled(
 
 
 def residual(expansion: Expansion, force: sympy.Expr, fixed: dict[sympy.Symbol, list[Element]]) -> list[int]:
-    """Substitute u and omega into omega^2 u'' + f(u, omega u') anew; return the orders that do not cancel.
+    """Substitute u and omega into omega^2 u'' + f(u, omega u') again; return the orders that do not cancel.
 
     The force is evaluated with complete coefficients from the start, not the provisional ones of the recursion.
     """

@@ -3,13 +3,13 @@ r"""Multiple scales to any order, as the slow flow of amplitude and phase.
     u = a cos phi + sum of a^p m^r * (harmonics of phi),     phi' = omega(a, m),     a' = a delta(a, m)
 
 with m the small parameters (damping mu, cubic damping, eps of a limit cycle, ...), in units with k = 1, and m^r short
-for m_1^r_1 m_2^r_2 ...  Grade n collects the terms with p + w.r = n, w being the weights of m against the amplitude.
-Along the flow d/dt is one derivation,
+for m_1^r_1 m_2^r_2 ...  Weighted degree n collects the terms with p + w.r = n, w being the weights of m against the
+amplitude.  Along the flow d/dt is one derivation,
 
     D = omega d/dphi + delta a d/da,
 
 so that the derivatives by the several slow times of the textbook method (Nayfeh and Mook 1979, 2.3) appear together
-and the question of their order does not arise.  At grade n of  D D u + f(u, D u) = 0:
+and the question of their order does not arise.  At weighted degree n of  D D u + f(u, D u) = 0:
 
     d^2 u_n/dphi^2 + u_n = -[rest]_n + 2 omega_(n-1) a cos phi + 2 delta_(n-1) a sin phi,
 
@@ -102,7 +102,7 @@ class _Frame:
         return constant(self.space, fmpq(0))
 
     def program(self) -> Program:
-        """The force over graded coefficients: a small parameter m of weight w is m at grade w."""
+        """The force by weighted degree: a small parameter m of weight w stands at degree w."""
         ring, weights = TrigRing(self.space), self.natural.weights
         fixed = {
             sympy.Symbol(name, real=True): [self.zero] * weights.get(name, 0) + [ring.parameter(name)]
@@ -111,7 +111,7 @@ class _Frame:
         return Program(self.natural.force, ring, {U: [self.zero], V: [self.zero]}, U, V, fixed=fixed)
 
     def along(self, series: Sequence[Trig], n: int, omega: Sequence[Scalar], delta: Sequence[Scalar]) -> Trig:
-        """Grade n of D series, from the grades of series, omega and delta that exist."""
+        """Weighted degree n of D series, from the degrees of series, omega and delta that exist."""
         turned, grown = self.zero, self.zero
         for j in range(max(0, n + 1 - len(series)), min(n, len(omega) - 1) + 1):
             if omega[j] != 0:
@@ -121,24 +121,24 @@ class _Frame:
         return turned.derivative() + grown
 
     def _by_amplitude(self, p: Trig, n: int) -> Trig:
-        """a d/da of a grade: its terms a^(n - w.r) m^r have a-degree n - w.r."""
+        """a d/da of weighted degree n: its terms a^(n - w.r) m^r have a-degree n - w.r."""
         small = [(1 + i, self.space.gen(name), w) for i, (name, w) in enumerate(self.natural.weights.items())]
         return p.map(lambda part: sum((part.derivative(i) * m * -w for i, m, w in small), part * n))
 
     def residual(self, flow: SlowFlow) -> list[int]:
-        """Substitute u and the slow flow anew, with complete coefficients; return the grades that do not cancel."""
-        grades = range(flow.order + 2)
-        velocity = [self.along(flow.waveform, n, flow.omega, flow.delta) for n in grades]
-        acceleration = [self.along(velocity, n, flow.omega, flow.delta) for n in grades]
+        """Substitute u and the slow flow again, with complete coefficients; return the degrees that do not cancel."""
+        degrees = range(flow.order + 2)
+        velocity = [self.along(flow.waveform, n, flow.omega, flow.delta) for n in degrees]
+        acceleration = [self.along(velocity, n, flow.omega, flow.delta) for n in degrees]
         program = self.program()
         for p, v in zip(flow.waveform[1:], velocity[1:], strict=True):
             program.supply(U, p)
             program.supply(V, v)
-        return [n for n in grades if acceleration[n] + program.root.get(n)]
+        return [n for n in degrees if acceleration[n] + program.root.get(n)]
 
 
 class _Recursion:
-    """The grades found so far."""
+    """The weighted degrees found so far."""
 
     def __init__(self, frame: _Frame) -> None:
         self.frame, self.space, self.program = frame, frame.space, frame.program()

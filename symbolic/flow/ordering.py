@@ -169,13 +169,13 @@ def _with_powers(expression: sympy.Expr, k: sympy.Symbol, power: Callable[[sympy
 
 
 def _check(force: sympy.Expr, oscillator: Oscillator, small: tuple[str, ...], scale: sympy.Expr) -> None:
-    held = sorted(str(s) for s in scale.free_symbols & force.free_symbols)
+    unset = sorted(str(s) for s in scale.free_symbols & force.free_symbols)
     if {_symbol(name) for name in UNITS} <= force.free_symbols:
-        held = sorted(str(s) for s in scale.free_symbols)
-    if held:
+        unset = sorted(str(s) for s in scale.free_symbols)
+    if unset:
         raise InputError(
             f"{oscillator.name}: its natural frequency {scale} does not scale out of every term; give "
-            f"{', '.join(held)} a number, or the other coefficients a name each"
+            f"{', '.join(unset)} a number, or the other coefficients a name each"
         )
     resting = {**{_symbol(name): 0 for name in small}, U: 0, V: 0}
     if sympy.expand(force.diff(V).subs(resting)) != 0:

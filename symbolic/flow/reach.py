@@ -89,32 +89,32 @@ def _outside(a: float, small: Sequence[float], limits: Limits | None) -> str:
 
 
 def _changes(flow: SlowFlow, a: float, small: Sequence[float]) -> list[float]:
-    """The relative change of the state by the terms of each grade that corrects it.
+    """The relative change of the state by the terms of each weighted degree that corrects it.
 
     The lowest terms of a'/a that balance at a fixed point, and k, are what is corrected.
     """
     omega, bend = _value(flow.frequency, a, small)
     rate, slope = _value(flow.damping, a, small)
     fixed = abs(rate) < NEAR * abs(a * slope)
-    drift, turn = _by_grade(flow, flow.damping), _by_grade(flow, flow.frequency)
+    drift, turn = _by_degree(flow, flow.damping), _by_degree(flow, flow.frequency)
     balanced = sorted(drift)[: 2 if fixed and flow.highest is None else 1]
     moved = max(1.0, abs(a * bend / omega)) / abs(a * slope) if fixed else 1 / abs(omega)
     found: dict[int, float] = {}
-    for grade in sorted(set(drift) - set(balanced)):
-        rank = grade - (min(drift) if fixed else 0)
-        found[rank] = abs(_value(drift[grade], a, small)[0]) * moved
-    for grade in sorted(set(turn) - {0}):
-        found[grade] = found.get(grade, 0.0) + abs(_value(turn[grade], a, small)[0] / omega)
+    for degree in sorted(set(drift) - set(balanced)):
+        rank = degree - (min(drift) if fixed else 0)
+        found[rank] = abs(_value(drift[degree], a, small)[0]) * moved
+    for degree in sorted(set(turn) - {0}):
+        found[degree] = found.get(degree, 0.0) + abs(_value(turn[degree], a, small)[0] / omega)
     return [found[rank] for rank in sorted(found)]
 
 
-def _by_grade(flow: SlowFlow, terms: tuple[Term, ...]) -> dict[int, tuple[Term, ...]]:
+def _by_degree(flow: SlowFlow, terms: tuple[Term, ...]) -> dict[int, tuple[Term, ...]]:
     """Terms by the power of the small parameter where powers are complete, else by weighted degree."""
     found: dict[int, tuple[Term, ...]] = {}
     for term in terms:
         weighted = term.powers[0] + sum(w * r for w, r in zip(flow.weights.values(), term.powers[1:], strict=True))
-        grade = term.powers[1] if flow.highest is not None else weighted
-        found[grade] = (*found.get(grade, ()), term)
+        degree = term.powers[1] if flow.highest is not None else weighted
+        found[degree] = (*found.get(degree, ()), term)
     return found
 
 

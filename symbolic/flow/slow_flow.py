@@ -55,10 +55,10 @@ class SlowFlow:
     dimensions: Mapping[str, int]
     """d of each parameter left symbolic, measured in k^d; the small ones first."""
     omega: tuple[Scalar, ...]
-    """Grades of omega0 in units with k = 1, as polynomials in (y*, small parameters, other parameters)."""
+    """omega0 by weighted degree, in units with k = 1, as polynomials in (y*, small parameters, other parameters)."""
     delta: tuple[Scalar, ...]
     waveform: tuple[Trig, ...]
-    """Grades of u."""
+    """u by weighted degree."""
     complete: int | None
     """Of one small parameter: the highest power of which no term is left out; None when its terms never end."""
     residual_of: Callable[[SlowFlow], list[int]]
@@ -117,12 +117,12 @@ class SlowFlow:
         """The nonzero terms of a'/a, per time unit, by weighted degree."""
         return self.terms(self.delta, rate=1)
 
-    def terms(self, grades: tuple[Scalar, ...], *, rate: int) -> tuple[Term, ...]:
-        """Grades as terms in the oscillator's own units; ``rate`` is 1 for a quantity per time, 0 for one in u."""
+    def terms(self, degrees: tuple[Scalar, ...], *, rate: int) -> tuple[Term, ...]:
+        """A series as terms in the oscillator's own units; ``rate`` is 1 for a quantity per time, 0 for one in u."""
         count, found = len(self.weights), []
-        for n, grade in enumerate(grades):
+        for n, known in enumerate(degrees):
             by_power: dict[tuple[int, ...], sympy.Expr] = {}
-            for powers, value in rows(grade, len(self.names)).items():
+            for powers, value in rows(known, len(self.names)).items():
                 small, others = powers[:count], powers[count:]
                 part = as_sympy(value) * _monomial(self.names[count:], others) * self.unit(powers, rate=rate)
                 by_power[small] = by_power.get(small, sympy.S.Zero) + part
@@ -153,7 +153,7 @@ class SlowFlow:
         return sum(w * r for w, r in zip(self.weights.values(), small, strict=True))
 
     def residual(self) -> list[int]:
-        """Substitute u and the flow back into the equation; return the grades that do not cancel (none: exact)."""
+        """Substitute u and the flow into the equation; return the weighted degrees that do not cancel (none: exact)."""
         return self.residual_of(self)
 
     def frequency_at(self, a: Any, *small: float) -> Any:
@@ -268,15 +268,15 @@ def _monomial(names: tuple[str, ...], powers: tuple[int, ...]) -> sympy.Expr:
     return sympy.Mul(*[sympy.Symbol(name, real=True) ** int(n) for name, n in pairs])
 
 
-def rows(grade: Scalar, count: int) -> dict[tuple[int, ...], fmpq]:
+def rows(part: Scalar, count: int) -> dict[tuple[int, ...], fmpq]:
     """Rational coefficients by the powers of the parameters, ``count`` of them.
 
     >>> rows(fmpq(-1, 2), 1)
     {(0,): -1/2}
     """
-    if isinstance(grade, int | fmpq):
-        return {(0,) * count: fmpq(grade)} if grade != 0 else {}
-    return {tuple(int(p) for p in powers[1:]): value for powers, value in grade.to_dict().items()}
+    if isinstance(part, int | fmpq):
+        return {(0,) * count: fmpq(part)} if part != 0 else {}
+    return {tuple(int(p) for p in powers[1:]): value for powers, value in part.to_dict().items()}
 
 
 def rounded(terms: tuple[Term, ...]) -> tuple[tuple[float, tuple[int, ...]], ...]:

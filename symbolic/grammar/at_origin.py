@@ -17,7 +17,7 @@ from ridgeback.symbolic.arithmetic.balls import REAL_FUNCTIONS, rational
 
 PRECISION: Final = 160
 MAX_MAGNITUDE: Final = 10_000
-"""Largest magnitude of an argument of exp and its kin; beyond it the numbers leave every useful range."""
+"""Largest magnitude of an argument of exp and similar functions; beyond it the numbers leave every useful range."""
 
 Values = Mapping[str, "sympy.Rational | None"]
 

@@ -103,7 +103,7 @@ def _bounded(expression: sympy.Expr, node: Node) -> sympy.Expr:
 
 
 def _finite(expression: sympy.Expr, node: Node) -> sympy.Expr:
-    """Refuse what is infinite or complex at the origin, roots of u included: SymPy labours over their sign later."""
+    """Refuse what is infinite or complex at the origin, also roots of u, over whose sign SymPy would take long."""
     if expression.has(sympy.zoo, sympy.nan, sympy.oo, -sympy.oo, sympy.I):
         raise InputError(f"{quoted(to_text(node))} at column {node.column} is not a finite real number; change it")
     _check_at_origin(expression, node)

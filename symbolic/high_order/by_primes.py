@@ -146,7 +146,7 @@ def law(oscillator: Oscillator) -> str:
 
 
 def _resumed(path: Path | None, identity: dict[str, str], work: Callable[[int], Residues]) -> Gathered:
-    """What a checkpoint holds, with the first of the residues kept back found anew; nothing where there is none."""
+    """What a checkpoint holds, with the first of the residues kept back found again; nothing where there is none."""
     if path is None or not path.exists():
         return Gathered(())
     saved = read(path, identity)
@@ -182,7 +182,7 @@ class _Collection:
         except KeyboardInterrupt:
             self._save(every=0)
             raise
-        with suppress(OSError):  # the result is there, and worth more than its checkpoint
+        with suppress(OSError):  # the result is there and must not be lost with its checkpoint
             self._save(every=0)
         return found
 

@@ -110,7 +110,7 @@ def check_identity(path: Path, found: Mapping[str, str], mine: Mapping[str, str]
 
 
 def check_numbers(path: Path, saved: Checkpoint, last: int, least_bits: int) -> None:
-    """Hold what a checkpoint claims against its own numbers; a file may be whole and yet not what it says.
+    """Compare what a checkpoint claims with its own numbers; a file may be whole and yet not what it says.
 
     A recursion to the order ``last - 1`` has between one product and the next a tape of nearly as many values as
     orders, waiting blocks that are cut at ``last`` and nowhere else, at least the ``least_bits`` that its digits need,
@@ -120,9 +120,9 @@ def check_numbers(path: Path, saved: Checkpoint, last: int, least_bits: int) -> 
         "order": 1 <= saved.order <= last and all(_of_order(tape, saved.order, last) for tape in saved.tapes),
         "precision": saved.bits >= least_bits and _has_bits(saved),
     }
-    for what, held in claims.items():
-        if not held:
-            raise InputError(f"{path} claims another {what} than its own numbers have; remove it and begin anew")
+    for what, true in claims.items():
+        if not true:
+            raise InputError(f"{path} claims another {what} than its own numbers have; remove it and start again")
 
 
 def _of_order(tape: Tape, order: int, last: int) -> bool:

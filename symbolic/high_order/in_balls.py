@@ -42,10 +42,10 @@ GUARD: Final = 40
 """Bits kept below the largest radius of the last order (10 000 instead changed no radius in van der Pol's to 200)."""
 STEEPNESS: Final = 3.5
 """Power of the order that the time of a recursion follows (``expansion.cost``): the share that is done goes by it."""
-PILOT: Final = 32
+TRIAL_ORDER: Final = 32
 """Order of the recursion that measures the loss."""
 _LOSS: Final = 8
-"""Bits per order with which the pilot begins."""
+"""Bits per order with which the trial begins."""
 ATTEMPTS: Final = 4
 SAVE_EVERY: Final = 60.0
 """Most seconds between checkpoints, or one order, which cannot be cut."""
@@ -97,7 +97,7 @@ def lindstedt_in_balls(
 
 
 def resumed(task: Task, path: Path | None, least_bits: int) -> Checkpoint | None:
-    """The checkpoint of this task, held against its own numbers; None where there is none."""
+    """The checkpoint of this task, checked against its own numbers; None where there is none."""
     if path is None or not path.exists():
         return None
     saved = file.read(path, task.identity())
@@ -150,7 +150,7 @@ class _Run:
             except KeyboardInterrupt:
                 self.save()
                 raise
-        with suppress(OSError):  # the result is there, and worth more than its checkpoint
+        with suppress(OSError):  # the result is there and must not be lost with its checkpoint
             self.save()
         with ctx.workprec(self.bits):
             return _expansion(self.task, self.bits, recursion)
@@ -171,7 +171,7 @@ class _Run:
                 self.save()
             self.last_order = time.monotonic()
         self.task.progress((n / (self.task.order + 1)) ** STEEPNESS, f"order {n} of {self.task.order}")
-        ctx.prec = min(ctx.prec, _worthwhile(recursion))
+        ctx.prec = min(ctx.prec, _useful_bits(recursion))
 
     def _checkpoint(self, n: int, marks: list[tuple[RelaxedProduct, int, dict[int, Parts]]]) -> Checkpoint:
         tapes = tuple(Tape(tuple(node.tape[:length]), waiting) for node, length, waiting in marks)
@@ -192,14 +192,14 @@ def predicted_bits(task: Task) -> int:
     True
     """
     wanted = int(10**task.digits).bit_length() + GUARD
-    if task.order <= PILOT:
+    if task.order <= TRIAL_ORDER:
         return _LOSS * task.order + wanted
-    bits = _LOSS * PILOT + GUARD
-    pilot = _Run(replace(task, order=PILOT, progress=silent), bits, None, None).result()
+    bits = _LOSS * TRIAL_ORDER + GUARD
+    trial = _Run(replace(task, order=TRIAL_ORDER, progress=silent), bits, None, None).result()
     rates = [
         Fraction(bits - int(c.rel_accuracy_bits()), n)
-        for n, c in enumerate(pilot.coefficients)
-        if 2 * n > PILOT and not c.is_exact() and not c.contains(0)
+        for n, c in enumerate(trial.coefficients)
+        if 2 * n > TRIAL_ORDER and not c.is_exact() and not c.contains(0)
     ]
     rate = max(rates, default=Fraction(_LOSS))
     return math.ceil(rate * (task.order + 1)) + wanted
@@ -208,13 +208,13 @@ def predicted_bits(task: Task) -> int:
 def _replay(products: list[RelaxedProduct], saved: Checkpoint) -> None:
     """Hand the tapes to the products of a recursion that is about to begin."""
     if len(products) != len(saved.tapes):
-        raise InputError(f"the checkpoint has {len(saved.tapes)} products, this recursion {len(products)}; begin anew")
+        raise InputError(f"the checkpoint has {len(saved.tapes)} products, this recursion {len(products)}; start again")
     for node, tape in zip(products, saved.tapes, strict=True):
         node.replayed = list(tape.values)
         node.waiting = Waiting(-1, dict(tape.waiting), dict(tape.waiting))
 
 
-def _worthwhile(recursion: Recursion) -> int:
+def _useful_bits(recursion: Recursion) -> int:
     """Bits from the largest coefficient of the last order down to ``GUARD`` below its largest radius."""
     values = [x for p in recursion.u[-1].parts if p is not None for x in p.coeffs()]
     sizes = [log2(abs(x).abs_upper()) for x in values if not x.is_zero()]

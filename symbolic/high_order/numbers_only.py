@@ -26,8 +26,8 @@ def require_numbers(oscillator: Oscillator, needed_by: str) -> None:
     force = natural.force if oscillator.kind == "limit-cycle" else natural.rational
     names = sorted(set(free_names(force)) - {oscillator.small})
     if names:
-        held = ", ".join(str(natural.constants.get(name, name)) for name in names)
-        raise InputError(f"{oscillator.name}: {held} is no rational number; {needed_by} one for each parameter")
+        unset = ", ".join(str(natural.constants.get(name, name)) for name in names)
+        raise InputError(f"{oscillator.name}: {unset} is no rational number; {needed_by} one for each parameter")
 
 
 def identity(oscillator: Oscillator, order: int, amplitude: str) -> dict[str, str]:

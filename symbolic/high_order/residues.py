@@ -80,7 +80,7 @@ def read(path: Path, identity: Mapping[str, str]) -> Gathered:
 
 
 def check_numbers(path: Path, saved: Gathered, primes: Sequence[int], own: Residues) -> None:
-    """Hold what a checkpoint claims against its own numbers, and against the residues modulo one prime, found anew.
+    """Compare what a checkpoint claims with its own numbers, and with the residues modulo one prime, found again.
 
     ``primes`` are those kept back and those used, in their order.  Raises InputError.
     """
@@ -91,6 +91,6 @@ def check_numbers(path: Path, saved: Gathered, primes: Sequence[int], own: Resid
         and [kept.prime for kept in saved.kept] == list(primes[:checks]),
         "computation": own in saved.kept and all(0 <= value < saved.modulus for value in saved.values),
     }
-    for what, held in claims.items():
-        if not held:
-            raise InputError(f"{path} claims another {what} than its own numbers have; remove it and begin anew")
+    for what, true in claims.items():
+        if not true:
+            raise InputError(f"{path} claims another {what} than its own numbers have; remove it and start again")

@@ -11,7 +11,7 @@ After d steps (a, b) -> ((a + b)/2, sqrt(a b)), which leave the mean alone (Land
     q = l + 8 l^2 + 84 l^3 + 992 l^4 + ...,  l = m/16,  m = 1 - b^2/a^2          (DLMF 19.5.5)
 
 and l is of the order A^(2^(d+1)), so that few terms serve: the sums are cut after the powers of l that the order asks
-for.  With d = 2 it is Jacobi's form of 22.2 in another dress, l = ((1 - sqrt(k'))/(1 + sqrt(k')))^4/16.
+for.  With d = 2 it is Jacobi's form of DLMF 22.2, l = ((1 - sqrt(k'))/(1 + sqrt(k')))^4/16.
 """
 
 from __future__ import annotations

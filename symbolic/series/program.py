@@ -58,7 +58,7 @@ class Program:
 
     ``inputs`` (u and u') start with the given coefficients and are continued with ``supply``; ``fixed`` gives the
     coefficients of the other symbols.  ``root.get(n)`` then yields the expression's coefficient n.  A coefficient of
-    u or u' may be supplied provisionally and mended with ``correct``: order n of u enters order n of all linearly.
+    u or u' may be supplied provisionally and corrected with ``correct``: order n of u enters order n of all linearly.
 
     >>> from ridgeback.symbolic.series.spaces import space_for
     >>> from ridgeback.symbolic.series.ring import TrigRing
@@ -97,7 +97,7 @@ class Program:
         self.inputs[symbol].known.append(coefficient)
 
     def correct(self, n: int, change_u: Element, change_v: Element) -> None:
-        """Mend coefficient n everywhere after u_n and v_n changed by the given amounts."""
+        """Correct coefficient n everywhere after u_n and v_n changed by the given amounts."""
         for node in {*self.nodes.values(), *self.inputs.values()}:  # a node may stand under two names
             along_u, along_v = node.slopes() if len(node.known) > n else (None, None)
             if along_u or along_v:

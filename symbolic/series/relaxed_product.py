@@ -68,7 +68,7 @@ class RelaxedProduct(Product):
 
     @property
     def plain(self) -> bool:
-        """Whether this product is not worth blocks."""
+        """Whether this product is taken term by term, since blocks would gain nothing."""
         return isinstance(self.x, Fixed) or isinstance(self.y, Fixed)
 
     def step(self, n: int) -> Trig:
@@ -93,7 +93,7 @@ class RelaxedProduct(Product):
         return total.parts
 
     def _middle(self, n: int) -> Parts:
-        """The sum over 0 < j < n; asked a second time (after ``forget``), the blocks of order n are taken anew."""
+        """The sum over 0 < j < n; asked a second time (after ``forget``), the blocks of order n are taken again."""
         before = self.waiting.before if self.waiting.order == n else self.waiting.after
         after = dict(before)
         for length, alone in blocks(n):

@@ -195,10 +195,10 @@ def stripped(expansion: Series) -> tuple[int, list[Any]]:
     """
     c = expansion.coefficients
     if not all(isinstance(value, fmpq | arb) for value in c):
-        held = ", ".join(getattr(expansion, "held", ()))
-        if not held:
+        names = ", ".join(getattr(expansion, "symbolic_names", ()))
+        if not names:
             raise InputError("its coefficients are irrational; give the numbers as decimals to see it")
-        raise InputError(f"the coefficients hold {held} as symbols; set them to numbers")
+        raise InputError(f"the coefficients hold {names} as symbols; set them to numbers")
     present = [n for n, value in enumerate(c) if n and not _is_zero(value)]
     if not present:
         raise InputError(CONSTANT)

@@ -1,4 +1,4 @@
-"""The door for oscillators: every form in which one may be named becomes an ``Oscillator`` here, and only here."""
+"""Oscillators as they come in: every form in which one may be named becomes an ``Oscillator`` here, and only here."""
 
 from __future__ import annotations
 

@@ -321,7 +321,7 @@ def _potential(force: sympy.Expr, given: str | None, unknown: str) -> tuple[symp
         return None, "the force has velocity terms that do not dissipate"
     lossless = velocity.subs({_symbol(name): 0 for name in dissipative_names(force)})
     if sympy.expand(lossless - lossless.subs(U, -U)) != 0:
-        return None, f"{brief(lossless)} neither dissipates nor comes of a potential"
+        return None, f"{brief(lossless)} neither dissipates nor comes from a potential"
     if small_name(force) is not None:
         return None, "a limit cycle is not set by its potential"
     if checked is not None:

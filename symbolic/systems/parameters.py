@@ -1,4 +1,4 @@
-"""Parameter values at the door: names checked, every value made an exact rational."""
+"""Parameter values as they come in: names checked, every value made an exact rational."""
 
 from __future__ import annotations
 

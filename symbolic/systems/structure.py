@@ -73,11 +73,11 @@ def in_natural_units(force: sympy.Expr, stiffness: sympy.Expr) -> sympy.Expr:
     if not below:
         return divided(force, stiffness)
     terms = sympy.Add.make_args(sympy.expand_mul(force))
-    held = [term for term in terms if below & sympy.fraction(term / stiffness)[1].free_symbols]
-    clean = sympy.Add(*(term / stiffness for term in terms if term not in held))
-    if not held:
+    unscaled = [term for term in terms if below & sympy.fraction(term / stiffness)[1].free_symbols]
+    clean = sympy.Add(*(term / stiffness for term in terms if term not in unscaled))
+    if not unscaled:
         return clean
-    kept = sympy.expand_mul(sympy.Add(*held))
+    kept = sympy.expand_mul(sympy.Add(*unscaled))
     slope, linear = (sympy.expand(part.diff(U).subs({U: 0, V: 0})) for part in (kept, clean))
     nonlinear = sympy.expand_mul(kept - sympy.expand_mul(slope * U))
     return clean + (1 - linear) * U + sympy.Symbol(SQUARED_INVERSE, real=True) * nonlinear

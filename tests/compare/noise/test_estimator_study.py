@@ -69,7 +69,7 @@ def test_an_interrupted_study_goes_on_from_its_checkpoint(tmp_path: Path) -> Non
         text[damaged] ^= 1
         other = tmp_path / "damaged"
         other.write_bytes(text)
-        with pytest.raises(InputError, match=r"damaged|begin anew"):
+        with pytest.raises(InputError, match=r"damaged|start again"):
             estimator_study(SMALL, methods=METHODS, trials=2, checkpoint=other)
     path.write_text('{"settings": 1}')
     with pytest.raises(InputError, match="not a checkpoint"):

@@ -103,7 +103,7 @@ def test_a_reversible_centre_has_its_own_kind(equation: str, kind: str) -> None:
 def test_no_potential_is_claimed_where_it_does_not_set_the_orbits(equation: str) -> None:
     own = Oscillator.from_equation(equation)
     assert own.potential is None
-    assert "neither dissipates nor comes of a potential" in own.potential_note
+    assert "neither dissipates nor comes from a potential" in own.potential_note
     if "b" in own.parameters:
         assert own.with_parameters({"b": 0}).substituted_potential is not None
 

@@ -283,7 +283,7 @@ def test_a_checkpoint_of_another_version_is_refused(saved: Path, monkeypatch: py
 
 
 def forged(path: Path, **claims: Any) -> None:
-    """Change what the head of a checkpoint claims, and sign it anew."""
+    """Change what the head of a checkpoint claims, and sign it again."""
     head, *lines, _ = path.read_text().splitlines(keepends=True)
     claimed = json.loads(head)
     for name, value in claims.items():
@@ -318,7 +318,7 @@ def test_a_forged_place_or_content_is_refused(saved: Path) -> None:
     head = json.loads(lines[0])
     for wrong in ({**head, "order": 11}, {**head, "order": 99}, {**head, "products": 7}, {**head, "bits": "many"}):
         write_signed(saved, [json.dumps(wrong) + "\n", *lines[1:]])
-        with pytest.raises(InputError, match="begin anew"):
+        with pytest.raises(InputError, match="start again"):
             lindstedt_in_balls(find(VDP), 12, checkpoint=saved)
 
 

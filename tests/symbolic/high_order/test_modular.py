@@ -143,4 +143,4 @@ def test_a_finished_run_leaves_its_state_to_the_caller(tmp_path: Path, monkeypat
 
     monkeypatch.setattr(module, "residues", counted)
     assert lindstedt_by_primes(vdp, 20, checkpoint=path).frequency == first.frequency
-    assert used == [next(primes())]  # found anew to test the file; everything else is in it
+    assert used == [next(primes())]  # found again to test the file; everything else is in it
