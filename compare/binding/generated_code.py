@@ -1,7 +1,7 @@
-"""Run the generated code of an expansion: the Python module as it is, and the C function where a compiler exists.
+"""Run generated code: build the package of any language with the tools of this machine, and compare it with its table.
 
-The text that is loaded here was written by ``symbolic.codegen`` from exact rationals a moment before; no user
-text reaches it unprinted (names are identifiers, comments are escaped by the writers).
+What is built and loaded here was written by ``symbolic.codegen`` from exact numbers a moment before; no text of a user
+reaches it but through a whitelist of characters, and the files have names of our own.
 """
 
 from __future__ import annotations
@@ -10,40 +10,122 @@ import ctypes
 import importlib.util
 import shutil
 import subprocess
+import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
+from typing import Literal
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.codegen import generate
-from ridgeback.symbolic.codegen.c99 import identifier
+from ridgeback.symbolic.codegen.languages.registry import find_language
+from ridgeback.symbolic.codegen.program import Form
 from ridgeback.symbolic.expansion.expansion import Expansion
 
 Vectorised = Callable[[Array], Array]
 COMPILERS = ("cc", "gcc", "clang")
-_FLAGS = ("-O2", "-std=c99", "-shared", "-fPIC", "-ffp-contract=off")
+_FLAGS = ("-O3", "-std=c99", "-shared", "-fPIC", "-ffp-contract=off")
+SECONDS = 120
+"""A build or a check that takes longer is given up."""
+OWN = "generated"
+"""Everything that is built here has this name, whatever the user's is."""
 
-# The generated function takes one number; this loop over an array is what a caller would write around it.
-_LOOP = """
-#include <stddef.h>
-void over_array(const double *x, double *y, size_t n, double k);
-void over_array(const double *x, double *y, size_t n, double k)
-{{
-    for (size_t i = 0; i < n; i++) y[i] = {name}_omega0(x[i], k);
-}}
-"""
+
+@dataclass(frozen=True)
+class Checked:
+    """What came of a self-test: ``skipped`` where the machine lacks the tool, and why."""
+
+    language: str
+    state: Literal["passed", "failed", "skipped"]
+    detail: str
+
+    def __str__(self) -> str:
+        return f"{self.language}: {self.state} ({self.detail})"
+
+
+def check(form: Form, language: str) -> Checked:
+    """Build the package of a form in a temporary folder and run its self-test.
+
+    Parameters
+    ----------
+    form
+        What was generated; see ``ridgeback.symbolic.codegen.form_of``.
+    language
+        The target language.
+
+    Returns
+    -------
+    Checked
+        ``passed`` when every entry of the table came out bit for bit.
+
+    Examples
+    --------
+    >>> from ridgeback.symbolic.codegen import form_of
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> str(check(form_of(lindstedt(find("pendulum"), 4)), "python"))
+    'python: passed (every entry of the table bit for bit)'
+    """
+    target, own = find_language(language), replace(form, name=OWN)
+    target.accept(form)
+    tool = tool_of(language)
+    if tool is None:
+        missing = " or ".join(target.tool) or "nothing"
+        return Checked(
+            language, "skipped", f"{missing} runs it, and is not on this machine" if target.tool else "no code"
+        )
+    with tempfile.TemporaryDirectory(prefix="ridgeback-") as folder:
+        write_files(Path(folder), target.package(own))
+        for command in target.commands(own, tool):
+            done = _run(command, Path(folder))
+            if done.returncode != 0:
+                return Checked(language, "failed", f"{Path(command[0]).name}: {_last_line(done)}")
+    return Checked(language, "passed", "every entry of the table bit for bit")
+
+
+def tool_of(language: str) -> str | None:
+    """The program of this machine that runs a language's check, or None; Python's is the one that runs now."""
+    target = find_language(language)
+    if "python3" in target.tool:
+        needed = {"numba": "numba", "array-api": "numpy"}.get(language)
+        return sys.executable if needed is None or importlib.util.find_spec(needed) else None
+    return next((path for name in target.tool if (path := shutil.which(name))), None)
+
+
+def write_files(folder: Path, files: dict[str, str]) -> None:
+    """Write the files of a package under a folder."""
+    for name, text in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+
+def _run(command: tuple[str, ...], folder: Path) -> subprocess.CompletedProcess[str]:
+    program = str(folder / command[0]) if command[0].startswith("./") else command[0]
+    try:
+        return subprocess.run(  # noqa: S603 - our own arguments
+            [program, *command[1:]], cwd=folder, capture_output=True, text=True, timeout=SECONDS, check=False
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return subprocess.CompletedProcess(command, 1, "", str(error))
+
+
+def _last_line(done: subprocess.CompletedProcess[str]) -> str:
+    lines = [line for line in (done.stderr or done.stdout).splitlines() if line.strip()]
+    return (lines[-1] if lines else f"exit code {done.returncode}").strip()[:200]
 
 
 @contextmanager
 def python_module(expansion: Expansion) -> Iterator[ModuleType]:
     """Write the generated Python to a temporary file and import it from there, for the time of the block."""
     with tempfile.TemporaryDirectory(prefix="ridgeback-") as folder:
-        path = Path(folder) / "generated.py"
+        path = Path(folder) / f"{OWN}.py"
         path.write_text(generate(expansion, "python"), encoding="utf-8")
         specification = importlib.util.spec_from_file_location("ridgeback_generated", path)
         if specification is None or specification.loader is None:
@@ -66,16 +148,14 @@ def compiled(expansion: Expansion, folder: Path) -> Vectorised | None:
     program = compiler()
     if program is None:
         return None
-    source, library = folder / "generated.c", folder / "generated.so"
-    loop = _LOOP.format(name=identifier(expansion.system))
-    source.write_text(generate(expansion, "c") + loop, encoding="utf-8")
-    command = [program, *_FLAGS, str(source), "-o", str(library)]
-    done = subprocess.run(command, capture_output=True, timeout=60, check=False)  # noqa: S603 - our own arguments
+    source, library = folder / f"{OWN}.c", folder / f"{OWN}.so"
+    source.write_text(generate(expansion, "c", name=OWN), encoding="utf-8")
+    done = _run((program, *_FLAGS, str(source), "-o", str(library), "-lm"), folder)
     return _loaded(library, float(expansion.scale)) if done.returncode == 0 else None
 
 
 def _loaded(library: Path, k: float) -> Vectorised:
-    fill = ctypes.CDLL(str(library)).over_array
+    fill = getattr(ctypes.CDLL(str(library)), f"{OWN}_omega0_array")
     pointer = np.ctypeslib.ndpointer(dtype=np.float64, ndim=1, flags="C_CONTIGUOUS")
     fill.argtypes, fill.restype = [pointer, pointer, ctypes.c_size_t, ctypes.c_double], None
 

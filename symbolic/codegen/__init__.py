@@ -5,27 +5,29 @@ Knows finished formulas; text from users reaches the source only through a white
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import hashlib
 from dataclasses import replace
 from fractions import Fraction
+from importlib.metadata import PackageNotFoundError, version
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.codegen import c99, python
 from ridgeback.symbolic.codegen.build import expansion_form, slow_flow_form
-from ridgeback.symbolic.codegen.form import Form
+from ridgeback.symbolic.codegen.languages.registry import find_language, languages
+from ridgeback.symbolic.codegen.naming import checked_identifier, identifier
+from ridgeback.symbolic.codegen.notes import annotated
+from ridgeback.symbolic.codegen.number import REALS
+from ridgeback.symbolic.codegen.program import MODES, Form, Mode
+from ridgeback.symbolic.codegen.request import CodeRequest
 from ridgeback.symbolic.codegen.resummations import resummation_form
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.resummation.resummation import Resummation
 
-# A further language is a function from the form to its text, and a line here.
-WRITERS: dict[str, Callable[[Form], str]] = {
-    "python": python.write,
-    "c": c99.write,
-    "c-header": c99.write_header,
-}
+__all__ = ["LANGUAGES", "form_of", "generate", "written"]
 
-LANGUAGES = tuple(WRITERS)
+LANGUAGES = tuple(languages())
+DIGEST = 16
+"""Hexadecimal digits of the input's hash that are printed."""
 
 
 def generate(
@@ -36,28 +38,63 @@ def generate(
     limit: float | None = None,
     up_to: Fraction | None = None,
     more: tuple[str, ...] = (),
+    name: str = "",
+    mode: Mode = "strict",
+    real: str = "float64",
+    motion: bool = False,
 ) -> str:
     r"""Source text of an expansion (omega0 and its slope), a slow flow (omega0 and damping) or a resummation (omega0).
 
-    Angular frequency in rad per time unit.  ``equation``, ``limit`` (the amplitude at which the oscillation ends) and
-    ``more`` lines go into the documentation, with a proved bound of the rounding error; ``up_to`` is the end of the
-    range of a resummation.  Raises InputError for a language without a writer, for a coefficient that has no double,
-    and for a resummation that is no quotient of polynomials.
+    Parameters
+    ----------
+    result
+        What is written; angular frequencies in rad per time unit.
+    language
+        A target language; see ``LANGUAGES``.
+    equation, limit, more
+        For the documentation: the equation, the amplitude at which the oscillation ends, further lines.
+    up_to
+        The end of the domain, beyond which the functions return a number that is none; ``limit`` where it is not given.
+    name
+        Identifier in front of, or around, all that is generated; by default the system's name.
+    mode
+        ``strict``: the same bits in every language.  ``fma``: a*b + c in one rounding.  ``accurate``: the last steps
+        carry their rounding errors along.
+    real
+        ``float64`` or, in C and Rust, ``float32``.
+    motion
+        Whether the motion u(t) and its harmonics are generated as well.
 
+    Raises
+    ------
+    InputError
+        For a language without a writer, a coefficient that has no number in the format, and a formula for which no
+        code is written.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
     >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> print(generate(lindstedt(find("pendulum"), 4)).split("\n\n\n")[2])
-    def omega0(A, k=1.0):
+    >>> print(generate(lindstedt(find("pendulum"), 4)).split("\n\n\n")[3])
+    def omega0_unchecked(A, k=1.0):
         ...
         A_squared = A*A
-        y = C4
-        y = A_squared*y + C2
-        y = A_squared*y + C0
-        return k*y
+        y = 0.0003255208333333333*A_squared - 0.0625  # 1/3072, -1/16
+        y *= A_squared; y += 1.0
+        result = k*y
+        return result
     """
-    if language not in WRITERS:
-        raise InputError(f"no code is generated for '{language}'; the languages are {', '.join(WRITERS)}")
-    return WRITERS[language](form_of(result, equation=equation, limit=limit, up_to=up_to, more=more))
+    form = form_of(
+        result, equation=equation, limit=limit, up_to=up_to, more=more, name=name, mode=mode, real=real, motion=motion
+    )
+    return written(form, language)
+
+
+def written(form: Form, language: str) -> str:
+    """A form as source text; raises InputError for what the language does not have."""
+    target = find_language(language)
+    target.accept(form)
+    return target.write(form)
 
 
 def form_of(
@@ -67,10 +104,44 @@ def form_of(
     limit: float | None = None,
     up_to: Fraction | None = None,
     more: tuple[str, ...] = (),
+    name: str = "",
+    mode: Mode = "strict",
+    real: str = "float64",
+    motion: bool = False,
 ) -> Form:
-    """The coefficient form of any of them; a resummation without ``up_to`` is bounded for values up to 1."""
+    """The coefficient form of any of them, with what is proved about it; see ``generate``."""
+    if mode not in MODES:
+        raise InputError(f"mode {mode!r} is not known; use {', '.join(MODES)}")
+    if real not in REALS:
+        raise InputError(f"numbers of kind {real!r} are not known; use {' or '.join(REALS)}")
+    request = CodeRequest(
+        equation=equation,
+        limit=limit,
+        up_to=up_to,
+        more=more,
+        name=name,
+        mode=mode,
+        real=REALS[real],
+        motion=motion,
+    )
+    return finished(_built(result, request), request)
+
+
+def _built(result: Expansion | SlowFlow | Resummation, request: CodeRequest) -> Form:
     if isinstance(result, Resummation):
-        return resummation_form(result, up_to=up_to or Fraction(1), equation=equation, limit=limit, more=more)
-    build = slow_flow_form if isinstance(result, SlowFlow) else expansion_form
-    form = build(result, equation=equation, limit=limit)  # type: ignore[arg-type]
-    return replace(form, facts=(*form.facts, *more))
+        return resummation_form(result, request)
+    return slow_flow_form(result, request) if isinstance(result, SlowFlow) else expansion_form(result, request)
+
+
+def finished(form: Form, request: CodeRequest) -> Form:
+    """A form under its name and in its mode, with its proofs, the version and the hash of all that went into it."""
+    name = checked_identifier(request.name) if request.name else identifier(form.name)
+    made = annotated(replace(form, name=name, mode=request.mode, real=request.real, version=_version()))
+    return replace(made, digest=hashlib.sha256(repr(made).encode()).hexdigest()[:DIGEST])
+
+
+def _version() -> str:
+    try:
+        return version("ridgeback")
+    except PackageNotFoundError:
+        return "(not installed)"

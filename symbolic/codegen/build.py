@@ -5,15 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from flint import fmpq
 from sympy import Expr, Integer
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.rendering import as_sympy
-from ridgeback.symbolic.codegen.form import Argument, Form, Function, K, Powers, derivative, function, nearest_double
-from ridgeback.symbolic.codegen.naming import argument_name, variable_name
+from ridgeback.symbolic.codegen.motion import motion_functions
+from ridgeback.symbolic.codegen.naming import argument_names, variable_name
+from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real
+from ridgeback.symbolic.codegen.polynomial import K, derivative, polynomial_function
+from ridgeback.symbolic.codegen.program import Argument, Domain, Form, Function, Steps, Terms
+from ridgeback.symbolic.codegen.request import CodeRequest
 from ridgeback.symbolic.expansion.amplitude import MEANINGS
 from ridgeback.symbolic.flow.ordering import UNITS
 from ridgeback.symbolic.flow.slow_flow import rows
+from ridgeback.symbolic.systems.structure import SQUARED_INVERSE
 
 if TYPE_CHECKING:
     from ridgeback.symbolic.expansion.expansion import Expansion
@@ -28,65 +34,115 @@ PARAMETER = "a parameter of the equation"
 OMEGA0 = "Fundamental angular frequency, in radians per unit of time."
 
 
-def expansion_form(expansion: Expansion, *, equation: str = "", limit: float | None = None) -> Form:
-    """Build the functions omega0, omega0_slope and, for a limit cycle, amplitude.
+def expansion_form(expansion: Expansion, request: CodeRequest) -> Form:
+    """Build the functions omega0, omega0_slope and, for a limit cycle, amplitude; u(t) and its harmonics on request.
 
-    Parameters left symbolic become arguments; the natural frequency is then a number in the coefficients, since they
-    hold for that one only.
+    Parameters left symbolic become arguments, a symbolic natural frequency too; a natural frequency with a number is
+    then in the coefficients, since they hold for that one only.
     """
-    if expansion.scale.free_symbols and expansion.constants:
-        raise InputError(
-            f"{expansion.system}: the natural frequency {expansion.scale} does not scale out of every term, so no code "
-            "takes it as an argument; give it a number"
-        )
-    if expansion.constants:
-        numbers = ", ".join(map(str, expansion.constants.values()))
-        raise InputError(
-            f"{expansion.system}: the coefficients hold the irrational {numbers}, and code is made from rational ones; "
-            "give that number as a decimal"
-        )
-    variable = variable_name(expansion.variable)
-    units = {variable: 1} if expansion.scaled_variable else {}
-    scale = expansion.scale if expansion.names else Integer(1)
-    terms = exact_terms(expansion, expansion.coefficients, scale)
-    arguments: tuple[Argument, ...] = (Argument(variable, variable_meaning(expansion)),)
-    arguments += tuple(Argument(argument_name(name), PARAMETER) for name in expansion.names)
-    factor = None if expansion.names else K
-    if not expansion.names:
-        arguments += (frequency_argument(expansion.scale),)
-    # d(k sum c_n (eps/k)^n) / d eps has lost the factor k.
-    slope_factor = None if units else factor
-    summary = f"Derivative of omega0 by {expansion.variable}."
-    functions = [
-        function("omega0", OMEGA0, "C", arguments, terms, factor=factor, units=units),
-        function("omega0_slope", summary, "S", arguments, derivative(terms), factor=slope_factor, units=units),
-    ]
+    series = _Series(expansion, request)
+    functions = [series.function("omega0", OMEGA0, expansion.coefficients, rate=1)]
+    functions.append(series.slope(f"Derivative of omega0 by {expansion.variable}."))
     if expansion.amplitude_coefficients is not None:
-        series = exact_terms(expansion, expansion.amplitude_coefficients, Integer(1))
         title = f"Amplitude ({expansion.amplitude})."
-        functions.append(function("amplitude", title, "P", arguments, series, units=units))
+        functions.append(series.function("amplitude", title, expansion.amplitude_coefficients, rate=0))
+    if request.motion:
+        functions += motion_functions(series, expansion)
     facts = (
-        *common_facts(expansion.method, equation),
+        *common_facts(expansion.method, request.equation),
         f"Variable {expansion.variable}: {variable_meaning(expansion)}.",
         f"Order: powers of {expansion.variable} up to {expansion.order}.",
-        f"The coefficients hold for the natural frequency {expansion.scale} only." if expansion.names else SCALING,
-        *limit_fact(expansion.variable, limit),
+        f"The coefficients hold for the natural frequency {expansion.scale} only." if series.fixed else SCALING,
+        *limit_fact(expansion.variable, request.limit),
+        *request.more,
     )
     return Form(expansion.system, f"Fundamental frequency of '{expansion.system}'", facts, tuple(functions))
 
 
-def exact_terms(expansion: Expansion, values: Sequence[Any], scale: Expr) -> dict[Powers, Expr]:
-    """Coefficients by the powers of the variable and of the parameters, times a number."""
-    if not expansion.names:
-        return {(power,): as_sympy(value) for power, value in enumerate(values)}
-    found: dict[Powers, Expr] = {}
-    for power, value in enumerate(values):
-        for powers, part in rows(value, len(expansion.names)).items():
-            found[(power, *powers)] = as_sympy(part) * scale
-    return found
+class _Series:
+    """What all functions of one expansion share: arguments, units, and the values that symbols stand for."""
+
+    def __init__(self, expansion: Expansion, request: CodeRequest) -> None:
+        self.expansion, self.real = expansion, request.real
+        self.parameters = tuple(name for name in expansion.names if name not in expansion.constants)
+        self.called = argument_names(self.parameters)
+        self.fixed = bool(self.parameters) and expansion.scale.is_number
+        self.variable = variable_name(expansion.variable)
+        self.domain: Domain = request.domain(self.variable)
+        self.arguments: tuple[Argument, ...] = (
+            Argument(self.variable, variable_meaning(expansion)),
+            *(Argument(name, PARAMETER) for name in self.called.values()),
+            *(() if self.fixed else (frequency_argument(expansion.scale, self.real),)),
+        )
+        self.units = {self.variable: 1} if expansion.scaled_variable else {}
+        self.variables = (self.variable, *(self._inner(name) for name in expansion.names))
+
+    def _inner(self, name: str) -> str:
+        """The name in the code of a symbol of the coefficients: an argument's, or of a value computed from k."""
+        if name not in self.expansion.constants:
+            return self.called[name]
+        return "k_squared_inverse" if name == SQUARED_INVERSE else f"root_{self._roots().index(name) + 1}"
+
+    def _roots(self) -> list[str]:
+        return [name for name in self.expansion.constants if name != SQUARED_INVERSE]
+
+    def prepared(self) -> Steps:
+        """The values of the symbols that are no arguments: 1/k^2, and irrational numbers."""
+        steps = Steps(self.real)
+        for name in self.expansion.names:
+            if name == SQUARED_INVERSE:
+                steps.divide("k_squared_inverse", steps.number(1), steps.square(K))
+            elif name in self.expansion.constants:
+                value = Number(self.expansion.constants[name], self.real)
+                steps.multiply(self._inner(name), value, steps.number(1))
+        return steps
+
+    def terms(self, values: Sequence[Any], *, rate: int) -> Terms:
+        """Coefficients by the powers of variable and symbols; in the oscillator's own time where k is fixed."""
+        scale = self.expansion.scale if self.fixed and rate else Integer(1)
+        found: Terms = {}
+        for power, value in enumerate(values):
+            for powers, part in rows(value, len(self.expansion.names)).items():
+                found[power, *powers] = Number(_scaled(part, scale), self.real)
+        return found
+
+    def function(self, name: str, summary: str, values: Sequence[Any], *, rate: int) -> Function:
+        """A series of the expansion; ``rate`` is 1 for a quantity per time, 0 for one in u."""
+        return self.made(name, summary, self.terms(values, rate=rate), factor=K if rate and not self.fixed else "")
+
+    def slope(self, summary: str) -> Function:
+        """The derivative of omega0: d(k sum c_n (eps/k)^n)/d eps has lost the factor k."""
+        factor = "" if self.units or self.fixed else K
+        return self.made(
+            "omega0_slope", summary, derivative(self.terms(self.expansion.coefficients, rate=1)), factor=factor
+        )
+
+    def made(self, name: str, summary: str, terms: Terms, *, factor: str = "") -> Function:
+        """A polynomial of these variables as a function."""
+        used = [any(powers[i] for powers in terms) for i in range(len(self.variables))]
+        before = self.prepared() if any(used[1:]) else None
+        kept = terms or {(0,) * len(self.variables): Number(fmpq(0), self.real)}
+        return polynomial_function(
+            name,
+            summary,
+            self.arguments,
+            self.variables,
+            kept,
+            self.domain,
+            factor=factor,
+            units=self.units,
+            real=self.real,
+            before=before,
+        )
 
 
-def slow_flow_form(flow: SlowFlow, *, equation: str = "", limit: float | None = None) -> Form:
+def _scaled(part: fmpq, scale: Expr) -> fmpq | Expr:
+    if scale.is_Rational:
+        return part * fmpq(int(scale.p), int(scale.q))
+    return as_sympy(part) * scale
+
+
+def slow_flow_form(flow: SlowFlow, request: CodeRequest) -> Form:
     """Build the functions omega0 and damping of a multiple-scales slow flow; every symbol is an argument.
 
     Raises InputError when an irrational natural frequency does not scale out.
@@ -97,23 +153,26 @@ def slow_flow_form(flow: SlowFlow, *, equation: str = "", limit: float | None = 
             "parameters in it numbers whose root is rational, or the other coefficients a name each"
         )
     small = len(flow.weights)
+    called = argument_names(name for name in flow.names if name not in UNITS)
     arguments = (
         Argument("a", MEANINGS["fundamental"]),
-        *(Argument(argument_name(name), SMALL if small == 1 else A_SMALL) for name in flow.weights),
-        *(Argument(argument_name(name), PARAMETER) for name in flow.names[small:] if name not in UNITS),
-        frequency_argument(flow.scale),
+        *(Argument(called[name], SMALL if small == 1 else A_SMALL) for name in flow.weights),
+        *(Argument(called[name], PARAMETER) for name in flow.names[small:] if name in called),
+        frequency_argument(flow.scale, request.real),
     )
     rate = "Relative rate of change of the amplitude, a'/a, per unit of time."
+    domain = request.domain("a")
     functions = (
-        slow_function("omega0", OMEGA0, "W", arguments, flow, flow.omega),
-        slow_function("damping", rate, "D", arguments, flow, flow.delta),
+        slow_function("omega0", OMEGA0, arguments, domain, flow, flow.omega, request.real),
+        slow_function("damping", rate, arguments, domain, flow, flow.delta, request.real),
     )
     facts = (
-        *common_facts(flow.method, equation),
+        *common_facts(flow.method, request.equation),
         f"Amplitude a: {MEANINGS['fundamental']}.",
         order_fact(flow),
         SCALING,
-        *limit_fact("a", limit),
+        *limit_fact("a", request.limit),
+        *request.more,
     )
     return Form(flow.system, f"Slow flow of '{flow.system}'", facts, functions)
 
@@ -136,26 +195,34 @@ def order_fact(flow: SlowFlow) -> str:
 
 
 def slow_function(
-    name: str, summary: str, prefix: str, arguments: tuple[Argument, ...], flow: SlowFlow, grades: Sequence[Any]
+    name: str,
+    summary: str,
+    arguments: tuple[Argument, ...],
+    domain: Domain,
+    flow: SlowFlow,
+    grades: Sequence[Any],
+    real: Real = FLOAT64,
 ) -> Function:
     """One side of the slow flow, in units where k = 1: each symbol enters over its power of k."""
     count, weights = len(flow.names), tuple(flow.weights.values())
-    terms: dict[Powers, Expr] = {}
+    called = argument_names(symbol for symbol in flow.names if symbol not in UNITS)
+    terms: Terms = {}
     for n, grade in enumerate(grades):
         for powers, value in rows(grade, count).items():
             degree = sum(w * r for w, r in zip(weights, powers, strict=False))
-            terms[(n - degree, *powers)] = as_sympy(value)
-    units = {f"({s})" if s in UNITS else argument_name(s): d for s, d in flow.dimensions.items()}
-    units = {"a": 0, **units}
-    return function(name, summary, prefix, arguments, terms or {(0,) * (count + 1): Integer(0)}, factor=K, units=units)
+            terms[n - degree, *powers] = Number(value, real)
+    units = {f"({s})" if s in UNITS else called[s]: d for s, d in flow.dimensions.items()}
+    kept = terms or {(0,) * (count + 1): Number(fmpq(0), real)}
+    return polynomial_function(name, summary, arguments, ("a", *units), kept, domain, factor=K, units=units, real=real)
 
 
-def frequency_argument(scale: Expr) -> Argument:
+def frequency_argument(scale: Expr, real: Real = FLOAT64) -> Argument:
     """The natural frequency, by default the one that the expansion was derived with; without, where it has symbols."""
     meaning = "natural (small-amplitude) angular frequency"
     if not scale.is_number:
-        return Argument("k", f"{meaning}, {scale} of the equation")
-    return Argument("k", meaning, nearest_double(scale))
+        return Argument(K, f"{meaning}, {scale} of the equation")
+    exact = fmpq(int(scale.p), int(scale.q)) if scale.is_Rational else scale
+    return Argument(K, meaning, Number(exact, real).nearest)
 
 
 def variable_meaning(expansion: Expansion | Resummation) -> str:

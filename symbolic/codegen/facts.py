@@ -7,7 +7,7 @@ from typing import Final
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.certificates.at_amplitudes import readings
-from ridgeback.symbolic.codegen.rounding import upwards
+from ridgeback.symbolic.codegen.notes import upwards
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.elliptic_nome import NomeForm
 from ridgeback.symbolic.resummation.mapping import CutPlane

@@ -1,19 +1,14 @@
-"""Code for resummations: quotients of polynomials in a mapped variable, and the elliptic nome."""
+"""Code for resummations and closed forms: quotients of polynomials, the elliptic nome, the agm."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from decimal import ROUND_FLOOR, Context
 from fractions import Fraction
 from typing import Final
 
-from flint import arb, ctx
-from sympy import Expr, Integer, Mul, Pow, Rational, Symbol, cos, sqrt
+from flint import arb, ctx, fmpq
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.arithmetic.balls import ball
 from ridgeback.symbolic.arithmetic.rational_function import Coefficients
-from ridgeback.symbolic.arithmetic.rendering import as_sympy
 from ridgeback.symbolic.codegen.build import (
     OMEGA0,
     SCALING,
@@ -22,181 +17,200 @@ from ridgeback.symbolic.codegen.build import (
     limit_fact,
     variable_meaning,
 )
-from ridgeback.symbolic.codegen.form import Argument, Constant, Form, Function, K, Powers, Steps, constants_of, product
-from ridgeback.symbolic.codegen.forward import relative_bound
 from ridgeback.symbolic.codegen.naming import variable_name
-from ridgeback.symbolic.codegen.rounding import upwards
-from ridgeback.symbolic.enclosure.enclosure import rounded_down
-from ridgeback.symbolic.resummation.elliptic_nome import DuffingMeans, NomeForm, PendulumMeans, theta_3
+from ridgeback.symbolic.codegen.notes import rounded_down_text
+from ridgeback.symbolic.codegen.number import Number
+from ridgeback.symbolic.codegen.polynomial import K, measured
+from ridgeback.symbolic.codegen.program import Argument, Form, Function, Operand, Steps, needed
+from ridgeback.symbolic.codegen.request import CodeRequest
+from ridgeback.symbolic.codegen.trigonometry import cosine_of_small
+from ridgeback.symbolic.resummation.elliptic_nome import DuffingMeans, Means, NomeForm, PendulumMeans, theta_3
 from ridgeback.symbolic.resummation.mapping import CutPlane, Euler, Identity, Mapping, Pair
 from ridgeback.symbolic.resummation.pade import RationalForm
 from ridgeback.symbolic.resummation.resummation import Resummation
 
-BITS: Final = 128
+AGM_BITS: Final = 4
+"""Bits beyond the format at which the arithmetic-geometric mean has converged."""
+MOST_STEPS: Final = 20
 
 
-class Writer:
-    """Steps and constants as they are collected."""
+def resummation_form(formula: Resummation, request: CodeRequest) -> Form:
+    """Build omega0 of a resummation.
 
-    def __init__(self) -> None:
-        self.steps, self.constants = Steps(), list[Constant]()
-
-    def constant(self, prefix: str, value: Fraction | int) -> Symbol:
-        """A constant of its own."""
-        self.constants += constants_of(prefix, {(0,): Rational(value)})
-        return Symbol(f"{prefix}0")
-
-    def polynomial(self, name: str, prefix: str, variable: Symbol, coefficients: Coefficients) -> Expr:
-        """Horner's steps of a polynomial."""
-        terms: dict[Powers, Expr] = {(n,): as_sympy(c) for n, c in enumerate(coefficients) if c != 0}
-        self.constants += constants_of(prefix, terms)
-        return self.steps.horner(name, variable, {n: Symbol(f"{prefix}{n}") for (n,) in terms})
-
-
-def resummation_form(
-    formula: Resummation, *, up_to: Fraction, equation: str = "", limit: float | None = None, more: tuple[str, ...] = ()
-) -> Form:
-    """Build omega0 of a resummation; its rounding is bounded for 0 <= variable <= up_to.
-
-    Raises InputError for a formula with other operations than + - * / sqrt cos, and where one may fail in the range.
+    Raises InputError for a formula with other operations than + - * / sqrt cos.
     """
     pole = formula.pole if isinstance(formula, RationalForm) else None
     facts = (
-        *common_facts(formula.method, equation),
+        *common_facts(formula.method, request.equation),
         f"Variable {formula.variable}: {variable_meaning(formula)}.",
         f"Order: agrees with the exact series through the power {formula.order} of {formula.variable}.",
         SCALING,
-        *limit_fact(formula.variable, limit),
-        *(() if pole is None else (f"Not to be used from {formula.variable} = {_down(pole)} on: a pole.",)),
-        *more,
+        *limit_fact(formula.variable, request.limit),
+        *(() if pole is None else (f"Not to be used from {formula.variable} = {rounded_down_text(pole)} on: a pole.",)),
+        *request.more,
     )
     title = f"Fundamental frequency of '{formula.system}', resummed"
-    return Form(formula.system, title, facts, (_function(formula, up_to),))
+    return Form(formula.system, title, facts, (_function(formula, request),))
 
 
-def _function(formula: Resummation, up_to: Fraction) -> Function:
-    variable, writer = variable_name(formula.variable), Writer()
-    arguments = (Argument(variable, variable_meaning(formula)), frequency_argument(formula.scale))
-    base = Symbol(writer.steps.measured(variable, 1 if formula.scaled_variable else 0))
-    value = _nome(formula, base, writer) if isinstance(formula, NomeForm) else _quotient(formula, base, writer)
-    result = product(K, value)
-    with ctx.workprec(BITS):
-        given = {"k": arguments[1].default or 1.0}
-        bound = relative_bound(writer.constants, writer.steps.taken, result, variable, up_to, given)
-    note = _note(formula, up_to, bound)
-    return Function("omega0", OMEGA0, arguments, tuple(writer.constants), tuple(writer.steps.taken), result, (note,))
-
-
-def _note(formula: Resummation, up_to: Fraction, bound: Fraction) -> str:
-    name, even = formula.variable, not isinstance(formula, RationalForm) or formula.step % 2 == 0
-    end = _down(ball(up_to))
-    inside = f"|{name}| <= {end}" if even else f"0 <= {name} <= {end}"
-    inside += " (and k as given by default)" if formula.scaled_variable else ""
-    pendulum = isinstance(formula, NomeForm) and isinstance(formula.means, PendulumMeans)
-    cosine = ", with a cosine right to one unit in the last place" if pendulum else ""
-    return (
-        f"Rounding: for {inside} the relative error is at most {upwards(bound)}, proved in ball arithmetic "
-        f"(without over- or underflow{cosine})."
+def _function(formula: Resummation, request: CodeRequest) -> Function:
+    variable, steps = variable_name(formula.variable), Steps(request.real)
+    arguments = (
+        Argument(variable, variable_meaning(formula)),
+        frequency_argument(formula.scale, request.real),
     )
+    base = measured(steps, variable, 1 if formula.scaled_variable else 0)
+    value = _nome(formula, base, steps) if isinstance(formula, NomeForm) else _quotient(formula, base, steps)
+    result = steps.multiply("result", K, value)
+    even = not isinstance(formula, RationalForm) or formula.step % 2 == 0
+    return Function(
+        "omega0", OMEGA0, arguments, needed(steps.taken, result), result, request.domain(variable, even=even)
+    )
+
+
+def _number(steps: Steps, value: Fraction | int) -> Number:
+    exact = Fraction(value)
+    return steps.number(fmpq(exact.numerator, exact.denominator))
+
+
+def _series(steps: Steps, name: str, at: str, coefficients: Coefficients) -> Operand:
+    return steps.horner(name, at, {n: steps.number(fmpq(c)) for n, c in enumerate(coefficients) if c != 0})
 
 
 # --- quotients of polynomials ---
 
 
-def _quotient(formula: Resummation, base: Symbol, writer: Writer) -> Expr:
+def _quotient(formula: Resummation, base: str, steps: Steps) -> Operand:
     if not isinstance(formula, RationalForm):
         raise InputError(f"no code is written for the {formula.method} of {formula.system}; use pade, map or nome")
-    steps = writer.steps
-    x = base if formula.step == 1 else steps.square(base)
-    for n in range(3, formula.step + 1):
-        x = steps.once(f"{base.name}_{n}", product(base, x))
-    w = _mapped(formula.mapping, x, writer)
-    value = writer.polynomial("y", "N", w, formula.numerator)
+    w = _mapped(formula.mapping, steps.power(base, formula.step), steps)
+    value = _series(steps, "y", w, formula.numerator)
     if len(formula.denominator) > 1:
-        below = writer.polynomial("z", "D", w, formula.denominator)
-        value = steps.assign("quotient", _over(value, below))
-    return value if formula.growth == 0 else _grown(formula, w, value, writer)
+        value = steps.divide("quotient", value, _series(steps, "z", w, formula.denominator))
+    return value if formula.growth == 0 else _grown(formula, w, value, steps)
 
 
-def _mapped(mapping: Mapping, x: Symbol, writer: Writer) -> Symbol:
+def _mapped(mapping: Mapping, x: str, steps: Steps) -> str:
     """w(x), as ``Mapping.image`` has it."""
-    steps, one = writer.steps, Integer(1)
+    one = steps.number(1)
     match mapping:
         case Identity():
             return x
         case Euler(x0=x0, rate=rate) if rate == 1:
-            return steps.assign("w", _over(x, x + writer.constant("X", x0)))
+            return steps.divide("w", x, steps.add("moved", x, _number(steps, x0)))
         case CutPlane(x_c=x_c):
-            scaled = steps.assign("scaled", _over(x, writer.constant("X", x_c)))
-            rest = steps.assign("rest", one - scaled)
-            root = steps.assign("root", sqrt(rest))
-            above, below = (one - root, one + root) if x_c > 0 else (root - one, one + root)
-            return steps.assign("w", _over(steps.assign("fall", above), steps.assign("rise", below)))
+            scaled = steps.divide("scaled", x, _number(steps, x_c))
+            root = steps.root("root", steps.subtract("rest", one, scaled))
+            above, below = (one, root) if x_c > 0 else (root, one)
+            return steps.divide("w", steps.subtract("fall", above, below), steps.add("rise", one, root))
         case Pair(modulus=modulus, half_sum=half):
-            twice, square = writer.constant("H", -2 * half), writer.constant("R", modulus * modulus)
-            inner = steps.assign("inner", product(x, steps.assign("moved", x + twice)))
-            root = steps.assign("root", sqrt(steps.assign("distance", inner + square)))
-            return steps.assign("w", _over(x, root))
+            moved = steps.add("moved", x, _number(steps, -2 * half))
+            inner = steps.multiply("inner", x, moved)
+            root = steps.root("root", steps.add("distance", inner, _number(steps, modulus * modulus)))
+            return steps.divide("w", x, root)
     raise InputError(f"no code is written for the {mapping.name}; use pade, or a map of rate 1")
 
 
-def _grown(formula: RationalForm, w: Symbol, value: Expr, writer: Writer) -> Expr:
+def _grown(formula: RationalForm, w: str, value: Operand, steps: Steps) -> Operand:
     """value * vanishing(w)^p for a p that is a multiple of 1/2."""
     exponent = -formula.growth / formula.mapping.rate
     if exponent.denominator > 2:
         raise InputError(f"growth {formula.growth} needs a power {exponent}; code is written for multiples of 1/2")
-    steps = writer.steps
     # 1 - w or 1 - w^2, the two that maps have.
     own = w if len(formula.mapping.vanishing) == 2 else steps.square(w)
-    factor: Expr = steps.assign("vanishing", Integer(1) - own)
+    factor = steps.subtract("vanishing", steps.number(1), own)
     if exponent.denominator == 2:
-        factor = steps.assign("vanishing", sqrt(factor))
+        factor = steps.root("vanishing", factor)
     for _ in range(abs(exponent.numerator)):
-        value = steps.assign("grown", product(factor, value) if exponent > 0 else _over(value, factor))
+        value = steps.multiply("grown", factor, value) if exponent > 0 else steps.divide("grown", value, factor)
     return value
 
 
-def _over(above: Expr, below: Expr) -> Expr:
-    return Mul(above, Pow(below, -1))
+# --- the elliptic nome and the arithmetic-geometric mean ---
 
 
-# --- the elliptic nome ---
-
-
-def _nome(formula: NomeForm, A: Symbol, writer: Writer) -> Expr:
-    """k a/theta_3(q)^2 by the steps of ``ridgeback.symbolic.resummation.elliptic_nome``."""
+def _nome(formula: NomeForm, A: str, steps: Steps) -> Operand:
+    """a/theta_3(q)^2 by the steps of ``ridgeback.symbolic.resummation.elliptic_nome``."""
     if formula.steps < 1:
         raise InputError("the nome without a Landen step loses digits by cancellation; take one step or more")
-    steps = writer.steps
-    _means(formula, A, writer)
-    high, low, half = Symbol("high"), Symbol("low"), writer.constant("E", Fraction(1, 2))
-    for _ in range(formula.steps):
-        total, gap = steps.assign("total", high + low), steps.assign("gap", high - low)
-        steps.assign("low", sqrt(steps.assign("area", product(high, low))))
-        steps.assign("high", product(half, total))
-    ratio = steps.assign("ratio", _over(gap, total))
-    sixteenth = writer.constant("F", Fraction(1, 16))
-    ell = steps.assign("ell", product(sixteenth, steps.assign("m", product(ratio, ratio))))
-    q = steps.assign("q", writer.polynomial("y", "Q", ell, formula.nome_series))
-    theta = writer.polynomial("z", "T", q, theta_3(len(formula.nome_series) - 1))
-    return steps.assign("quotient", _over(high, steps.assign("squared", product(theta, theta))))
+    high, low = _means(formula.means, A, steps)
+    for n in range(formula.steps):
+        total, gap = steps.add(f"total_{n}", high, low), steps.subtract("gap", high, low)
+        low = steps.root(f"low_{n}", steps.multiply("area", high, low))
+        high = steps.multiply(f"high_{n}", _number(steps, Fraction(1, 2)), total)
+    ratio = steps.divide("ratio", gap, total)
+    m = steps.multiply("m", ratio, ratio)
+    ell = steps.multiply("ell", _number(steps, Fraction(1, 16)), m)
+    q = _series(steps, "y", ell, formula.nome_series)
+    theta = _series(steps, "z", str(q), theta_3(len(formula.nome_series) - 1))
+    return steps.divide("quotient", high, steps.multiply("theta_squared", theta, theta))
 
 
-def _means(formula: NomeForm, A: Symbol, writer: Writer) -> None:
+def _means(means: Means, A: str, steps: Steps) -> tuple[Operand, Operand]:
     """high and low, the two numbers whose mean is omega0/k."""
-    assign: Callable[[str, Expr], Symbol] = writer.steps.assign
-    if isinstance(formula.means, PendulumMeans):
-        assign("half_angle", product(writer.constant("C", formula.means.c / 2), A))
-        assign("low", cos(Symbol("half_angle")))
-        assign("high", Integer(1))
-    elif isinstance(formula.means, DuffingMeans):
-        square = writer.steps.square(A)
-        for name, part in (("high", formula.means.e), ("low", formula.means.e / 2)):
-            share = assign("share", product(writer.constant("G" if name == "high" else "L", part), square))
-            assign(name, sqrt(assign("inside", Integer(1) + share)))
+    if isinstance(means, PendulumMeans):
+        half_angle = steps.multiply("half_angle", _number(steps, means.c / 2), A)
+        return steps.number(1), cosine_of_small(steps, "low", half_angle)
+    if isinstance(means, DuffingMeans):
+        square, one = steps.square(A), steps.number(1)
+        pair = []
+        for name, part in (("high", means.e), ("low", means.e / 2)):
+            share = steps.multiply(f"{name}_share", _number(steps, part), square)
+            pair.append(steps.root(name, steps.add(f"{name}_inside", one, share)))
+        return pair[0], pair[1]
+    raise InputError("no code is written for this arithmetic-geometric mean")
 
 
-def _down(x: arb) -> str:
-    """A positive number in six digits, rounded down."""
-    exact = Context(prec=6, rounding=ROUND_FLOOR).create_decimal(rounded_down(x))
-    return f"{float(exact):.6g}"
+def closed_form(formula: NomeForm, request: CodeRequest) -> Form:
+    """Build omega0 as the arithmetic-geometric mean itself, exact but for rounding up to the end of the domain.
+
+    The number of steps is what the end of the domain needs, decided in balls.  Raises InputError without such an end.
+    """
+    variable, steps = variable_name(formula.variable), Steps(request.real)
+    domain = request.domain(variable)
+    if not domain.known:
+        raise InputError(f"the arithmetic-geometric mean of {formula.system} needs the end of its range; give --up-to")
+    arguments = (
+        Argument(variable, variable_meaning(formula)),
+        frequency_argument(formula.scale, request.real),
+    )
+    high, low = _means(formula.means, variable, steps)
+    half = _number(steps, Fraction(1, 2))
+    count = mean_steps(formula.means, domain.high, request.real.digits)
+    for n in range(count):
+        total = steps.add("total", high, low)
+        if n < count - 1:
+            low = steps.root(f"low_{n}", steps.multiply("area", high, low))
+        high = steps.multiply(f"high_{n}", half, total)
+    result = steps.multiply("result", K, high)
+    facts = (
+        *((f"Equation: {request.equation}.",) if request.equation else ()),
+        f"Method: closed form, the arithmetic-geometric mean in {count} steps.",
+        f"Variable {formula.variable}: {variable_meaning(formula)}.",
+        "Order: none, the formula is exact.",
+        SCALING,
+        *limit_fact(formula.variable, request.limit),
+        *request.more,
+    )
+    made = Function("omega0", OMEGA0, arguments, needed(steps.taken, result), result, domain)
+    return Form(formula.system, f"Fundamental frequency of '{formula.system}' in closed form", facts, (made,))
+
+
+def mean_steps(means: Means, end: float, digits: int) -> int:
+    """How many steps (a, b) -> ((a + b)/2, sqrt(a b)) leave no difference that the format would show.
+
+    After a step the difference is (sqrt a - sqrt b)^2/2, so that it is decided at the end of the range, where it is
+    largest, and the last arithmetic mean errs by less than the difference of the pair before it squared over 8 b.
+
+    >>> mean_steps(PendulumMeans(Fraction(1)), 3.0, 53)
+    6
+    """
+    with ctx.workprec(4 * digits):
+        a, b = means.in_balls(arb(end))
+        for count in range(1, MOST_STEPS):
+            if not b > 0:
+                break
+            if (a - b) ** 2 / (8 * b * b) < arb(2) ** -(digits + AGM_BITS):
+                return count
+            a, b = (a + b) / 2, (a * b).sqrt()
+    raise InputError(f"the oscillation may end before {end:.10g}; give a shorter range")

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import pytest
+from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sympy import Expr, Rational, Symbol
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.codegen import LANGUAGES, c99, generate, python
+from ridgeback.symbolic.codegen import generate, written
 from ridgeback.symbolic.codegen.comments import comment_text
-from ridgeback.symbolic.codegen.form import Argument, Form, Powers, distance, function, nearest_double
+from ridgeback.symbolic.codegen.naming import identifier
+from ridgeback.symbolic.codegen.number import FLOAT32, FLOAT64, Number, Real, magnitude, rounded
+from ridgeback.symbolic.codegen.polynomial import polynomial_function, whole_domain
+from ridgeback.symbolic.codegen.program import Argument, Form
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -44,13 +48,17 @@ def horner_bound(coefficients: list[Fraction], x: Fraction, k: Fraction) -> Frac
 
 
 @settings(deadline=None, max_examples=300)
-@given(st.fractions(), st.integers(-900, 900))
-def test_each_coefficient_is_the_nearest_double(ratio: Fraction, shift: int) -> None:
-    value = ratio * Fraction(2) ** shift
-    rational = Rational(value.numerator, value.denominator)
-    found = nearest_double(rational)
-    best = min(distance(rational, math.nextafter(found, side)) for side in (-math.inf, math.inf))
-    assert distance(rational, found) <= best
+@given(st.fractions(), st.integers(-900, 900), st.sampled_from([FLOAT64, FLOAT32]))
+def test_each_coefficient_is_the_nearest_number(ratio: Fraction, shift: int, real: Real) -> None:
+    exact_value = ratio * Fraction(2) ** (shift if real is FLOAT64 else shift // 9)
+    found = rounded(exact_value, real)
+    if math.isinf(found):
+        assert abs(exact_value) > Fraction(real.largest)
+        return
+    spacing = max(Fraction(2) ** (magnitude(exact_value) - real.digits), Fraction(2) ** real.low) if exact_value else 0
+    assert abs(Fraction(found) - exact_value) <= spacing / 2
+    assert real is FLOAT64 or np.float32(found) == found
+    assert real is FLOAT32 or found == exact_value.numerator / exact_value.denominator
 
 
 @pytest.mark.parametrize(("system", "order"), CASES)
@@ -68,16 +76,15 @@ def test_python_agrees_with_exact_arithmetic(system: str, order: int, tmp_path: 
 
 
 @pytest.mark.parametrize(("system", "order"), CASES)
-def test_constants_in_the_text_are_the_rounded_coefficients(system: str, order: int, tmp_path: Path) -> None:
+def test_constants_in_the_text_are_the_rounded_coefficients(system: str, order: int) -> None:
     expansion = lindstedt(find(system), order)
     source = generate(expansion)
-    module = load(source, tmp_path)
-    for power, c in enumerate(unit_coefficients(expansion)):
+    function = source.split("def omega0_unchecked")[1].split("\n\n\n")[0]
+    flat = re.sub(r"\n *# (?=\d)", "", function)  # long rationals go on
+    for c in unit_coefficients(expansion):
         if c != 0:
-            assert getattr(module, f"C{power}") == c.numerator / c.denominator
-            assert f"C{power} = {c.numerator / c.denominator!r}  # {c}\n" in source
-        else:
-            assert not hasattr(module, f"C{power}")
+            assert repr(abs(c.numerator / c.denominator)) in flat
+            assert c.denominator == 1 or str(c) in flat
 
 
 @needs_compiler
@@ -85,8 +92,8 @@ def test_constants_in_the_text_are_the_rounded_coefficients(system: str, order: 
 def test_c_and_python_agree_bit_for_bit(system: str, order: int, tmp_path: Path) -> None:
     expansion = lindstedt(find(system), order)
     module = load(generate(expansion), tmp_path)
-    prefix = c99.identifier(expansion.system)
-    source = generate(expansion, "c", equation=find(system).equation, limit=math.pi)
+    prefix = identifier(expansion.system)
+    source = generate(expansion, "c", equation=find(system).equation)
     for name in ("omega0", "omega0_slope"):
         in_c = compiled(source, tmp_path, f"{prefix}_{name}", 2)
         for amplitude, k in itertools.product(GRID, (1.0, 4 * math.pi)):
@@ -96,7 +103,7 @@ def test_c_and_python_agree_bit_for_bit(system: str, order: int, tmp_path: Path)
 @needs_compiler
 def test_limit_cycle_in_both_languages(tmp_path: Path) -> None:
     expansion = lindstedt(find("van-der-pol"), 8)
-    assert generate(lindstedt(find("van-der-pol").with_parameters({"k": 2}), 8)).count("k=2.0") == 3
+    assert generate(lindstedt(find("van-der-pol").with_parameters({"k": 2}), 8)).count("k=2.0") == 9
     module = load(generate(expansion), tmp_path)
     in_c = compiled(generate(expansion, "c"), tmp_path, "van_der_pol_omega0", 2)
     assert expansion.amplitude_series is not None
@@ -119,7 +126,7 @@ def test_slow_flow_in_both_languages(k: int, tmp_path: Path) -> None:
     module = load(generate(flow), tmp_path)
     source = generate(flow, "c")
     for name in ("omega0", "damping"):
-        in_c = compiled(source, tmp_path, f"{c99.identifier(flow.system)}_{name}", 3)
+        in_c = compiled(source, tmp_path, f"{identifier(flow.system)}_{name}", 3)
         direct = flow.frequency_at if name == "omega0" else flow.damping_at
         for a, mu in itertools.product((0.0, 0.3, 1.0, 2.0), (0.0, 0.01, 0.2)):
             value = getattr(module, name)(a, mu)
@@ -167,7 +174,6 @@ def test_what_must_travel_with_the_numbers_is_in_the_text() -> None:
             "lindstedt",
         ):
             assert fact in text
-    assert "import" not in generate(lindstedt(oscillator, 6)).replace("nothing is imported", "")
 
 
 @needs_compiler
@@ -184,31 +190,39 @@ def test_any_polynomial_of_two_variables(
     tmp_path_factory: pytest.TempPathFactory, terms: dict[tuple[int, int], Fraction]
 ) -> None:
     """The nested Horner steps equal the plain sum of terms, whatever powers are there or missing."""
-    rational: dict[Powers, Expr] = {powers: Rational(c.numerator, c.denominator) for powers, c in terms.items()}
+    exact_terms = {powers: Number(fmpq(c.numerator, c.denominator)) for powers, c in terms.items()}
     arguments = (Argument("a", "first"), Argument("mu", "second"), Argument("k", "factor", 1.0))
-    made = function("value", "A polynomial.", "W", arguments, rational, factor=Symbol("k"), units={"mu": 1})
+    made = polynomial_function(
+        "value", "A polynomial.", arguments, ("a", "mu"), exact_terms, whole_domain("a"), factor="k", units={"mu": 1}
+    )
     form, folder = Form("any", "A polynomial", (), (made,)), tmp_path_factory.mktemp("any")
-    module = load(python.write(form), folder)
+    module = load(written(form, "python"), folder)
     a, mu = Fraction(3, 4), Fraction(-5, 8)
     plain = sum((c * a**p * mu**q for (p, q), c in terms.items()), Fraction(0))
     size = sum(abs(c) * abs(a) ** p * abs(mu) ** q for (p, q), c in terms.items())
     assert abs(Fraction(module.value(float(a), float(mu))) - plain) <= 64 * Fraction(1, 2**53) * size
     if COMPILER is not None:
-        in_c = compiled(c99.write(form), folder, "any_value", 3)
+        in_c = compiled(written(form, "c"), folder, "any_value", 3)
         assert in_c(0.75, -0.625, 1.0).hex() == float(module.value(0.75, -0.625)).hex()
 
 
 def test_bad_requests_are_refused() -> None:
     expansion = lindstedt(find("pendulum"), 2)
-    with pytest.raises(InputError, match=r"'fortran'.*python, c"):
-        generate(expansion, "fortran")
-    with pytest.raises(InputError, match="lower order"):
-        nearest_double(Rational(10**400))
-    with pytest.raises(InputError, match="lower order"):
-        nearest_double(Rational(1, 10**400))
+    with pytest.raises(InputError, match=r"'cobol'.*python, array-api"):
+        generate(expansion, "cobol")
+    for huge in (fmpq(10**400), fmpq(1, 10**400), fmpq(10**400, 3)):
+        with pytest.raises(InputError, match="lower order"):
+            _ = Number(huge).nearest
+    assert Number(fmpq(10**400, 3 * 10**399)).nearest == 10 / 3
+    for options in ({"mode": "fast"}, {"real": "float16"}, {"name": "a b"}, {"name": "class"}, {"name": "x" * 41}):
+        with pytest.raises(InputError, match=r"use|not known"):
+            generate(expansion, "c", **options)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="written in float64"):
+        generate(expansion, "python", real="float32")
+    with pytest.raises(InputError, match="no fma mode"):
+        generate(expansion, "numba", mode="fma")
     with pytest.raises(InputError, match="does not scale out"):
         generate(multiple_scales(Oscillator.from_equation("u'' + 2*u + u'**3 = 0"), 4))
-    assert set(LANGUAGES) == {"python", "c", "c-header"}
 
 
 HOSTILE = (
@@ -224,8 +238,9 @@ HOSTILE = (
 
 @pytest.mark.parametrize("text", HOSTILE)
 def test_no_name_can_leave_its_comment(text: str, tmp_path: Path) -> None:
-    made = function("value", "Constant.", "C", (Argument("A", "first"),), {(0,): Rational(1)})
-    form = Form(text, text, (text,), (made,))
-    assert load(python.write(form), tmp_path).value(0.0) == 1.0
+    arguments = (Argument("A", text),)
+    made = polynomial_function("value", text, arguments, ("A",), {(0,): Number(fmpq(1))}, whole_domain("A"))
+    form = Form(identifier(text), text, (text,), (made,))
+    assert load(written(form, "python"), tmp_path).value(0.0) == 1.0
     if COMPILER is not None:
-        assert compiled(c99.write(form), tmp_path, f"{c99.identifier(text)}_value", 1)(0.0) == 1.0
+        assert compiled(written(form, "c"), tmp_path, f"{identifier(text)}_value", 1)(0.0) == 1.0

@@ -1,0 +1,125 @@
+"""What is proved about the rounding of a function, in a line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from fractions import Fraction
+
+from flint import arb
+
+from ridgeback.symbolic.codegen.bounds import Bound, bound
+from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real, fraction
+from ridgeback.symbolic.codegen.program import Form, Function, Operand, Operation, Statement, lowered
+from ridgeback.symbolic.enclosure.enclosure import rounded_down
+
+
+def annotated(form: Form) -> Form:
+    """The form with what is proved about each of its functions."""
+    return replace(
+        form, functions=tuple(replace(f, notes=(*f.notes, *rounding_notes(form, f))) for f in form.functions)
+    )
+
+
+def rounding_notes(form: Form, function: Function) -> tuple[str, ...]:
+    """The bound over the domain where one is known; for a polynomial without one, in terms of its terms."""
+    found = bound(form, function)
+    if found is not None:
+        return (bound_note(function, found),)
+    if function.polynomial is None or form.mode == "accurate":
+        return ()
+    return (rounding_note(roundings(function.body, function.result), form.real),)
+
+
+def bound_note(function: Function, found: Bound) -> str:
+    """A bound over a domain in words."""
+    domain = function.domain
+    name, end = domain.argument, domain.high
+    inside = f"|{name}| <= {end!r}" if domain.low == -end else f"0 <= {name} <= {end!r}"
+    inside += "".join(f" and {a.name} = {a.default!r}" for a in function.arguments if a.default not in (None, 1.0))
+    if found.relative is None or found.ulps is None:
+        return f"Rounding: for {inside} the error is at most {upwards(found.absolute)}, proved in ball arithmetic."
+    return (
+        f"Rounding: for {inside} the relative error is at most {upwards(found.relative)} "
+        f"({upwards(found.ulps, 3)} units in the last place), proved in ball arithmetic."
+    )
+
+
+# --- a bound without a domain ---
+
+
+def gamma(count: int, real: Real = FLOAT64) -> Fraction:
+    r"""gamma_m = m u/(1 - m u), exactly.
+
+    Every operation rounds to the nearest number, fl(x op y) = (x op y)(1 + d) with |d| <= u unless it over- or
+    underflows.  A product of m factors (1 + d)^(+-1) is 1 + theta with |theta| <= gamma_m (N. J. Higham, Accuracy and
+    Stability of Numerical Algorithms, 2nd edition, SIAM, 2002, Lemma 3.1), so that a computed sum of products is
+    within gamma_m times the sum of the absolute values of its terms.
+
+    >>> gamma(1) == FLOAT64.unit / (1 - FLOAT64.unit)
+    True
+    """
+    return count * real.unit / (1 - count * real.unit)
+
+
+def roundings(body: Iterable[Statement], result: Operand) -> int:
+    """m for the result of statements: an exact constant counts 0, a rounded one 1, an argument 0.
+
+    A product counts the sum of its factors plus one, a sum the largest of its terms plus one, a division twice what is
+    below it (Higham, Lemma 3.3).
+    """
+    known: dict[str, int] = {}
+
+    def of(operand: Operand) -> int:
+        if isinstance(operand, Number):
+            exact = not hasattr(operand.exact, "free_symbols") and fraction(operand.exact) == Fraction(operand.nearest)
+            return 0 if exact else 1
+        return known.get(operand, 0)
+
+    for step in lowered(body):
+        known[step.name] = _count(step.operation, [of(o) for o in step.operands])
+    return of(result)
+
+
+def _count(operation: Operation, m: list[int]) -> int:
+    match operation:
+        case Operation.MULTIPLY:
+            return m[0] + m[1] + 1
+        case Operation.MULTIPLY_ADD:
+            return max(m[0] + m[1] + 1, m[2]) + 1
+        case Operation.DIVIDE:
+            return m[0] + 2 * m[1] + 1
+    return max(m) + 1
+
+
+def rounding_note(count: int, real: Real = FLOAT64) -> str:
+    """The bound in words.
+
+    >>> rounding_note(0)
+    'Rounding: none, the result is exact.'
+    >>> rounding_note(3)
+    'Rounding: the error is at most 3.4e-16 times the sum of the absolute values of the terms (3 roundings in a row, ...
+    """
+    if count == 0:
+        return "Rounding: none, the result is exact."
+    return (
+        f"Rounding: the error is at most {upwards(gamma(count, real))} times the sum of the absolute values of the "
+        f"terms ({count} roundings in a row, proved; without over- or underflow)."
+    )
+
+
+def upwards(value: Fraction, digits: int = 2) -> str:
+    """A number that is not negative in a few digits, rounded up.
+
+    >>> upwards(Fraction(1, 3))
+    '0.34'
+    """
+    context = Context(prec=digits, rounding=ROUND_CEILING)
+    return f"{float(context.divide(Decimal(value.numerator), Decimal(value.denominator))):.{digits}g}"
+
+
+def rounded_down_text(x: arb) -> str:
+    """A positive number in six digits, rounded down."""
+    exact = Context(prec=6, rounding=ROUND_FLOOR).create_decimal(rounded_down(x))
+    return f"{float(exact):.6g}"

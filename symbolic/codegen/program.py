@@ -1,0 +1,318 @@
+"""Generated code as data: functions as lists of single operations on named values and exact numbers.
+
+Nothing here is text of any language, and nothing is nested: every language prints the same operations in the same
+order, one a line, so that all of them give the same result for the same arguments, bit for bit.  Only +, -, *, /, the
+square root and the next lower whole number occur, which IEEE 754 defines to the last bit; with ``fma`` also a*b + c in
+one rounding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Final, Literal, TypeAlias
+
+from flint import fmpq
+
+from ridgeback.symbolic.codegen.number import FLOAT64, Exact, Number, Real
+
+Operand: TypeAlias = "str | Number"
+Mode: TypeAlias = Literal["strict", "fma", "accurate"]
+MODES: Final[tuple[Mode, ...]] = ("strict", "fma", "accurate")
+LOOP: Final = 48
+"""A polynomial of more coefficients is a loop over a table: longer chains of statements are vectorised badly."""
+
+
+class Operation(Enum):
+    """What a step does with its operands."""
+
+    ADD = "+"
+    SUBTRACT = "-"
+    MULTIPLY = "*"
+    DIVIDE = "/"
+    SQUARE_ROOT = "sqrt"
+    FLOOR = "floor"
+    MULTIPLY_ADD = "a*b + c"
+    """One rounding in mode ``fma``, two elsewhere."""
+    TWO_SUM = "sum and its rounding error"
+    """Both exactly (Knuth; Handbook of Floating-Point Arithmetic, 2nd edition, 2018, algorithm 4.4)."""
+    TWO_PRODUCT = "product and its rounding error"
+    """Both exactly (Dekker; the same, algorithm 4.10), barring over- and underflow."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """``name = operation(operands)``; ``rest`` is the rounding error of those that give one."""
+
+    name: str
+    operation: Operation
+    operands: tuple[Operand, ...]
+    rest: str = ""
+
+
+@dataclass(frozen=True)
+class Horner:
+    """``name`` = the sum of coefficients[i] at^i, rising, by Horner's rule from the highest; None where there is none.
+
+    There are two coefficients or more, and the last is not None.
+    """
+
+    name: str
+    at: str
+    coefficients: tuple[Number | None, ...]
+
+    @property
+    def loops(self) -> bool:
+        """Whether it is written as a loop over a table."""
+        return len(self.coefficients) > LOOP
+
+    def steps(self) -> Iterator[Step]:
+        """The same one operation at a time; a missing coefficient costs no addition."""
+        above = [*reversed(self.coefficients)]
+        value: Operand = above[0] or Number(fmpq(0))
+        for coefficient in above[1:]:
+            if coefficient is None:
+                yield Step(self.name, Operation.MULTIPLY, (value, self.at))
+            else:
+                yield Step(self.name, Operation.MULTIPLY_ADD, (value, self.at, coefficient))
+            value = self.name
+
+
+Statement: TypeAlias = "Step | Horner"
+
+
+@dataclass(frozen=True)
+class Argument:
+    """What a function takes: its name, its meaning, and its default where there is one."""
+
+    name: str
+    meaning: str
+    default: float | None = None
+
+
+@dataclass(frozen=True)
+class Domain:
+    """low <= argument <= high, both numbers of the format; elsewhere the function is not a number."""
+
+    argument: str
+    low: float
+    high: float
+    known: bool = True
+    """False when no limit is known, so that only what is not finite is refused."""
+
+
+Terms: TypeAlias = "dict[tuple[int, ...], Number]"
+"""Coefficients by the powers of the variables."""
+
+
+@dataclass(frozen=True)
+class Polynomial:
+    """What a function is, when it is a polynomial: for formulas and proofs, not for evaluation."""
+
+    variables: tuple[str, ...]
+    terms: Terms
+    factor: str = ""
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function of numbers as statements; ``result`` is what it returns."""
+
+    name: str
+    summary: str
+    arguments: tuple[Argument, ...]
+    body: tuple[Statement, ...]
+    result: Operand
+    domain: Domain
+    notes: tuple[str, ...] = ()
+    """What is proved about the result."""
+    polynomial: Polynomial | None = None
+
+    def read(self) -> set[str]:
+        """Names of all values that are read."""
+        found = [o for statement in self.body for o in operands_of(statement)]
+        return {o for o in (*found, self.result) if isinstance(o, str)}
+
+    def operations(self) -> Iterator[Step]:
+        """All single operations."""
+        return lowered(self.body)
+
+
+@dataclass(frozen=True)
+class Form:
+    """All that a writer needs: the functions, and the facts that must travel with them."""
+
+    name: str
+    """Identifier in front of, or around, everything that is generated."""
+    title: str
+    facts: tuple[str, ...]
+    functions: tuple[Function, ...]
+    mode: Mode = "strict"
+    real: Real = FLOAT64
+    version: str = field(default="")
+    digest: str = field(default="")
+    """Of all exact numbers, operations and options that the code was made from."""
+
+    @property
+    def fused(self) -> bool:
+        """Whether a*b + c is rounded once."""
+        return self.mode == "fma"
+
+
+def lowered(body: Iterable[Statement], real: Real = FLOAT64) -> Iterator[Step]:
+    """Statements as single operations of the languages."""
+    for statement in body:
+        for step in statement.steps() if isinstance(statement, Horner) else (statement,):
+            yield from lowered_step(step, real)
+
+
+def needed(body: Iterable[Statement], result: Operand) -> tuple[Statement, ...]:
+    """The statements that the result depends on, in their order."""
+    wanted = {result} if isinstance(result, str) else set()
+    kept: list[Statement] = []
+    for statement in reversed(tuple(body)):
+        rest = statement.rest if isinstance(statement, Step) else ""
+        if statement.name not in wanted and rest not in wanted:
+            continue
+        kept.append(statement)
+        wanted -= {statement.name, rest}
+        wanted |= {o for o in operands_of(statement) if isinstance(o, str)}
+    return tuple(reversed(kept))
+
+
+def operands_of(statement: Statement) -> tuple[Operand, ...]:
+    """What a statement reads."""
+    return (statement.at,) if isinstance(statement, Horner) else statement.operands
+
+
+SPLITTERS: Final = {53: 2**27 + 1, 24: 2**12 + 1}
+"""Veltkamp's constant by the digits of the format."""
+
+
+def lowered_step(step: Step, real: Real) -> Iterator[Step]:
+    """A sum or product with its error in plain operations, under names of its own; other steps as they are."""
+    if step.operation is Operation.TWO_SUM:
+        yield from _two_sum(step)
+    elif step.operation is Operation.TWO_PRODUCT:
+        yield from _two_product(step, real)
+    else:
+        yield step
+
+
+def _two_sum(step: Step) -> Iterator[Step]:
+    (a, b), s, rest = step.operands, step.name, step.rest
+    part, share = f"{rest}_b", f"{rest}_a"
+    yield Step(s, Operation.ADD, (a, b))
+    yield Step(part, Operation.SUBTRACT, (s, a))
+    yield Step(share, Operation.SUBTRACT, (s, part))
+    yield Step(part, Operation.SUBTRACT, (b, part))
+    yield Step(share, Operation.SUBTRACT, (a, share))
+    yield Step(rest, Operation.ADD, (share, part))
+
+
+def _two_product(step: Step, real: Real) -> Iterator[Step]:
+    (a, b), p, rest = step.operands, step.name, step.rest
+    heads = {}
+    for operand, letter in ((a, "a"), (b, "b")) if a != b else ((a, "a"),):
+        large, head, tail = (f"{rest}_{letter}{part}" for part in ("s", "h", "t"))
+        yield Step(large, Operation.MULTIPLY, (Number(fmpq(SPLITTERS[real.digits]), real), operand))
+        yield Step(head, Operation.SUBTRACT, (large, operand))
+        yield Step(head, Operation.SUBTRACT, (large, head))
+        yield Step(tail, Operation.SUBTRACT, (operand, head))
+        heads[letter] = (head, tail)
+    (high_a, low_a), (high_b, low_b) = heads["a"], heads.get("b", heads["a"])
+    yield Step(p, Operation.MULTIPLY, (a, b))
+    yield Step(rest, Operation.MULTIPLY, (high_a, high_b))
+    yield Step(rest, Operation.SUBTRACT, (rest, p))
+    for one, other in ((high_a, low_b), (low_a, high_b), (low_a, low_b)):
+        yield Step(f"{rest}_p", Operation.MULTIPLY, (one, other))
+        yield Step(rest, Operation.ADD, (rest, f"{rest}_p"))
+
+
+class Steps:
+    """Statements as they are collected; a name may be given a value more than once."""
+
+    def __init__(self, real: Real = FLOAT64) -> None:
+        self.taken: list[Statement] = []
+        self.real = real
+        self.known: set[str] = set()
+
+    def number(self, value: int | Exact) -> Number:
+        """An exact number in the format of the code."""
+        return Number(fmpq(value) if isinstance(value, int) else value, self.real)
+
+    def assign(self, name: str, operation: Operation, *operands: Operand, rest: str = "") -> str:
+        """Append ``name = operation(operands)`` and return the name."""
+        self.taken.append(Step(name, operation, operands, rest))
+        self.known |= {name, rest}
+        return name
+
+    def add(self, name: str, a: Operand, b: Operand) -> str:
+        """``name = a + b``."""
+        return self.assign(name, Operation.ADD, a, b)
+
+    def subtract(self, name: str, a: Operand, b: Operand) -> str:
+        """``name = a - b``."""
+        return self.assign(name, Operation.SUBTRACT, a, b)
+
+    def multiply(self, name: str, a: Operand, b: Operand) -> str:
+        """``name = a*b``."""
+        return self.assign(name, Operation.MULTIPLY, a, b)
+
+    def divide(self, name: str, a: Operand, b: Operand) -> str:
+        """``name = a/b``."""
+        return self.assign(name, Operation.DIVIDE, a, b)
+
+    def root(self, name: str, a: Operand) -> str:
+        """``name = sqrt(a)``."""
+        return self.assign(name, Operation.SQUARE_ROOT, a)
+
+    def once(self, name: str, operation: Operation, *operands: Operand) -> str:
+        """The same unless the name has been computed."""
+        return name if name in self.known else self.assign(name, operation, *operands)
+
+    def square(self, name: str) -> str:
+        """The square of a value, computed on first use."""
+        return self.once(f"{name}_squared", Operation.MULTIPLY, name, name)
+
+    def power(self, name: str, n: int) -> str:
+        """name^n for n >= 1, by squares and products computed on first use."""
+        if n == 1:
+            return name
+        if n == 2:
+            return self.square(name)
+        below = self.power(name, n - 1 if n % 2 else n // 2)
+        return self.once(f"{name}_{n}", Operation.MULTIPLY, below, name if n % 2 else below)
+
+    def horner(self, name: str, at: str, coefficients: dict[int, Operand]) -> Operand:
+        """The sum of coefficients[p] at^p by Horner's rule, in at^2 where all powers are even, or all odd."""
+        if not coefficients:
+            return self.number(0)
+        low, high = min(coefficients), max(coefficients)
+        stride = 2 if high > 1 and all((p - low) % 2 == 0 for p in coefficients) else 1
+        step = self.square(at) if stride == 2 and high > low else at
+        value = self._chain(name, step, {(p - low) // stride: c for p, c in coefficients.items()})
+        if low == 0:
+            return value
+        return (
+            self.multiply(name, self.power(at, low), value)
+            if value != Number(fmpq(1), self.real)
+            else self.power(at, low)
+        )
+
+    def _chain(self, name: str, at: str, coefficients: dict[int, Operand]) -> Operand:
+        high = max(coefficients)
+        if high == 0:
+            return coefficients[0]
+        if all(isinstance(c, Number) for c in coefficients.values()):
+            table = tuple(coefficients.get(p) for p in range(high + 1))
+            self.taken.append(Horner(name, at, table))  # type: ignore[arg-type]
+            return name
+        value = coefficients[high]
+        for p in range(high - 1, -1, -1):
+            if (c := coefficients.get(p)) is None:
+                value = self.multiply(name, value, at)
+            else:
+                value = self.assign(name, Operation.MULTIPLY_ADD, value, at, c)
+        return value

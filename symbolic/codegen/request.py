@@ -1,0 +1,51 @@
+"""How code is asked for: everything beside the formula itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from ridgeback.symbolic.codegen.number import FLOAT64, Real, rounded
+from ridgeback.symbolic.codegen.polynomial import whole_domain
+from ridgeback.symbolic.codegen.program import Domain, Mode
+
+
+@dataclass(frozen=True, kw_only=True)
+class CodeRequest:
+    """Options of generated code; complete at construction."""
+
+    equation: str = ""
+    """For the documentation."""
+    limit: float | None = None
+    """The amplitude at which the oscillation itself ends."""
+    up_to: Fraction | None = None
+    """The end of the domain, which nothing is claimed beyond."""
+    more: tuple[str, ...] = ()
+    """Further lines of documentation."""
+    name: str = ""
+    """Identifier of what is generated; by default the system's name."""
+    mode: Mode = "strict"
+    real: Real = FLOAT64
+    motion: bool = False
+    """Whether u(t) and its harmonics are generated too."""
+
+    def domain(self, argument: str, *, even: bool = True) -> Domain:
+        """Where the variable may lie: up to ``up_to`` or just below ``limit``, on both sides of 0 or above it only."""
+        ends = [end for end in (self.up_to, None if self.limit is None else Fraction(self.limit)) if end is not None]
+        if not ends:
+            return whole_domain(argument, self.real)
+        end = not_above(min(ends), self.real, open_end=self.up_to is None or min(ends) < self.up_to)
+        return Domain(argument, -end if even else 0.0, end)
+
+
+def not_above(end: Fraction, real: Real, *, open_end: bool) -> float:
+    """The largest number of the format that is not above ``end``, or below it at an open end.
+
+    >>> not_above(Fraction(1), FLOAT64, open_end=True).hex(), not_above(Fraction(1), FLOAT64, open_end=False)
+    ('0x1.fffffffffffffp-1', 1.0)
+    """
+    step = Fraction(1)
+    value = rounded(end, real)
+    while Fraction(value) > end or (open_end and Fraction(value) == end):
+        value = rounded(Fraction(value) * (1 - step * real.unit), real)
+    return value
