@@ -9,29 +9,32 @@ import hashlib
 from dataclasses import replace
 from fractions import Fraction
 from importlib.metadata import PackageNotFoundError, version
+from typing import TypeAlias
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen.build import expansion_form, slow_flow_form
+from ridgeback.symbolic.codegen.closed_forms import MeanForm, SineSeries
 from ridgeback.symbolic.codegen.languages.registry import find_language, languages
 from ridgeback.symbolic.codegen.naming import checked_identifier, identifier
-from ridgeback.symbolic.codegen.notes import annotated
 from ridgeback.symbolic.codegen.number import REALS
 from ridgeback.symbolic.codegen.program import MODES, Form, Mode
+from ridgeback.symbolic.codegen.proofs.notes import annotated
 from ridgeback.symbolic.codegen.request import CodeRequest
 from ridgeback.symbolic.codegen.resummations import resummation_form
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.resummation.resummation import Resummation
 
-__all__ = ["LANGUAGES", "form_of", "generate", "written"]
+__all__ = ["LANGUAGES", "Formula", "form_of", "generate", "packaged", "written"]
 
+Formula: TypeAlias = "Expansion | SlowFlow | Resummation | MeanForm | SineSeries"
 LANGUAGES = tuple(languages())
 DIGEST = 16
 """Hexadecimal digits of the input's hash that are printed."""
 
 
 def generate(
-    result: Expansion | SlowFlow | Resummation,
+    result: Formula,
     language: str = "python",
     *,
     equation: str = "",
@@ -97,8 +100,15 @@ def written(form: Form, language: str) -> str:
     return target.write(form)
 
 
+def packaged(form: Form, language: str) -> dict[str, str]:
+    """A form as the files of a small package by their paths; errors as for ``written``."""
+    target = find_language(language)
+    target.accept(form)
+    return target.package(form)
+
+
 def form_of(
-    result: Expansion | SlowFlow | Resummation,
+    result: Formula,
     *,
     equation: str = "",
     limit: float | None = None,
@@ -127,7 +137,9 @@ def form_of(
     return finished(_built(result, request), request)
 
 
-def _built(result: Expansion | SlowFlow | Resummation, request: CodeRequest) -> Form:
+def _built(result: Formula, request: CodeRequest) -> Form:
+    if isinstance(result, MeanForm | SineSeries):
+        return result.form(request)
     if isinstance(result, Resummation):
         return resummation_form(result, request)
     return slow_flow_form(result, request) if isinstance(result, SlowFlow) else expansion_form(result, request)

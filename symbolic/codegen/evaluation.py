@@ -30,6 +30,7 @@ PLAIN: Final[Mapping[Operation, Callable[..., float]]] = {
     Operation.MULTIPLY: lambda a, b: a * b,
     Operation.DIVIDE: divided,
     Operation.SQUARE_ROOT: lambda a: math.sqrt(a) if a >= 0 else math.nan,
+    Operation.ABSOLUTE: abs,
     Operation.FLOOR: lambda a: float(math.floor(a)) if math.isfinite(a) else a,
 }
 

@@ -8,7 +8,7 @@ one rounding.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import Final, Literal, TypeAlias
@@ -33,6 +33,7 @@ class Operation(Enum):
     DIVIDE = "/"
     SQUARE_ROOT = "sqrt"
     FLOOR = "floor"
+    ABSOLUTE = "abs"
     MULTIPLY_ADD = "a*b + c"
     """One rounding in mode ``fma``, two elsewhere."""
     TWO_SUM = "sum and its rounding error"
@@ -285,7 +286,7 @@ class Steps:
         below = self.power(name, n - 1 if n % 2 else n // 2)
         return self.once(f"{name}_{n}", Operation.MULTIPLY, below, name if n % 2 else below)
 
-    def horner(self, name: str, at: str, coefficients: dict[int, Operand]) -> Operand:
+    def horner(self, name: str, at: str, coefficients: Mapping[int, Operand]) -> Operand:
         """The sum of coefficients[p] at^p by Horner's rule, in at^2 where all powers are even, or all odd."""
         if not coefficients:
             return self.number(0)
@@ -301,7 +302,7 @@ class Steps:
             else self.power(at, low)
         )
 
-    def _chain(self, name: str, at: str, coefficients: dict[int, Operand]) -> Operand:
+    def _chain(self, name: str, at: str, coefficients: Mapping[int, Operand]) -> Operand:
         high = max(coefficients)
         if high == 0:
             return coefficients[0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen.number import FLOAT64, Real, rounded
 from ridgeback.symbolic.codegen.polynomial import whole_domain
 from ridgeback.symbolic.codegen.program import Domain, Mode
@@ -31,10 +32,16 @@ class CodeRequest:
 
     def domain(self, argument: str, *, even: bool = True) -> Domain:
         """Where the variable may lie: up to ``up_to`` or just below ``limit``, on both sides of 0 or above it only."""
-        ends = [end for end in (self.up_to, None if self.limit is None else Fraction(self.limit)) if end is not None]
-        if not ends:
+        limit = None if self.limit is None else Fraction(self.limit)
+        if self.up_to is not None and limit is not None and self.up_to > limit:
+            raise InputError(
+                f"the range up to {argument} = {float(self.up_to):.10g} goes beyond {argument} = {self.limit:.10g}, "
+                "where the oscillation ends; give a shorter one"
+            )
+        last = limit if self.up_to is None else self.up_to
+        if last is None:
             return whole_domain(argument, self.real)
-        end = not_above(min(ends), self.real, open_end=self.up_to is None or min(ends) < self.up_to)
+        end = not_above(last, self.real, open_end=last == limit)
         return Domain(argument, -end if even else 0.0, end)
 
 

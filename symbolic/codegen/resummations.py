@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Final
 
-from flint import arb, ctx, fmpq
+from flint import fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.rational_function import Coefficients
@@ -18,20 +17,16 @@ from ridgeback.symbolic.codegen.build import (
     variable_meaning,
 )
 from ridgeback.symbolic.codegen.naming import variable_name
-from ridgeback.symbolic.codegen.notes import rounded_down_text
 from ridgeback.symbolic.codegen.number import Number
 from ridgeback.symbolic.codegen.polynomial import K, measured
 from ridgeback.symbolic.codegen.program import Argument, Form, Function, Operand, Steps, needed
+from ridgeback.symbolic.codegen.proofs.notes import rounded_down_text
 from ridgeback.symbolic.codegen.request import CodeRequest
-from ridgeback.symbolic.codegen.trigonometry import cosine_of_small
+from ridgeback.symbolic.codegen.trigonometry import cosine_to_quarter
 from ridgeback.symbolic.resummation.elliptic_nome import DuffingMeans, Means, NomeForm, PendulumMeans, theta_3
 from ridgeback.symbolic.resummation.mapping import CutPlane, Euler, Identity, Mapping, Pair
 from ridgeback.symbolic.resummation.pade import RationalForm
 from ridgeback.symbolic.resummation.resummation import Resummation
-
-AGM_BITS: Final = 4
-"""Bits beyond the format at which the arithmetic-geometric mean has converged."""
-MOST_STEPS: Final = 20
 
 
 def resummation_form(formula: Resummation, request: CodeRequest) -> Form:
@@ -68,7 +63,8 @@ def _function(formula: Resummation, request: CodeRequest) -> Function:
     )
 
 
-def _number(steps: Steps, value: Fraction | int) -> Number:
+def number_of(steps: Steps, value: Fraction | int) -> Number:
+    """An exact fraction in the format of the code."""
     exact = Fraction(value)
     return steps.number(fmpq(exact.numerator, exact.denominator))
 
@@ -97,16 +93,16 @@ def _mapped(mapping: Mapping, x: str, steps: Steps) -> str:
         case Identity():
             return x
         case Euler(x0=x0, rate=rate) if rate == 1:
-            return steps.divide("w", x, steps.add("moved", x, _number(steps, x0)))
+            return steps.divide("w", x, steps.add("moved", x, number_of(steps, x0)))
         case CutPlane(x_c=x_c):
-            scaled = steps.divide("scaled", x, _number(steps, x_c))
+            scaled = steps.divide("scaled", x, number_of(steps, x_c))
             root = steps.root("root", steps.subtract("rest", one, scaled))
             above, below = (one, root) if x_c > 0 else (root, one)
             return steps.divide("w", steps.subtract("fall", above, below), steps.add("rise", one, root))
         case Pair(modulus=modulus, half_sum=half):
-            moved = steps.add("moved", x, _number(steps, -2 * half))
+            moved = steps.add("moved", x, number_of(steps, -2 * half))
             inner = steps.multiply("inner", x, moved)
-            root = steps.root("root", steps.add("distance", inner, _number(steps, modulus * modulus)))
+            root = steps.root("root", steps.add("distance", inner, number_of(steps, modulus * modulus)))
             return steps.divide("w", x, root)
     raise InputError(f"no code is written for the {mapping.name}; use pade, or a map of rate 1")
 
@@ -126,91 +122,36 @@ def _grown(formula: RationalForm, w: str, value: Operand, steps: Steps) -> Opera
     return value
 
 
-# --- the elliptic nome and the arithmetic-geometric mean ---
+# --- the elliptic nome ---
 
 
 def _nome(formula: NomeForm, A: str, steps: Steps) -> Operand:
     """a/theta_3(q)^2 by the steps of ``ridgeback.symbolic.resummation.elliptic_nome``."""
     if formula.steps < 1:
         raise InputError("the nome without a Landen step loses digits by cancellation; take one step or more")
-    high, low = _means(formula.means, A, steps)
+    high, low = means_steps(formula.means, A, steps)
     for n in range(formula.steps):
         total, gap = steps.add(f"total_{n}", high, low), steps.subtract("gap", high, low)
         low = steps.root(f"low_{n}", steps.multiply("area", high, low))
-        high = steps.multiply(f"high_{n}", _number(steps, Fraction(1, 2)), total)
+        high = steps.multiply(f"high_{n}", number_of(steps, Fraction(1, 2)), total)
     ratio = steps.divide("ratio", gap, total)
     m = steps.multiply("m", ratio, ratio)
-    ell = steps.multiply("ell", _number(steps, Fraction(1, 16)), m)
+    ell = steps.multiply("ell", number_of(steps, Fraction(1, 16)), m)
     q = _series(steps, "y", ell, formula.nome_series)
     theta = _series(steps, "z", str(q), theta_3(len(formula.nome_series) - 1))
     return steps.divide("quotient", high, steps.multiply("theta_squared", theta, theta))
 
 
-def _means(means: Means, A: str, steps: Steps) -> tuple[Operand, Operand]:
+def means_steps(means: Means, A: str, steps: Steps) -> tuple[Operand, Operand]:
     """high and low, the two numbers whose mean is omega0/k."""
     if isinstance(means, PendulumMeans):
-        half_angle = steps.multiply("half_angle", _number(steps, means.c / 2), A)
-        return steps.number(1), cosine_of_small(steps, "low", half_angle)
+        half_angle = steps.multiply("half_angle", number_of(steps, means.c / 2), A)
+        return steps.number(1), cosine_to_quarter(steps, "low", half_angle)
     if isinstance(means, DuffingMeans):
         square, one = steps.square(A), steps.number(1)
         pair = []
         for name, part in (("high", means.e), ("low", means.e / 2)):
-            share = steps.multiply(f"{name}_share", _number(steps, part), square)
+            share = steps.multiply(f"{name}_share", number_of(steps, part), square)
             pair.append(steps.root(name, steps.add(f"{name}_inside", one, share)))
         return pair[0], pair[1]
     raise InputError("no code is written for this arithmetic-geometric mean")
-
-
-def closed_form(formula: NomeForm, request: CodeRequest) -> Form:
-    """Build omega0 as the arithmetic-geometric mean itself, exact but for rounding up to the end of the domain.
-
-    The number of steps is what the end of the domain needs, decided in balls.  Raises InputError without such an end.
-    """
-    variable, steps = variable_name(formula.variable), Steps(request.real)
-    domain = request.domain(variable)
-    if not domain.known:
-        raise InputError(f"the arithmetic-geometric mean of {formula.system} needs the end of its range; give --up-to")
-    arguments = (
-        Argument(variable, variable_meaning(formula)),
-        frequency_argument(formula.scale, request.real),
-    )
-    high, low = _means(formula.means, variable, steps)
-    half = _number(steps, Fraction(1, 2))
-    count = mean_steps(formula.means, domain.high, request.real.digits)
-    for n in range(count):
-        total = steps.add("total", high, low)
-        if n < count - 1:
-            low = steps.root(f"low_{n}", steps.multiply("area", high, low))
-        high = steps.multiply(f"high_{n}", half, total)
-    result = steps.multiply("result", K, high)
-    facts = (
-        *((f"Equation: {request.equation}.",) if request.equation else ()),
-        f"Method: closed form, the arithmetic-geometric mean in {count} steps.",
-        f"Variable {formula.variable}: {variable_meaning(formula)}.",
-        "Order: none, the formula is exact.",
-        SCALING,
-        *limit_fact(formula.variable, request.limit),
-        *request.more,
-    )
-    made = Function("omega0", OMEGA0, arguments, needed(steps.taken, result), result, domain)
-    return Form(formula.system, f"Fundamental frequency of '{formula.system}' in closed form", facts, (made,))
-
-
-def mean_steps(means: Means, end: float, digits: int) -> int:
-    """How many steps (a, b) -> ((a + b)/2, sqrt(a b)) leave no difference that the format would show.
-
-    After a step the difference is (sqrt a - sqrt b)^2/2, so that it is decided at the end of the range, where it is
-    largest, and the last arithmetic mean errs by less than the difference of the pair before it squared over 8 b.
-
-    >>> mean_steps(PendulumMeans(Fraction(1)), 3.0, 53)
-    6
-    """
-    with ctx.workprec(4 * digits):
-        a, b = means.in_balls(arb(end))
-        for count in range(1, MOST_STEPS):
-            if not b > 0:
-                break
-            if (a - b) ** 2 / (8 * b * b) < arb(2) ** -(digits + AGM_BITS):
-                return count
-            a, b = (a + b) / 2, (a * b).sqrt()
-    raise InputError(f"the oscillation may end before {end:.10g}; give a shorter range")

@@ -78,16 +78,25 @@ def reduced(steps: Steps, angle: str) -> tuple[str, str]:
     return rest, sign
 
 
-def cosine_of_small(steps: Steps, name: str, angle: str) -> Operand:
-    """cos of an angle of at most 1.6 in size."""
-    return steps.horner(name, angle, {2 * n: steps.number(c) for n, c in enumerate(taylor(0, steps.real))})
+def cosine_to_quarter(steps: Steps, name: str, angle: str) -> Operand:
+    """cos h = sin(pi/2 - |h|) for |h| <= pi/2, in relative precision up to the zero at its end."""
+    high, low, lowest = (steps.number(fmpq(1, 2) * part.exact) for part in pi_parts(steps.real))
+    size = steps.assign(f"{name}_size", Operation.ABSOLUTE, angle)
+    rest = steps.subtract(f"{name}_rest", high, size)
+    rest = steps.add(f"{name}_rest", steps.add(f"{name}_rest", rest, low), lowest)
+    return sine_of_small(steps, name, rest)
+
+
+def sine_of_small(steps: Steps, name: str, angle: str) -> Operand:
+    """sin of an angle of at most 1.6 in size."""
+    return steps.horner(name, angle, {2 * n + 1: steps.number(c) for n, c in enumerate(taylor(1, steps.real))})
 
 
 def cosine_and_sine(steps: Steps, angle: str) -> tuple[str, str]:
     """cos and sin of any angle."""
     rest, sign = reduced(steps, angle)
-    even = cosine_of_small(steps, "even", rest)
-    odd = steps.horner("uneven", rest, {2 * n + 1: steps.number(c) for n, c in enumerate(taylor(1, steps.real))})
+    even = steps.horner("even", rest, {2 * n: steps.number(c) for n, c in enumerate(taylor(0, steps.real))})
+    odd = sine_of_small(steps, "uneven", rest)
     return steps.multiply("cosine", sign, even), steps.multiply("sine", sign, odd)
 
 

@@ -53,6 +53,9 @@ class C(Language):
     def root(self, a: str, form: Form) -> str:
         return f"sqrt{self.letter(form)}({a})"
 
+    def absolute(self, a: str, form: Form) -> str:
+        return f"fabs{self.letter(form)}({a})"
+
     def floor(self, a: str, form: Form) -> str:
         return f"floor{self.letter(form)}({a})"
 

@@ -31,6 +31,9 @@ class Cpp(C):
     def root(self, a: str, form: Form) -> str:  # noqa: ARG002
         return f"std::sqrt({a})"
 
+    def absolute(self, a: str, form: Form) -> str:  # noqa: ARG002
+        return f"std::fabs({a})"
+
     def floor(self, a: str, form: Form) -> str:  # noqa: ARG002
         return f"std::floor({a})"
 

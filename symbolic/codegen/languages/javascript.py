@@ -56,6 +56,9 @@ class JavaScript(Language):
     def root(self, a: str, form: Form) -> str:  # noqa: ARG002
         return f"Math.sqrt({a})"
 
+    def absolute(self, a: str, form: Form) -> str:  # noqa: ARG002
+        return f"Math.abs({a})"
+
     def floor(self, a: str, form: Form) -> str:  # noqa: ARG002
         return f"Math.floor({a})"
 

@@ -102,6 +102,8 @@ class Language(ABC):
                 return self.plus(f"{a}{self.times}{self.second(step.operands[1], form)}", step.operands[2], form)
             case Operation.SQUARE_ROOT:
                 return self.root(a, form)
+            case Operation.ABSOLUTE:
+                return self.absolute(a, form)
         return self.floor(a, form)
 
     times: ClassVar[str] = "*"
@@ -119,6 +121,10 @@ class Language(ABC):
     def root(self, a: str, form: Form) -> str:  # noqa: ARG002
         """The square root."""
         return f"sqrt({a})"
+
+    def absolute(self, a: str, form: Form) -> str:  # noqa: ARG002
+        """The size without the sign."""
+        return f"abs({a})"
 
     def floor(self, a: str, form: Form) -> str:  # noqa: ARG002
         """The next lower whole number."""

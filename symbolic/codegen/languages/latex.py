@@ -137,6 +137,8 @@ def _operation(step: Step) -> str:
             return rf"{a} \cdot {rest[0]} + {rest[1]}"
         case Operation.SQUARE_ROOT:
             return rf"\sqrt{{{a}}}"
+        case Operation.ABSOLUTE:
+            return rf"\left|{a}\right|"
     return rf"\left\lfloor {a} \right\rfloor"
 
 

@@ -34,6 +34,9 @@ class Rust(Language):
     def root(self, a: str, form: Form) -> str:  # noqa: ARG002
         return f"{a}.sqrt()"
 
+    def absolute(self, a: str, form: Form) -> str:  # noqa: ARG002
+        return f"{a}.abs()"
+
     def floor(self, a: str, form: Form) -> str:  # noqa: ARG002
         return f"{a}.floor()"
 

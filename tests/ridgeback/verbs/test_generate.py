@@ -46,20 +46,27 @@ def test_a_resummation_as_code_with_its_pole(ridgeback: Ridgeback) -> None:
     assert public["source"] == text
     assert "[3:5]" in source_of(ridgeback, *words, "--degrees", "3/5", "--language", "c", "--up-to", "2")
     assert "no enclosure" not in source_of(ridgeback, "van-der-pol", "--order", "8", "--resummed", "pade")
-    assert "static const double X0" in source_of(ridgeback, "duffing", "--resummed", "map", "--language", "c")
+    assert "double w = A_squared/moved;" in source_of(ridgeback, "duffing", "--resummed", "map", "--language", "c")
 
 
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        ("pendulum --up-to 2", "needs --resummed"),
+        ("pendulum --up-to 4", "beyond A = 3.14"),
+        ("pendulum --terms 4", "--resummed sine"),
+        ("pendulum --motion --resummed nome", "--motion"),
+        ("duffing --resummed sine --terms 3", "no pendulum"),
+        ("duffing --resummed agm", "give --up-to"),
+        ("pendulum --language cobol", "languages are python"),
+        ("pendulum --language julia --real float32", "written in float64"),
+        ("pendulum --name 2fast", "letter first"),
         ("pendulum --degrees 2/2", "needs --resummed"),
         ("pendulum --resummed pade --up-to 0", "above 0"),
         ("pendulum --resummed pade --order 16 --up-to 4", "pole at A = 3.339"),
         ("pendulum --growth 1/2", "needs --resummed"),
         ("duffing --resummed map --growth 1/3", "multiples of 1/2"),
         ("van-der-pol --resummed nome", "peak amplitude"),
-        ("pendulum --resummed nome --up-to 4", "near A = 3.14"),
+        ("pendulum --resummed nome --up-to 4", "beyond A = 3.14"),
         ("damped-pendulum --resummed pade", "slow flow"),
     ],
 )

@@ -18,10 +18,10 @@ from sympy import Rational, Symbol
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen import form_of, generate, written
 from ridgeback.symbolic.codegen.naming import identifier
-from ridgeback.symbolic.codegen.notes import gamma, roundings
 from ridgeback.symbolic.codegen.number import FLOAT64, Number
 from ridgeback.symbolic.codegen.polynomial import polynomial_function, whole_domain
 from ridgeback.symbolic.codegen.program import Argument, Form, Function, Operation, Step
+from ridgeback.symbolic.codegen.proofs.notes import gamma, roundings
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.slow_flow import SlowFlow, Term

@@ -9,9 +9,10 @@ import sympy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ridgeback.common.errors import InputError
 from ridgeback.symbolic.certificates.certificate import certify
-from ridgeback.symbolic.codegen import generate
+from ridgeback.symbolic.codegen import form_of
+from ridgeback.symbolic.codegen.evaluation import value_at
+from ridgeback.symbolic.codegen.naming import argument_name
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -63,6 +64,16 @@ def test_certificate_holds(equation: str) -> None:
     assert not any(expansion.difference(energy_integral(oscillator, 5)))
 
 
-def test_code_asks_for_the_number() -> None:
-    with pytest.raises(InputError, match="natural frequency k does not scale out"):
-        generate(lindstedt(own(EQUATIONS[0]), 2))
+@pytest.mark.parametrize("equation", EQUATIONS)
+def test_code_takes_the_natural_frequency_as_an_argument(equation: str) -> None:
+    """The code with k for an argument is the exact series with the same numbers in it."""
+    series = lindstedt(own(equation), 4)
+    form = form_of(series)
+    numbers = {"k": Fraction(5, 4), "a": Fraction(9, 4), "b": Fraction(1, 8), "c": Fraction(1, 2)}
+    values = {sympy.Symbol(n, real=True): sympy.Rational(v) for n, v in numbers.items()}
+    natural = float(series.scale.subs(values))
+    given = {argument_name(name): float(v) for name, v in numbers.items()} | {"A": 0.5, "k": natural}
+    made = form.functions[0]
+    found = value_at(form, made, tuple(given[argument.name] for argument in made.arguments))
+    exact = series.expression().subs(values).subs(sympy.Symbol("A", real=True), sympy.Rational(1, 2))
+    assert found == pytest.approx(float(exact), rel=2e-15)

@@ -9,9 +9,9 @@ from fractions import Fraction
 
 from flint import arb
 
-from ridgeback.symbolic.codegen.bounds import Bound, bound
 from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real, fraction
 from ridgeback.symbolic.codegen.program import Form, Function, Operand, Operation, Statement, lowered
+from ridgeback.symbolic.codegen.proofs.bounds import Bound, bound
 from ridgeback.symbolic.enclosure.enclosure import rounded_down
 
 
@@ -90,6 +90,8 @@ def _count(operation: Operation, m: list[int]) -> int:
             return max(m[0] + m[1] + 1, m[2]) + 1
         case Operation.DIVIDE:
             return m[0] + 2 * m[1] + 1
+        case Operation.ABSOLUTE:
+            return m[0]
     return max(m) + 1
 
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Final
+from typing import Final, TypeAlias
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.certificates.at_amplitudes import readings
-from ridgeback.symbolic.codegen.notes import upwards
+from ridgeback.symbolic.codegen.closed_forms import MeanForm, SineSeries
+from ridgeback.symbolic.codegen.proofs.notes import upwards
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.elliptic_nome import NomeForm
 from ridgeback.symbolic.resummation.mapping import CutPlane
@@ -16,6 +17,7 @@ from ridgeback.symbolic.resummation.resummation import Resummation
 from ridgeback.symbolic.singularities.limits import settled_limits
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
+Formula: TypeAlias = "Expansion | Resummation | MeanForm | SineSeries"
 SHARES: Final = (Fraction(1, 4), Fraction(1, 2), Fraction(3, 4))
 """Where in the range the error is certified."""
 INSIDE: Final = Fraction(999, 1000)
@@ -45,7 +47,14 @@ def before_pole(reach: Fraction, formula: Expansion | Resummation) -> Fraction:
     return reach if pole is None else min(reach, INSIDE * Fraction(float(pole)))
 
 
-def certified_facts(oscillator: Oscillator, formula: Expansion | Resummation, reach: Fraction) -> tuple[str, ...]:
+def end_of(oscillator: Oscillator, series: Expansion, formula: Formula, limit: float | None) -> Fraction | None:
+    """The end of the domain where none is given: the end of the oscillation, or of the series' convergence."""
+    if isinstance(formula, MeanForm | SineSeries):
+        return None if limit is None else INSIDE * Fraction(limit)
+    return reach_of(oscillator, series, formula) if limit is None else before_pole(Fraction(limit), formula)
+
+
+def certified_facts(oscillator: Oscillator, formula: Formula, reach: Fraction) -> tuple[str, ...]:
     """The certified error of a formula at a few amplitudes, in a line; nothing where there is no enclosure.
 
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -53,6 +62,8 @@ def certified_facts(oscillator: Oscillator, formula: Expansion | Resummation, re
     >>> certified_facts(find("pendulum"), lindstedt(find("pendulum"), 8), Fraction(3))[0]
     'Certified relative error against the exact frequency: below 9.1e-09 at A = 0.75, 1.3e-05 at 1.5, 0.0013 at 2.25.'
     """
+    if isinstance(formula, MeanForm | SineSeries):
+        return ()  # the one is exact, the other proves its own bound
     places = [Fraction(f"{float(share * reach):.3g}") for share in SHARES]
     try:
         bounds = [reading.to_dict(6)["error_bound"] for reading in readings(oscillator, formula, places)]

@@ -108,8 +108,12 @@ class _Analysis:
                 return self.rounded(x[0].exact - x[1].exact, x[0].error + x[1].error)
             case Operation.MULTIPLY:
                 exact, error = product(x[0], x[1])
-                doubled = any(is_power_of_two(one) for one in x)
-                return Computed(exact, error) if doubled else self.rounded(exact, error)
+                if any(is_power_of_two(one) for one in x):
+                    lost = half_spacing(abs(exact) + error, self.real)  # of an overflow; the rest is for an underflow
+                    return Computed(
+                        exact, (error + arb(2) ** (self.real.low - 1)).upper() if lost.is_finite() else lost
+                    )
+                return self.rounded(exact, error)
             case Operation.MULTIPLY_ADD:
                 exact, error = product(x[0], x[1])
                 inner = Computed(exact, error) if self.fused else self.rounded(exact, error)
@@ -118,6 +122,8 @@ class _Analysis:
                 return self.rounded(*quotient(x[0], x[1]))
             case Operation.SQUARE_ROOT:
                 return self.rounded(*square_root(x[0]))
+            case Operation.ABSOLUTE:
+                return Computed(abs(x[0].exact), x[0].error)
             case Operation.FLOOR if x[0].exact.rad() == 0 and x[0].error == 0:
                 return Computed(x[0].exact.floor(), arb(0))
         return Computed(arb.nan(), arb("inf"))
@@ -134,14 +140,12 @@ class _Analysis:
 
 
 def is_power_of_two(x: Computed) -> bool:
-    """Whether a value is 1, 2, 4, ...: a product with it is exact.
+    """Whether a value is a power of two: a product with it is exact, unless it over- or underflows.
 
-    >>> is_power_of_two(Computed(arb(4), arb(0))), is_power_of_two(Computed(arb(3), arb(0)))
+    >>> is_power_of_two(Computed(arb(0.25), arb(0))), is_power_of_two(Computed(arb(3), arb(0)))
     (True, False)
     """
-    if x.error != 0 or x.exact.rad() != 0 or not abs(x.exact) >= 1:
-        return False
-    return abs(int(x.exact.man_exp()[0])) == 1
+    return bool(x.error == 0 and x.exact.rad() == 0) and abs(int(x.exact.man_exp()[0])) == 1
 
 
 def constant(number: Number) -> Computed:
