@@ -126,8 +126,24 @@ def resummations(oscillator: Oscillator, order: int) -> tuple[Formula, ...]:
 
 
 def accuracy(oscillator: Oscillator, order: int, amplitudes: Sequence[Fraction]) -> tuple[Accuracy, ...]:
-    """Return the certified relative errors of the series and its resummations at the amplitudes.
+    """Return the certified relative errors of the series and its resummations at given amplitudes.
 
+    Parameters
+    ----------
+    oscillator : Oscillator
+        With an enclosure: conservative, numbers for its parameters.
+    order : int
+        Of the series.
+    amplitudes : sequence of Fraction
+        Peak amplitudes, in the unit of u.
+
+    Returns
+    -------
+    tuple of Accuracy
+        A row for each formula, with a ball of formula/omega0 - 1 at each amplitude.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> rows = accuracy(find("duffing"), 16, [Fraction(3)])
     >>> [f"{float(abs(row.errors[0]).mid()):.0e}" for row in rows]

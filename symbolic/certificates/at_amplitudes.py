@@ -77,8 +77,27 @@ class Unread:
 
 
 def wherever(read: Callable[[Fraction], Reading], amplitudes: Sequence[Fraction]) -> tuple[Reading | Unread, ...]:
-    """Read each amplitude; those that are refused keep their place.  Raises the first refusal when all are.
+    """Read each amplitude; those that are refused keep their place.
 
+    Parameters
+    ----------
+    read : callable
+        Makes the reading at an amplitude, or raises InputError.
+    amplitudes : sequence of Fraction
+        Where to read.
+
+    Returns
+    -------
+    tuple of Reading or Unread
+        One for each amplitude.
+
+    Raises
+    ------
+    InputError
+        The first refusal, when all are refused.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> [type(row).__name__ for row in wherever(lambda a: Reading(enclose(find("pendulum"), a)), [1, 4])]
     ['Reading', 'Unread']
@@ -113,9 +132,30 @@ def readings(
 ) -> tuple[Reading, ...]:
     """Enclose omega0 at each amplitude, in the formula's own definition, and the formula with its error.
 
-    Raises InputError as ``enclosure.enclose`` does (limit cycles, damping, the separatrix), for definitions without an
-    enclosure, for another oscillator's formula, and where the formula does not hold.
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Any form of a conservative oscillator with numbers for its parameters.
+    formula : Expansion or Resummation
+        A formula of this oscillator's omega0 in its amplitude.
+    amplitudes : sequence of Fraction
+        In the formula's definition and the unit of u.
+    bits : int, optional
+        The relative radius of each enclosure is about 2**-bits.
 
+    Returns
+    -------
+    tuple of Reading
+        omega0 in balls (rad per time unit), the formula's value, and value/omega0 - 1.
+
+    Raises
+    ------
+    InputError
+        As ``enclose`` does (limit cycles, damping, the separatrix), for definitions without an enclosure, for another
+        oscillator's formula, and where the formula does not hold.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> row = readings(find("pendulum"), lindstedt(find("pendulum"), 8), [Fraction(1)])[0].to_dict(12)

@@ -42,8 +42,22 @@ class Check:
 
 
 def certify(oscillator: Oscillator, result: Expansion | SlowFlow) -> tuple[Check, ...]:
-    """Run every check that applies to the result.
+    """Run every independent check that applies to a result.
 
+    Parameters
+    ----------
+    oscillator : Oscillator
+        Whose result it is.
+    result : Expansion or SlowFlow
+        To be checked.
+
+    Returns
+    -------
+    tuple of Check
+        Each with its name, whether it passed (None: does not apply) and a statement.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> [c.name for c in certify(find("pendulum"), lindstedt(find("pendulum"), 6)) if c.passed]
     ['residual', 'normalisation', 'energy integral', 'multiple scales']
@@ -60,8 +74,22 @@ def certify(oscillator: Oscillator, result: Expansion | SlowFlow) -> tuple[Check
 
 
 def certify_balls(oscillator: Oscillator, balls: BallExpansion) -> tuple[Check, ...]:
-    """Hold balls against exact coefficients, by both exact routes there are, through a moderate order.
+    """Compare balls with exact coefficients, by both exact routes there are, through a moderate order.
 
+    Parameters
+    ----------
+    oscillator : Oscillator
+        Whose expansion it is.
+    balls : BallExpansion
+        To be checked.
+
+    Returns
+    -------
+    tuple of Check
+        Each with its name, whether it passed and a statement.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> [c.passed for c in certify_balls(find("pendulum"), lindstedt_in_balls(find("pendulum"), 8))]

@@ -97,13 +97,39 @@ def enclose(
     bits: int = 128,
     method: Method | None = None,
 ) -> Enclosure:
-    """Enclose omega0 at an amplitude, to a relative radius of about 2**-bits.
+    """Enclose omega0 at an amplitude, rigorously, to a relative radius of about 2**-bits.
 
-    Text is the decimal or fraction it shows, a float its exact binary value.  ``definition`` is ``peak`` or ``trough``
-    (the size of the negative turning point).  ``method`` insists on one of the two routes.  Raises InputError for
-    oscillators without orbits of one energy, for amplitudes at or beyond the separatrix (which it names), and when
-    the balls cannot decide.
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Any form of a conservative oscillator with numbers for its parameters.
+    amplitude : float, int, str, Fraction or sympy.Rational
+        In the unit of u, 0 or more; text is the decimal or fraction it shows, a float its exact binary value.
+    definition : str, optional
+        ``peak`` (default) or ``trough``, the size of the negative turning point.
+    bits : int, optional
+        128 (the default) gives 38 digits.
+    method : str, optional
+        ``closed form`` or ``quadrature``, to insist on one of the two routes.
 
+    Returns
+    -------
+    Enclosure
+        A ball around omega0 in rad per time unit, and balls around the turning points.
+
+    Raises
+    ------
+    InputError
+        For oscillators without orbits of one energy, for amplitudes at or beyond the separatrix (which it names), and
+        when the balls cannot decide.
+
+    References
+    ----------
+    Johansson, Arb: efficient arbitrary-precision midpoint-radius interval arithmetic, IEEE Transactions on Computers 66
+    (2017) 1281-1292.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> enclose(find("pendulum"), "0.5", bits=64).omega.str(15)
     '[0.984394850023902 +/- 3.27e-17]'
@@ -172,8 +198,10 @@ def _widened(omega: arb, bits: int) -> arb:
 
 
 def rounded_down(ball: arb) -> float:
-    """The largest float that is not above any point of the ball.
+    """Return the largest float that is not above any point of the ball.
 
+    Examples
+    --------
     >>> rounded_down(arb(1) / 3) < Fraction(1, 3)
     True
     """
@@ -183,8 +211,10 @@ def rounded_down(ball: arb) -> float:
 
 
 def rounded_up(ball: arb) -> float:
-    """The smallest float that is not below any point of the ball.
+    """Return the smallest float that is not below any point of the ball.
 
+    Examples
+    --------
     >>> rounded_up(arb(1) / 3) > Fraction(1, 3)
     True
     """

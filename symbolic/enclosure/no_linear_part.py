@@ -56,7 +56,24 @@ def _check_restores(name: str, potential: fmpq_poly) -> None:
 
 
 def law_of(oscillator: Oscillator) -> PowerLaw | None:
-    """omega0 = factor * A^growth when the force is a single power, else None; raises as ``strong_well``."""
+    """Return the power law that omega0 follows when the force is a single power.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+        Without a linear force, as it was read (``NoLinearForceError.oscillator``).
+
+    Returns
+    -------
+    PowerLaw or None
+        omega0 = factor * A^growth, exact; None for forces of several powers.
+
+    Raises
+    ------
+    InputError
+        For terms in u', parameters without a value, forces that are no rational polynomial, and forces that do not
+        restore.
+    """
     exact = strong_well(oscillator).polynomial
     return None if exact is None else power_law(exact)
 
@@ -64,10 +81,31 @@ def law_of(oscillator: Oscillator) -> PowerLaw | None:
 def enclose_strong(
     oscillator: Oscillator, amplitude: Amplitude, *, definition: str = "peak", bits: int = 128
 ) -> Enclosure:
-    """Enclose omega0 at an amplitude; see ``enclosure.enclose``.
+    """Enclose omega0 at an amplitude of an oscillator without a linear force; see ``enclose``.
 
-    Raises InputError as ``strong_well`` does, and for amplitudes at or beyond a separatrix.
+    Parameters
+    ----------
+    oscillator : Oscillator
+        Without a linear force, as it was read (``NoLinearForceError.oscillator``).
+    amplitude : float, int, str, Fraction or sympy.Rational
+        In the unit of u, positive.
+    definition : str, optional
+        ``peak`` (default) or ``trough``.
+    bits : int, optional
+        The relative radius is about 2**-bits.
 
+    Returns
+    -------
+    Enclosure
+        A ball around omega0 in rad per time unit, and balls around the turning points.
+
+    Raises
+    ------
+    InputError
+        As for ``law_of``, and for amplitudes at or beyond a separatrix.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.description import from_text
     >>> from ridgeback.symbolic.systems.oscillator import NoLinearForceError
     >>> try:

@@ -17,8 +17,12 @@ from ridgeback.symbolic.expansion.expansion import Expansion
 
 @dataclass(frozen=True, eq=False)
 class BallExpansion:
-    """omega0 = k sum c_n X^n with every c_n in a ball, X the amplitude A or eps/k; fields as in ``Expansion``.
+    """omega0 = k sum c_n X^n with every c_n in a ball, X the amplitude A or eps/k; made by ``lindstedt_in_balls``.
 
+    The fields are those of ``Expansion``; ``frequency`` holds the balls in the oscillator's own units.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> lindstedt_in_balls(find("van-der-pol"), 4, digits=12).frequency[2].str(12, radius=False)

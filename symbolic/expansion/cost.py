@@ -32,7 +32,7 @@ PROCESS = 0.15
 
 @dataclass(frozen=True)
 class Budget:
-    """How much time and memory a derivation may take."""
+    """How much time (``seconds``) and memory (``gigabytes``) a derivation may take."""
 
     seconds: float = 600.0
     gigabytes: float = 4.0
@@ -40,7 +40,7 @@ class Budget:
 
 @dataclass(frozen=True)
 class Cost:
-    """Predicted time and memory."""
+    """Predicted time (``seconds``) and memory (``gigabytes``) of a derivation."""
 
     seconds: float
     gigabytes: float
@@ -51,8 +51,29 @@ class Cost:
 
 
 def predict(method: str, order: int, *, parameters: int = 0, weights: tuple[int, ...] = (), workers: int = 1) -> Cost:
-    """Predict the cost of a derivation; ``weights`` are those of the small parameters, ``workers`` share the time.
+    """Predict what a derivation costs, by laws fitted to measurements.
 
+    Parameters
+    ----------
+    method : str
+        ``lindstedt``, ``limit-cycle``, ``energy-integral``, ``multiple-scales``, ``balls``, ``primes`` or ``primes of a
+        limit-cycle``.
+    order : int
+        Highest order.
+    parameters : int, optional
+        How many stay symbolic.
+    weights : tuple of int, optional
+        Weights of the small parameters (multiple scales).
+    workers : int, optional
+        Processes that share the time.
+
+    Returns
+    -------
+    Cost
+        Seconds and gigabytes.
+
+    Examples
+    --------
     >>> predict("lindstedt", 50).seconds < 1 < predict("lindstedt", 1000).seconds
     True
     """
@@ -110,6 +131,18 @@ def check(
 def duration(seconds: float) -> str:
     """Return a time in the unit that reads best.
 
+    Parameters
+    ----------
+    seconds : float
+        The time.
+
+    Returns
+    -------
+    str
+        A number and its unit.
+
+    Examples
+    --------
     >>> duration(7200)
     '2 h'
     """

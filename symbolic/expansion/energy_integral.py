@@ -34,12 +34,36 @@ ALLOWED = ("peak", "trough", "action", "energy")
 def energy_integral(
     oscillator: OscillatorLike, order: int, *, amplitude: str = "peak", budget: Budget | None = None
 ) -> Expansion:
-    """Expand omega0 in the amplitude through the power ``order``.
+    """Expand omega0 in the amplitude from the energy integral, without oscillator theory.
 
-    The amplitude is that of ``expansion.amplitude``; ``fundamental`` needs the waveform, which this method does not
-    have.  Raises InputError for a bad order or definition, for forces that depend on u', and when
-    the predicted cost exceeds the budget.
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Any form of an oscillator whose force does not depend on u'.
+    order : int
+        Highest power of the amplitude that is kept, 0 or more.
+    amplitude : str, optional
+        ``peak`` (default), ``trough``, ``action`` or ``energy``; ``fundamental`` needs the waveform, which this method
+        does not have.
+    budget : Budget, optional
+        What the derivation may cost; 10 minutes and 4 GB by default.
 
+    Returns
+    -------
+    Expansion
+        Exact coefficients of omega0, in rad per time unit; without a waveform.
+
+    Raises
+    ------
+    InputError
+        For a bad order or definition, for forces that depend on u', and when the predicted cost exceeds the budget.
+
+    References
+    ----------
+    Landau and Lifshitz, Mechanics, section 12.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> energy_integral(find("pendulum"), 4).frequency
     (1, 0, -1/16, 0, 1/3072)

@@ -45,6 +45,12 @@ class Harmonic:
 class Expansion:
     """omega0 as a power series in one variable, with the amplitude definition it holds for.
 
+    Made by ``lindstedt`` and ``energy_integral``.  ``frequency`` holds the exact coefficients in the oscillator's own
+    units; a call evaluates the series; ``convert`` changes the amplitude's definition, ``truncated`` the order;
+    ``harmonics`` is the waveform; ``residual`` what is left of the equation.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> pendulum = lindstedt(find("pendulum"), 4)

@@ -49,10 +49,33 @@ def limit_cycle(oscillator: Oscillator, order: int, amplitude: str) -> Expansion
 def cycle_recursion(
     oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: BetweenOrders = no_watch
 ) -> Recursion:
-    """Run the orders of a limit cycle over a given coefficient space; ``watch`` sees the recursion before each order.
+    """Run Lindstedt's recursion for a limit cycle over a given coefficient space.
 
-    Raises InputError as ``limit_cycle`` does.
+    Parameters
+    ----------
+    oscillator : Oscillator
+        With a small parameter eps.
+    order : int
+        Highest power of eps/k kept in omega0.
+    amplitude : str
+        ``peak`` or ``fundamental``.
+    space : Space
+        What the coefficients are.
+    watch : callable, optional
+        Called before each order with the recursion and the order.
 
+    Returns
+    -------
+    Recursion
+        ``omega`` and ``u`` by powers of eps/k, in units with k = 1.
+
+    Raises
+    ------
+    InputError
+        When the equation is not u'' + k^2 u plus terms in eps, or has no rational first amplitude.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> cycle_recursion(find("van-der-pol"), 2, "peak", space_for(())).omega[:3]
     [1, 0, -1/16]

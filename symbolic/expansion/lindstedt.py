@@ -38,11 +38,38 @@ DIRECT = ("peak", "fundamental")
 def lindstedt(
     oscillator: OscillatorLike, order: int, *, amplitude: str = "peak", budget: Budget | None = None
 ) -> Expansion:
-    """Expand omega0 in the amplitude (conservative) or in eps (limit cycle), through the power ``order``.
+    """Expand omega0 in the amplitude (conservative) or in eps (limit cycle) by Lindstedt's recursion.
 
-    Raises InputError for a bad order or definition, for an oscillator without a family of periodic orbits, and, before
-    any work, when the predicted cost exceeds the budget.
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Any form of an oscillator; its orbits must close by a symmetry, or it must have a limit cycle with a parameter
+        eps.
+    order : int
+        Highest power of the amplitude A (of eps for a limit cycle) that is kept, 0 or more.
+    amplitude : str, optional
+        What A means: ``peak`` (default), ``trough``, ``fundamental``, ``action`` or ``energy``; ``peak`` or
+        ``fundamental`` for a limit cycle.
+    budget : Budget, optional
+        What the derivation may cost; 10 minutes and 4 GB by default.
 
+    Returns
+    -------
+    Expansion
+        Exact coefficients of omega0, in rad per time unit, with the waveform u in omega0 t and the residual.
+
+    Raises
+    ------
+    InputError
+        For a bad order or definition, for an oscillator without a family of periodic orbits, and, before any work, when
+        the predicted cost exceeds the budget.
+
+    References
+    ----------
+    Nayfeh and Mook, Nonlinear Oscillations (1979), section 2.3.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> lindstedt(find("van-der-pol"), 4).frequency
     (1, 0, -1/16, 0, 17/3072)
@@ -85,10 +112,33 @@ def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Bu
 def conservative_recursion(
     oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: BetweenOrders = no_watch
 ) -> Recursion:
-    """Run the orders of a conservative oscillator over a given coefficient space; ``watch`` sees each order begin.
+    """Run Lindstedt's recursion for a conservative oscillator over a given coefficient space.
 
-    Raises InputError when the oscillator has no family of periodic orbits.
+    Parameters
+    ----------
+    oscillator : Oscillator
+        With periodic orbits.
+    order : int
+        Highest power of the amplitude kept in omega0.
+    amplitude : str
+        ``peak`` or ``fundamental``.
+    space : Space
+        What the coefficients are: rationals, polynomials in parameters, residues modulo a prime, balls.
+    watch : callable, optional
+        Called before each order with the recursion and the order.
 
+    Returns
+    -------
+    Recursion
+        ``omega`` through ``order`` and ``u`` through ``order + 1``, in units with k = 1.
+
+    Raises
+    ------
+    InputError
+        When the oscillator has no family of periodic orbits.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> conservative_recursion(find("duffing"), 2, "peak", space_for(())).omega
     [1, 0, 3/8]

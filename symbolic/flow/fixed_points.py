@@ -88,13 +88,30 @@ class FixedPoint:
 def fixed_points(
     flow: SlowFlow, values: Mapping[str, Value], *, limits: Limits | None = None
 ) -> tuple[FixedPoint, ...]:
-    """Every limit cycle of the truncated amplitude equation at rational values of the small parameters.
+    """Return every limit cycle of the truncated amplitude equation at rational values of the small parameters.
 
-    ``values`` names them; floats and text count as the decimals they print as.  ``limits`` are those of the frequency
-    that the flow contains (``flow.limits``): a zero outside them is beyond its reach.  In rising order of amplitude.
-    Raises InputError for a missing or unknown name, a parameter that is symbolic, and an amplitude equation whose
-    coefficients are not rational.
+    Parameters
+    ----------
+    flow : SlowFlow
+        Without symbolic parameters beside the small ones.
+    values : mapping of str to number or str
+        A value for each small parameter; floats and text count as the decimals they print as.
+    limits : Limits, optional
+        Those of the frequency that the flow contains (``flow.limits``): a zero outside them is beyond its reach.
 
+    Returns
+    -------
+    tuple of FixedPoint
+        In rising order of amplitude, each certified to be a zero of the truncated equation.
+
+    Raises
+    ------
+    InputError
+        For a missing or unknown name, a parameter that is symbolic, and an amplitude equation whose coefficients are
+        not rational.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.flow.multiple_scales import multiple_scales
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> flow = multiple_scales(find("van-der-pol"), 6, weight=1)

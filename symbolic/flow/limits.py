@@ -43,8 +43,24 @@ class FlowLimits:
 
 
 def flow_limits(oscillator: Oscillator, flow: SlowFlow) -> FlowLimits:
-    """The limits of phi' on the limit cycle, where the powers of the small parameter end; else of phi' undamped.
+    """Return how far the frequency of a slow flow is of use.
 
+    It is that of phi' on the limit cycle, where the powers of the small parameter end; else that of phi' undamped.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+        Whose flow it is.
+    flow : SlowFlow
+        Made by ``multiple_scales``.
+
+    Returns
+    -------
+    FlowLimits
+        The limits, and which frequency they are of.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.flow.multiple_scales import multiple_scales
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> flow_limits(find("damped-pendulum"), multiple_scales(find("damped-pendulum"), 4)).sentence()

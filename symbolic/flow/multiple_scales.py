@@ -51,12 +51,39 @@ def multiple_scales(
     weights: Mapping[str, int] | None = None,
     budget: Budget | None = None,
 ) -> SlowFlow:
-    """Expand phi' and a'/a in the fundamental amplitude a and the small parameters, through weighted degree ``order``.
+    """Expand phi' and a'/a in the fundamental amplitude a and the small parameters m by multiple scales.
 
-    Terms a^p m^r with p + w.r <= order are kept.  ``weight`` is the weight of every parameter that is small by default
-    (see ``flow.ordering``); ``weights`` gives single ones by name, 0 for one that is not small.  Raises InputError
-    for a bad order or weight, and when the predicted cost exceeds the budget.
+    Terms a^p m^r with p + w.r <= order are kept, w being the weights.
 
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Any form of an oscillator; damping and self-excitation are allowed.
+    order : int
+        Highest weighted degree kept, 0 or more.
+    weight : int, optional
+        Weight of every parameter that is small by default (see ``flow.ordering``) against the amplitude; 2 by default.
+    weights : mapping of str to int, optional
+        Weights of single parameters by name; 0 for one that is not small.
+    budget : Budget, optional
+        What the derivation may cost; 10 minutes and 4 GB by default.
+
+    Returns
+    -------
+    SlowFlow
+        phi' (rad per time unit) and a'/a (per time unit) as exact polynomials, with the waveform and the residual.
+
+    Raises
+    ------
+    InputError
+        For a bad order or weight, and when the predicted cost exceeds the budget.
+
+    References
+    ----------
+    Nayfeh and Mook, Nonlinear Oscillations (1979), section 2.3.2; Nayfeh, Perturbation Methods (1973), chapter 6.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> flow = multiple_scales(find("pendulum"), 2)
     >>> flow.frequency_expression(), flow.damping_expression()

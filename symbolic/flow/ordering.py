@@ -75,8 +75,20 @@ def ordered(oscillator: Oscillator, *, weight: int = 2, weights: Mapping[str, in
 
 
 def small_parameters(oscillator: Oscillator) -> tuple[str, ...]:
-    """The parameters small by default, in the order of the equation.
+    """Return the parameters that are small by default, in the order of the equation.
 
+    Parameters
+    ----------
+    oscillator : Oscillator
+        Any oscillator.
+
+    Returns
+    -------
+    tuple of str
+        Their names.
+
+    Examples
+    --------
     >>> small_parameters(Oscillator.from_equation("x'' - eps*(1 - b*x**2)*x' + x + g*x**3"))
     ('eps',)
     """
@@ -188,8 +200,18 @@ def _check(force: sympy.Expr, oscillator: Oscillator, small: tuple[str, ...], sc
 def undamped(oscillator: Oscillator) -> Oscillator:
     """Return the oscillator with its damping set to zero: the one that has a backbone curve.
 
-    Limit cycles, and oscillators whose orbits close as they are, are returned unchanged.
+    Parameters
+    ----------
+    oscillator : Oscillator
+        Any oscillator.
 
+    Returns
+    -------
+    Oscillator
+        Limit cycles, and oscillators whose orbits close as they are, unchanged.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> undamped(find("damped-pendulum")).is_conservative
     True

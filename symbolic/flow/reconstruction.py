@@ -54,6 +54,15 @@ def _by_amplitude(rows: Rows) -> Rows:
 class Reconstruction:
     """The displacement u(a, phi, small parameters) of a slow flow, through its weighted degree + 1.
 
+    A call evaluates it, ``velocity`` its derivative along the flow; ``expression`` and ``latex`` are the formula.
+
+    Parameters
+    ----------
+    flow : SlowFlow
+        Made by ``multiple_scales``.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.flow.multiple_scales import multiple_scales
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> u = Reconstruction(multiple_scales(find("duffing"), 2))

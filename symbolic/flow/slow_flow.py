@@ -36,6 +36,12 @@ class Term:
 class SlowFlow:
     """phi' and a'/a as exact polynomials in the fundamental amplitude and the small parameters.
 
+    Made by ``multiple_scales``.  ``frequency`` and ``damping`` are the terms in the oscillator's own units,
+    ``frequency_at`` and ``damping_at`` their values, ``expression`` and ``latex`` their formulas, ``residual`` what is
+    left of the equation.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.flow.multiple_scales import multiple_scales
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> flow = multiple_scales(find("pendulum"), 4)

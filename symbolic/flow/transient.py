@@ -73,10 +73,20 @@ class Transient:
 
 
 def closed_form(flow: SlowFlow) -> ClosedForm | None:
-    """a(t) and phi(t) exactly, when a'/a = c_0 + c_2 a^2 as far as it is kept; None otherwise.
+    """Return a(t) and phi(t) exactly, when a'/a = c_0 + c_2 a^2 as far as it is kept.
 
-    Small parameters stay symbols; where they make c_0 or c_2 vanish, the limit is meant.
+    Parameters
+    ----------
+    flow : SlowFlow
+        Its small parameters stay symbols; where they make c_0 or c_2 vanish, the limit is meant.
 
+    Returns
+    -------
+    ClosedForm or None
+        In ``TIME``, ``START`` and ``PHASE``; None when a'/a has other terms.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.flow.multiple_scales import multiple_scales
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> found = closed_form(multiple_scales(find("damped-pendulum"), 2))
@@ -131,14 +141,38 @@ def transient(
     phase: float = 0.0,
     tolerance: float = 1e-13,
 ) -> Transient:
-    """a and phi at rising times, from their values at the first of them, by Taylor steps in floats.
+    """Follow a slow flow: a and phi at rising times, from their values at the first of them, by Taylor steps in floats.
 
-    All terms of the flow count; of a self-excited oscillator give ``flow.entire()``, since its a does not stay small.
-    ``small`` holds one value for each small parameter; ``tolerance`` bounds the relative error of a^2, and the error of
-    phi in rad, that each step adds.  A state that has settled is continued in closed form, so that late times cost
-    nothing.  Raises InputError for times that do not rise or at which the phase has lost its digits, an amplitude that
-    is not positive, and an amplitude that runs away, where the truncated flow has lost its meaning.
+    A state that has settled is continued in closed form, so that late times cost nothing.
 
+    Parameters
+    ----------
+    flow : SlowFlow
+        All its terms count; of a self-excited oscillator give ``flow.entire()``, since its a does not stay small.
+    time : sequence of float
+        Rising times.
+    small : sequence of float
+        One value for each small parameter.
+    amplitude : float
+        a at the first time, positive, in the unit of u.
+    phase : float, optional
+        phi at the first time, in rad.
+    tolerance : float, optional
+        Bound of the relative error of a^2, and of the error of phi in rad, that each step adds.
+
+    Returns
+    -------
+    Transient
+        ``amplitude`` and ``phase`` (rad) at the times.
+
+    Raises
+    ------
+    InputError
+        For times that do not rise or at which the phase has lost its digits, an amplitude that is not positive, and an
+        amplitude that runs away, where the truncated flow has lost its meaning.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.flow.multiple_scales import multiple_scales
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> flow = multiple_scales(find("damped-pendulum"), 2)

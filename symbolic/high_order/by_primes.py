@@ -90,13 +90,45 @@ def lindstedt_by_primes(
 ) -> Expansion:
     """Expand omega0 like ``lindstedt``, for orders whose coefficients have thousands of digits; no waveform is kept.
 
-    ``executor`` (such as ``processes``) runs the primes, ``workers`` of them at a time; ``progress`` is
-    told the share that is done and the bits of the modulus so far.  With ``checkpoint`` the residues are saved there
-    every minute, on KeyboardInterrupt and at the end, and the work goes on from there if the file exists; it is the
-    caller's to remove once the result is stored.  Raises InputError as ``lindstedt`` does, for symbolic parameters, and
-    for a checkpoint that is damaged, belongs to another computation or claims what its numbers deny; OSError for the
-    file.
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Any form of an oscillator, each parameter with a rational number.
+    order : int
+        Highest power of the amplitude, or of eps, that is kept.
+    amplitude : str, optional
+        ``peak`` (default) or ``fundamental``.
+    executor : concurrent.futures.Executor, optional
+        Runs the primes; without one they run here, one after the other.
+    workers : int, optional
+        Primes at a time.
+    progress : callable, optional
+        Told the share that is done, 0 to 1, and the bits of the modulus so far.
+    checkpoint : Path, optional
+        The residues are saved there every minute, on KeyboardInterrupt and at the end, and the work goes on from there
+        if the file exists; it is the caller's to remove once the result is stored.
+    budget : Budget, optional
+        What the derivation may cost; 10 minutes and 4 GB by default.
 
+    Returns
+    -------
+    Expansion
+        Exact coefficients; a wrong one survives each of the residues kept back with a probability below 2^-50.
+
+    Raises
+    ------
+    InputError
+        As ``lindstedt`` does, for symbolic parameters, and for a checkpoint that is damaged, belongs to another
+        computation or claims what its numbers deny.
+    OSError
+        For the file.
+
+    References
+    ----------
+    von zur Gathen and Gerhard, Modern Computer Algebra, section 5.10.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> lindstedt_by_primes(find("van-der-pol"), 4).frequency
     (1, 0, -1/16, 0, 17/3072)
@@ -141,7 +173,7 @@ def expected_bits(oscillator: Oscillator, order: int) -> int:
 
 
 def law(oscillator: Oscillator) -> str:
-    """The law of ``ridgeback.symbolic.expansion.cost`` that this derivation follows."""
+    """The law of ``ridgeback.symbolic.expansion.cost`` that this derivation follows, by the oscillator's kind."""
     return "primes of a limit-cycle" if oscillator.kind == "limit-cycle" else "primes"
 
 

@@ -64,12 +64,39 @@ def lindstedt_in_balls(
 ) -> BallExpansion:
     """Expand omega0 like ``lindstedt``, with every coefficient in a ball of at least ``digits`` certain digits.
 
-    ``progress`` is told the share that is done and the order about to be found.  With ``checkpoint`` the state is saved
-    there every minute, on KeyboardInterrupt and at the end, and goes on from there if the file exists, with the same
-    balls bit by bit; the file is the caller's to remove once the result is stored.  Raises InputError as ``lindstedt``
-    does, for symbolic parameters, for a checkpoint that is damaged, belongs to another computation or claims what its
-    numbers deny, and for balls that stay too wide; OSError for the file.
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Any form of an oscillator, each parameter with a rational number.
+    order : int
+        Highest power of the amplitude, or of eps, that is kept.
+    digits : int, optional
+        Certain decimal digits of each coefficient, 1 to 10 000.
+    amplitude : str, optional
+        ``peak`` (default) or ``fundamental``.
+    checkpoint : Path, optional
+        The state is saved there every minute, on KeyboardInterrupt and at the end, and the recursion goes on from there
+        if the file exists, with the same balls bit by bit; it is the caller's to remove once the result is stored.
+    progress : callable, optional
+        Told the share that is done, 0 to 1, and the order about to be found.
+    budget : Budget, optional
+        What the derivation may cost; 10 minutes and 4 GB by default.
 
+    Returns
+    -------
+    BallExpansion
+        The coefficients as rigorous enclosures.
+
+    Raises
+    ------
+    InputError
+        As ``lindstedt`` does, for symbolic parameters, for a checkpoint that is damaged, belongs to another computation
+        or claims what its numbers deny, and for balls that stay too wide.
+    OSError
+        For the file.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> lindstedt_in_balls(find("van-der-pol"), 4).coefficients[4].str(20, radius=False)
     '0.0055338541666666666667'

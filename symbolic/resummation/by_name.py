@@ -27,13 +27,36 @@ def resummed(
     growth: Fraction = Fraction(0),
     up_to: Fraction | None = None,
 ) -> Resummation:
-    """Resum a series: ``pade`` [m/n], ``map`` (the change of variable that its limits ask for), or elliptic ``nome``.
+    """Resum a series of omega0.
 
-    ``degrees`` are m and n of the approximant, diagonal by default and a plain polynomial for a map; ``growth`` is the
-    power of x that omega0 follows at infinity (maps only, see ``pade.mapped``).  A pole inside the radius of
-    convergence, or at or below ``up_to`` when that is more, is refused.  Raises InputError for that and for what the
-    oscillator or the order does not allow.
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Whose series it is.
+    series : Expansion
+        To be resummed.
+    kind : str
+        ``pade`` for the approximant [m/n], ``map`` for the change of variable that the series' limits ask for, ``nome``
+        for the elliptic nome of a pendulum or Duffing oscillator.
+    degrees : tuple of int, optional
+        m and n of the approximant; diagonal by default, a plain polynomial for a map.
+    growth : Fraction, optional
+        The power of x that omega0 follows at infinity (maps only, see ``pade.mapped``).
+    up_to : Fraction, optional
+        A pole at or below this value of the variable is refused, as one inside the radius of convergence always is.
 
+    Returns
+    -------
+    Resummation
+        An exact formula that can be called, printed and generated.
+
+    Raises
+    ------
+    InputError
+        For a pole within reach, and for what the oscillator or the order does not allow.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> resummed(find("pendulum"), lindstedt(find("pendulum"), 8), "pade").method

@@ -139,9 +139,31 @@ class NomeForm(Resummation):
 def nome(oscillator: Oscillator, order: int, *, steps: int = 2) -> NomeForm:
     """Return the nome form of omega0(A), peak amplitude, cut so that it agrees with the series through A^order.
 
-    ``steps`` is the number of Landen steps.  The oscillator is recognised by its force, whatever it is called.  Raises
-    InputError for forces other than k^2 sin(c u)/c and k^2 u + e u^3 with numbers in them, and for a bad order.
+    Parameters
+    ----------
+    oscillator : Oscillator
+        Recognised by its force, whatever it is called.
+    order : int
+        Power of A through which form and series agree.
+    steps : int, optional
+        Number of Landen steps, 0 to 6.
 
+    Returns
+    -------
+    NomeForm
+        The formula.
+
+    Raises
+    ------
+    InputError
+        For forces other than k^2 sin(c u)/c and k^2 u + e u^3 with numbers in them, and for a bad order.
+
+    References
+    ----------
+    DLMF 19.5.5, 19.8.5, 19.8.12 and 22.2.2.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> round(nome(find("pendulum"), 40)(1.0), 12)  # agm(1, cos(1/2))
     0.937792258051

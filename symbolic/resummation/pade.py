@@ -90,12 +90,34 @@ class RationalForm(Resummation):
 def pade(
     expansion: Expansion, m: int | None = None, n: int | None = None, *, up_to: float | Fraction | None = None
 ) -> RationalForm:
-    """Return the [m/n] Padé approximant in x = A^2 (A when odd powers occur, eps^2), diagonal by default.
+    """Return the [m/n] Padé approximant of an expansion.
 
-    A pole at or below ``up_to`` (in the printed variable; without it, inside the radius of convergence as far as
-    ``limits`` knows it) is refused with its place, and so is evaluation beyond the first pole.  Raises InputError for
-    that, for coefficients that are not rational, and for degrees that do not fit the order.
+    Parameters
+    ----------
+    expansion : Expansion
+        With rational coefficients; x is A^2 (A when odd powers occur, eps^2).
+    m, n : int, optional
+        Degrees of numerator and denominator in x; diagonal by default.
+    up_to : float or Fraction, optional
+        A pole at or below it (in the printed variable; without it, inside the radius of convergence as far as
+        ``limits`` knows it) is refused with its place, and so is evaluation beyond the first pole.
 
+    Returns
+    -------
+    RationalForm
+        The approximant, with its first pole.
+
+    Raises
+    ------
+    InputError
+        For such a pole, for coefficients that are not rational, and for degrees that do not fit the order.
+
+    References
+    ----------
+    Baker and Graves-Morris, Padé Approximants, 2nd ed. (Cambridge, 1996), section 2.4.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.expansion.energy_integral import energy_integral
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> pade(energy_integral(find("duffing"), 4)).expression()
@@ -113,11 +135,34 @@ def mapped(
     n: int = 0,
     up_to: float | Fraction | None = None,
 ) -> RationalForm:
-    """Re-expand exactly in the variable of ``mapping``, then take the [m/n] Padé approximant of that (n = 0: none).
+    """Expand again exactly in the variable of a mapping, then take the [m/n] Padé approximant of that (n = 0: none).
 
-    ``growth`` is the power of x = X^step that omega0 follows at infinity, to be taken out first: 1/2 in x = A^2 for a
-    cubic stiffness, -1/2 in x = eps^2 for the van der Pol oscillator.  Raises InputError as ``pade`` does.
+    Parameters
+    ----------
+    expansion : Expansion
+        With rational coefficients.
+    mapping : Mapping
+        The change of variable x -> w.
+    growth : Fraction, optional
+        The power of x = X^step that omega0 follows at infinity, to be taken out first: 1/2 in x = A^2 for a cubic
+        stiffness, -1/2 in x = eps^2 for the van der Pol oscillator.
+    m, n : int, optional
+        Degrees of numerator and denominator in w.
+    up_to : float or Fraction, optional
+        As for ``pade``.
 
+    Returns
+    -------
+    RationalForm
+        The approximant in w.
+
+    Raises
+    ------
+    InputError
+        As ``pade`` does.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.expansion.energy_integral import energy_integral
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> duffing = energy_integral(find("duffing"), 16)

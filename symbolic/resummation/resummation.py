@@ -22,7 +22,11 @@ from ridgeback.symbolic.arithmetic.rendering import mathml
 
 @dataclass(frozen=True)
 class Resummation(ABC):
-    """omega0 as a closed formula in one variable, exact coefficients throughout."""
+    """omega0 as a closed formula in one variable, exact coefficients throughout; made by ``resummed``.
+
+    A call evaluates it in rad per time unit, correct but for one rounding; ``in_balls`` encloses it; ``expression`` and
+    ``latex`` are the formula.
+    """
 
     system: str
     method: str

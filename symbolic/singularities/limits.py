@@ -140,9 +140,20 @@ class Limits:
 def limits(expansion: Series, *, longer: Series | None = None) -> Limits:
     """Estimate the radius of convergence of omega0 and the nature of the nearest singularities.
 
-    The coefficients may be balls: then a fit counts only if they are narrow enough for it.  ``longer`` is the same
-    expansion to a higher order: it settles the limits of one that is too short to do so itself.
+    Parameters
+    ----------
+    expansion : Expansion or BallExpansion
+        Balls count only if they are narrow enough for a fit.
+    longer : Expansion or BallExpansion, optional
+        The same expansion to a higher order: it settles the limits of one that is too short to do so itself.
 
+    Returns
+    -------
+    Limits
+        The radius with its error and the singularities; None, and the reason, where that is not settled.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.expansion.energy_integral import energy_integral
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> limits(energy_integral(find("pendulum"), 40)).sentence()
@@ -315,8 +326,20 @@ def _scaled(value: float) -> tuple[float, int]:
 def settled_limits(oscillator: Oscillator, expansion: Expansion | BallExpansion) -> Limits:
     """Return the limits of an expansion; a short one is settled by the same expansion carried further.
 
-    So is one in balls that are too wide to settle their own.
+    Parameters
+    ----------
+    oscillator : Oscillator
+        Whose expansion it is.
+    expansion : Expansion or BallExpansion
+        Balls that are too wide are settled by the exact series.
 
+    Returns
+    -------
+    Limits
+        As ``limits`` gives them.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> settled_limits(find("pendulum"), lindstedt(find("pendulum"), 8)).sentence()
     'The series converges for |A| < 3.14159 ± ...'

@@ -138,8 +138,15 @@ _ENTRIES: Final = (
 
 @cache
 def catalogue() -> tuple[Oscillator, ...]:
-    """Every oscillator of the catalogue, damped twins last.
+    """Return every oscillator of the catalogue, damped twins last.
 
+    Returns
+    -------
+    tuple of Oscillator
+        With their default parameters.
+
+    Examples
+    --------
     >>> [system.name for system in catalogue()][:3]
     ['linear', 'pendulum', 'duffing-hardening']
     """
@@ -148,10 +155,25 @@ def catalogue() -> tuple[Oscillator, ...]:
 
 
 def find(name: str) -> Oscillator:
-    """The oscillator of this name or alias; case, blanks, hyphens and underscores do not matter.
+    """Return the oscillator of this name or alias.
 
-    Raises InputError with the closest names when there is none.
+    Parameters
+    ----------
+    name : str
+        Case, blanks, hyphens and underscores do not matter.
 
+    Returns
+    -------
+    Oscillator
+        With its default parameters.
+
+    Raises
+    ------
+    InputError
+        When there is none, with the closest names.
+
+    Examples
+    --------
     >>> find("Van der Pol").name
     'van-der-pol'
     >>> find("raleigh")

@@ -56,8 +56,29 @@ def from_text(
 ) -> Oscillator:
     """Read an equation; with ``about`` the unknown is measured from that equilibrium.
 
-    Raises InputError as ``Oscillator.from_equation``, and when ``about`` is not a number or not an equilibrium.
+    Parameters
+    ----------
+    equation : str
+        Such as ``"u'' + u + u**3 = 0"``; read by Ridgeback's own grammar.
+    about : str, optional
+        The equilibrium, a number such as ``"1"`` or ``"sqrt(2)"``.
+    parameters : mapping of str to number or str, optional
+        Values of parameters.
+    **details
+        Title, reference, description, initial, symbol, unit, potential and aliases, as ``Oscillator.from_equation``.
 
+    Returns
+    -------
+    Oscillator
+        The oscillator, its parameters exact.
+
+    Raises
+    ------
+    InputError
+        As ``Oscillator.from_equation`` does, and when ``about`` is not a number or not an equilibrium.
+
+    Examples
+    --------
     >>> from_text("u'' - u + u**3 = 0", about="1").natural_frequency
     sqrt(2)
     """

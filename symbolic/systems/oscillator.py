@@ -128,11 +128,32 @@ class Oscillator:
     ) -> Oscillator:
         """Read u'' + ... = 0 from text; parameters that are given no value stay symbolic.
 
-        The second derivative may carry a factor, which is divided out.  ``mu`` of a term 2*mu*u' and the ``eps`` of
-        a limit cycle are recognised under any name.  A potential is integrated by rule when the force allows it, and
-        checked by differentiation when it is given.  ``about`` takes title, reference, description, initial, symbol,
-        unit and aliases.  Raises InputError for what cannot be read or has no oscillation about the origin.
+        Parameters
+        ----------
+        text : str
+            The equation.  The second derivative may carry a factor, which is divided out; ``mu`` of a term 2*mu*u' and
+            the ``eps`` of a limit cycle are recognised under any name.
+        name : str, optional
+            What to call it.
+        parameters : mapping of str to number or str, optional
+            Values by name, exact as they are written.
+        potential : str, optional
+            P(u), checked by differentiation; without it, it is integrated by rule when the force allows.
+        **about
+            Title, reference, description, initial, symbol, unit and aliases.
 
+        Returns
+        -------
+        Oscillator
+            The oscillator.
+
+        Raises
+        ------
+        InputError
+            For what cannot be read or has no oscillation about the origin.
+
+        Examples
+        --------
         >>> own = Oscillator.from_equation("2*x'' + 2*c*x' + 8*sin(x) = 0", parameters={"c": "0.1"})
         >>> own.force, own.damping, own.potential
         (c*u' + 4*sin(u), None, 4 - 4*cos(u))
@@ -171,12 +192,26 @@ class Oscillator:
         )
 
     def with_parameters(self, values: Mapping[str, Value]) -> Oscillator:
-        """The same oscillator with other parameter values.
+        """Return the same oscillator with other parameter values.
 
-        Text and floats become the decimal rational that they print as ("0.1" and 0.1 are 1/10); None leaves the
-        parameter symbolic.  Raises InputError for unknown names, for values that are not finite numbers, and when
-        the origin stops being a centre.
+        Parameters
+        ----------
+        values : mapping of str to number, str or None
+            Text and floats become the decimal rational that they print as ("0.1" and 0.1 are 1/10); None leaves the
+            parameter symbolic.
 
+        Returns
+        -------
+        Oscillator
+            A new one; this one is unchanged.
+
+        Raises
+        ------
+        InputError
+            For unknown names, for values that are not finite numbers, and when the origin stops being a centre.
+
+        Examples
+        --------
         >>> from ridgeback.symbolic.systems.catalogue import find
         >>> find("pendulum").with_parameters({"k": "12.5", "mu": 0.01}).parameters["mu"]
         1/100
