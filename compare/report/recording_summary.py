@@ -10,6 +10,7 @@ from ridgeback.common.numbers import relative, signed
 from ridgeback.common.quantities import frequency
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.results import Card
+from ridgeback.compare.study.results import Trend, trend_of
 from ridgeback.numeric.arrays import Array
 
 
@@ -22,13 +23,10 @@ def _hertz(value: float) -> str:
     return frequency(value, "s")
 
 
-def _sense(found: RecordingComparison) -> str:
-    """Hardening, softening, or neither within two standard deviations."""
-    low, high = _ends(found)
-    change = found.backbone_omega[high] - found.backbone_omega[low]
-    if abs(change) <= 2 * np.hypot(found.backbone_omega_sd[high], found.backbone_omega_sd[low]):
-        return "constant"
-    return "hardening" if change > 0 else "softening"
+def _trend(found: RecordingComparison) -> Trend:
+    """From the smallest amplitude to the largest: what lies between is known less well than the ends are apart."""
+    ends = list(_ends(found))
+    return trend_of(found.backbone_omega[ends], found.backbone_omega_sd[ends])
 
 
 def recording_title(found: RecordingComparison) -> str:
@@ -38,8 +36,8 @@ def recording_title(found: RecordingComparison) -> str:
         f"{_hertz(found.backbone_omega[high])} at amplitude {found.backbone_amplitude[high]:.3g}, "
         f"{_hertz(found.backbone_omega[low])} at {found.backbone_amplitude[low]:.3g}"
     )
-    sense = _sense(found)
-    return f"{text}: {sense}" if sense != "constant" else f"{text}: no dependence beyond the uncertainty"
+    trend = _trend(found)
+    return f"{text}: no dependence beyond the uncertainty" if trend is Trend.CONSTANT else f"{text}: {trend.value}"
 
 
 def recording_sentences(found: RecordingComparison) -> tuple[str, ...]:
@@ -77,7 +75,7 @@ def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
     amplitudes = f"{found.backbone_amplitude[high]:.3g} to {found.backbone_amplitude[low]:.3g}"
     damping = float(np.median(found.damping))
     return (
-        Card("Fundamental frequency", span, f"Amplitudes {amplitudes} (first harmonic): {_sense(found)}."),
+        Card("Fundamental frequency", span, f"Amplitudes {amplitudes} (first harmonic): {_trend(found).value}."),
         Card("Damping", f"{signed(damping)} per s", "Median of a′/a over the backbone; see the figure."),
         Card(
             "Uncertainty",

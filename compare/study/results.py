@@ -9,8 +9,48 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
 
 from ridgeback.numeric.arrays import Array
+
+
+class Trend(Enum):
+    """How omega0 changes with its variable, beyond what it is uncertain by; of a backbone the word that is used."""
+
+    RISING = "hardening"
+    FALLING = "softening"
+    CONSTANT = "constant"
+    BOTH = "partly hardening, partly softening"
+
+
+def trend_of(omega: Array, uncertainty: Array) -> Trend:
+    """The trend of a curve: its largest rise and its largest fall, each against twice the uncertainty.
+
+    Parameters
+    ----------
+    omega
+        Frequency by rising amplitude, shape (n,), rad per time unit.
+    uncertainty
+        One standard deviation, or a bound, of each value, shape (n,).
+
+    Examples
+    --------
+    >>> small = np.full(3, 1e-9)
+    >>> trend_of(np.array([1.0, 1.1, 1.3]), small), trend_of(np.ones(3), small)
+    (<Trend.RISING: 'hardening'>, <Trend.CONSTANT: 'constant'>)
+    >>> trend_of(np.array([1.0, 0.9, 1.2]), small)
+    <Trend.BOTH: 'partly hardening, partly softening'>
+    """
+    uncertainty = uncertainty + 4.0 * np.finfo(float).eps * np.abs(omega)
+    low, high = np.argmin(omega), np.argmax(omega)
+    least = 2.0 * np.hypot(uncertainty, np.maximum(uncertainty[low], uncertainty[high]))
+    rise = bool((omega - np.minimum.accumulate(omega) > least).any())
+    fall = bool((np.maximum.accumulate(omega) - omega > least).any())
+    return {(True, False): Trend.RISING, (False, True): Trend.FALLING, (True, True): Trend.BOTH}.get(
+        (rise, fall), Trend.CONSTANT
+    )
 
 
 @dataclass(frozen=True)
@@ -53,6 +93,11 @@ class Study:
     """Uncertainty of ``convergence_radius``, in the same variable."""
     convergence_note: str = ""
     """Where the radius comes from, or why none is known."""
+
+    @property
+    def trend(self) -> Trend:
+        """How the exact frequency changes with the variable over the range studied."""
+        return trend_of(self.reference, self.reference * self.reference_error)
 
     def rows(self) -> list[dict[str, float | int | str]]:
         """One row per cell: order, amplitude (or eps), method, omega, omega_reference, relative_error."""

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ridgeback.common.numbers import listing, number, relative, rounded_down, threshold
-from ridgeback.compare.study.results import Range, Study
+from ridgeback.compare.study.results import Range, Study, Trend
 from ridgeback.compare.study.study import order_needed as smallest_orders
 from ridgeback.reports.drawing import cells
 from ridgeback.reports.drawing.block import Block, Key, Readout, Toggle, block
@@ -45,6 +45,14 @@ def variable_name(study: Study) -> str:
         return "ε"
     unit = f" / {study.amplitude_unit}" if study.amplitude_unit else ""
     return f"{study.amplitude_definition} amplitude A{unit}"
+
+
+_OVER_EPS = {Trend.RISING: "rising", Trend.FALLING: "falling", Trend.BOTH: "rising and falling"}
+
+
+def _trend(study: Study) -> str:
+    """How the frequency changes: hardening and softening are words for a dependence on the amplitude."""
+    return study.trend.value if study.variable == "A" else _OVER_EPS.get(study.trend, study.trend.value)
 
 
 def _letter(study: Study) -> str:
@@ -94,8 +102,7 @@ def backbone_block(study: Study, found: Range | None) -> Block:
         place(axes, [*lines, replace(reference, label="exact")], taken=taken)
 
     traces = tuple(Trace(line.label, line.x, line.y, line.style, line.token) for line in (reference, *lines))
-    turning = "softening" if reference.y[-1] < reference.y[0] else "hardening"
-    what = f"ω₀ against {_letter(study)} of {study.title}: {turning}, from {number(float(reference.y[0]))} k at "
+    what = f"ω₀ against {_letter(study)} of {study.title}: {_trend(study)}, from {number(float(reference.y[0]))} k at "
     what += f"{_letter(study)} = {number(float(study.amplitudes[0]))} to {number(float(reference.y[-1]))} k at "
     what += f"{_letter(study)} = {number(float(study.amplitudes[-1]))}."
     return block(

@@ -223,7 +223,7 @@ def as_typed(arguments: Sequence[str]) -> str:
 
 
 def publish(report: Report, output: str, style: str) -> None:
-    """Write the page, say where it is and what it found, and own up to what is missing."""
+    """Write the page and say what it found, then raise PartialError for what is wrong or missing on it."""
     from ridgeback.reports.page import render, size_warning
 
     page = render(report)
@@ -233,6 +233,15 @@ def publish(report: Report, output: str, style: str) -> None:
     warning = size_warning(page)
     if warning is not None:
         say(warning)
+    refuse_incomplete(report)
+
+
+def refuse_incomplete(report: Report) -> None:
+    """Raise PartialError for a failed certificate, and for methods that gave no result."""
+    checks = report.derivation.certificate if report.derivation else ()
+    wrong = [check.name for check in checks if check.passed is False]
+    if wrong:
+        raise PartialError(f"the page is written, but its certificate fails: {', '.join(wrong)}; it says how")
     missing = [score.label for score in report.decay.scores if score.failed] if report.decay else []
     if missing:
         raise PartialError(f"the page is written, but gave no result: {', '.join(missing)}; it says why")

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from ridgeback.common.errors import InputError
+from ridgeback.compare.study.results import Trend
 from ridgeback.compare.study.study import order_needed, ranges, study
 from ridgeback.symbolic.systems.catalogue import find
 
@@ -138,3 +139,15 @@ def test_no_radius_is_claimed_where_the_coefficients_do_not_settle_it():
     result = study(find("pendulum"), (2,), [0.5])
     assert result.convergence_radius is None
     assert "not known" in result.convergence_note
+
+
+@pytest.mark.parametrize(
+    ("name", "top", "trend"),
+    [
+        ("linear", 2.0, Trend.CONSTANT),
+        ("pendulum", 2.0, Trend.FALLING),
+        ("duffing", 2.0, Trend.RISING),
+    ],
+)
+def test_the_trend_of_a_backbone_is_that_of_its_exact_frequency(name, top, trend):
+    assert study(find(name), (2,), np.linspace(0.1, top, 8)).trend is trend
