@@ -17,10 +17,20 @@ WARN_BYTES = 2_000_000
 
 
 def render(report: Report) -> str:
-    """Return the whole page of a report as HTML; the same report gives the same bytes.
+    """The whole page of a report as HTML; the same report gives the same bytes.
 
     The page's only script is admitted by its hash, so that markup smuggled in through a name could not run
     even if it were not escaped (it is).
+
+    Parameters
+    ----------
+    report
+        What to show; sections exist for the parts that it has.
+
+    Returns
+    -------
+    str
+        One HTML file that fetches nothing.
     """
     environment = _environment()
     script, style = _source("script.js"), _source("style.css")

@@ -175,9 +175,27 @@ def confusion(
     seed: int = 1,
     progress: Callable[[float, str], None] = lambda _, __: None,
 ) -> Confusion:
-    """Draw ``trials`` oscillators of each class and identify them; the same seed gives the same trials.
+    """Draw oscillators of known classes in noise and identify them.
 
-    Raises InputError for a class that has no draw or is not among the candidates.
+    Parameters
+    ----------
+    classes
+        Classes that are drawn, of :data:`DRAWS`.
+    candidates, laws
+        Those of :func:`ridgeback.compare.identification.identify.identify`.
+    trials
+        Oscillators drawn of each class.
+    snr_db
+        Ratio of a sine of the largest sample's amplitude to the noise, in decibels of power.
+    seed
+        The same seed gives the same trials.
+    progress
+        Called with the share of the work that is done, 0 to 1, and the name of the step.
+
+    Raises
+    ------
+    InputError
+        For a class that has no draw or is not among the candidates.
     """
     wrong = [name for name in classes if name not in DRAWS or name not in candidates]
     if wrong:

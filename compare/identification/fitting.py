@@ -29,7 +29,7 @@ ANCHORS = 60
 NEAR_STEPS, STEPS = 10, 30
 """Evaluations that the anchors and the samples may take, Jacobians not counted; the anchors need only come near."""
 COARSE, FINE = 1e-4, 1e-8
-"""Relative change of the sum of squares at which a first fit rests, and one that is worth its precision."""
+"""Relative change of the sum of squares at which a first fit stops, and one to full precision."""
 
 
 @dataclass(frozen=True)
@@ -199,17 +199,17 @@ def refined(model: Model, data: Data, start: Array) -> Fit:
     theta = np.append(rough.x, 0.0)
     if model.mirror is not None:
         sides = [theta, np.clip(model.mirror(theta), low, high)]
-        theta = min(sides, key=lambda side: levelled(model, data, side))
+        theta = min(sides, key=lambda side: residual_variance(model, data, side))
     return by_samples(model, data, theta, COARSE)
 
 
-def levelled(model: Model, data: Data, theta: Array) -> float:
+def residual_variance(model: Model, data: Data, theta: Array) -> float:
     """Variance of the samples less the model: the offset is free."""
     return float(np.var(model.signal(theta, data.time) - data.x))
 
 
 def failed(model: Model, data: Data, theta: Array) -> Fit:
-    """What stands for a fit that went astray: an infinite residual, never the best."""
+    """What stands for a fit that did not converge: an infinite residual, never the best."""
     return Fit(model, theta, np.full(data.x.size, np.inf), np.eye(theta.size))
 
 

@@ -4,7 +4,7 @@ Candidates are fitted to the first part alone.  The prediction is their mean by 
 of the parameters and of the candidates' disagreement: sum of w (sigma^2 + (value - mean)^2).  Where no candidate is
 quite right this is too narrow.  So the same candidates, fitted to the first three fifths of that part, predict its last
 two fifths, and each band is widened by the ratio of what they missed to what they expected to miss, if above 1.  What
-only shows at amplitudes that the fitted part never reached, no such rehearsal can foresee.
+only shows at amplitudes that the fitted part never reached, no such rehearsal can show.
 """
 
 from __future__ import annotations

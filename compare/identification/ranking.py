@@ -1,9 +1,9 @@
-"""Fits set against each other: the information criterion, what the samples are worth, and deviations of all fitted.
+"""Fits compared: the information criterion, the number of independent samples, and deviations of all fitted.
 
     BIC  = n ln(RSS / N) + p ln n,        AICc = n ln(RSS / N) + 2 p n / (n - p - 1),
 
 with p parameters and n effective samples.  A residual that is not white does not hold N independent values: for its
-variance, which the criterion compares, N values with autocorrelation rho_k are worth N / sum over k of rho_k^2 (M. S.
+variance, which the criterion compares, N values with autocorrelation rho_k count as N / sum over k of rho_k^2 (M. S.
 Bartlett, J. R. Stat. Soc. Suppl. 8 (1946) 27-41).  A residual that fills a share f of the band is so counted as f N.
 n is that of the best candidate's residual, and its p, which the fit has taken out of the residual.
 """
@@ -30,7 +30,7 @@ POINTS = 41
 
 
 def effective_number(residual: Array) -> float:
-    """Independent values that a residual is worth for its variance, at most its size.
+    """Number of independent values that give a residual's variance as well, at most its size.
 
     >>> rng = np.random.default_rng(1)
     >>> white = rng.normal(size=4000)

@@ -159,7 +159,7 @@ class Identification(_Values):
     rate: float
     samples: int
     effective_samples: float
-    """Independent samples that the best candidate's residual is worth; the criterion counts these."""
+    """Independent samples in the best candidate's residual; the criterion counts these."""
     criterion_name: str
     candidates: tuple[Candidate, ...]
     data: MeasuredBackbone

@@ -79,10 +79,28 @@ def setting(
     rate: float | None = None,
     time_unit: str = "",
 ) -> Setting:
-    """Fill in what is not given: the oscillator's own initial state, forty natural periods, 32 samples in each.
+    """What to run, with everything that is not said filled in.
 
-    Raises InputError for a duration or rate that is not a positive number.
+    Parameters
+    ----------
+    oscillator
+        An oscillator, or anything that names one; its parameters have values.
+    initial
+        State (u, u') at time 0; by default the oscillator's own.
+    duration
+        Time to integrate over; by default forty natural periods.
+    rate
+        Samples per time unit; by default 32 in a natural period.
+    time_unit
+        Name of the time unit; ``s`` has frequencies shown in hertz.
 
+    Raises
+    ------
+    InputError
+        For a duration or rate that is not a positive number.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> setting(find("linear")).rate.__round__(3)
     5.093
@@ -190,9 +208,20 @@ def exact_omega(dynamics: Dynamics, peaks: Array) -> Array:
 
 
 def integrate_motion(chosen: Setting, *, digits: int = DIGITS) -> Motion:
-    """Integrate by DOP853 and by Taylor series, and compute what the comparison shares.
+    """Integrate by DOP853 and by Taylor series, and compute what a comparison along the motion shares.
 
-    Raises InputError where the motion leaves the well, and where it has too few cycles to compare anything.
+    Parameters
+    ----------
+    chosen
+        What to integrate.
+    digits
+        Decimal digits of the Taylor solution, which the other is checked against.
+
+    Raises
+    ------
+    InputError
+        Where the motion leaves the well, is overdamped, has too few cycles to compare anything, or is sampled too
+        coarsely.
     """
     dynamics = bind(chosen.oscillator)
     _check_underdamped(dynamics)

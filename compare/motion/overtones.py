@@ -79,8 +79,8 @@ def _visible(motion: Motion, levels: Orders) -> tuple[int, ...]:
     """Multiples above the visible level and safely below the Nyquist frequency, the strongest first, then by number."""
     nyquist = np.pi * motion.trajectory.rate
     room = [m for m in range(2, MOST + 1) if 1.2 * m * motion.known_omega.max() < nyquist]
-    loud = [m for m in room if levels.level_db(m) > VISIBLE_DB]
-    return tuple(sorted(sorted(loud, key=levels.level_db, reverse=True)[:TRACKED]))
+    visible = [m for m in room if levels.level_db(m) > VISIBLE_DB]
+    return tuple(sorted(sorted(visible, key=levels.level_db, reverse=True)[:TRACKED]))
 
 
 def _overtone(motion: Motion, base: Track, multiple: int) -> Overtone:

@@ -110,8 +110,8 @@ def _oscillation(e: Evidence) -> Statement:
 
 def _spectrogram(e: Evidence) -> Statement:
     levels = e.overtones.of_u
-    loud = [m for m in range(2, MOST + 1) if levels.level_db(m) > -60]
-    heard = ", ".join(f"{m} at {decibels(levels.level_db(m))}" for m in loud) or "none above −60 dB"
+    visible = [m for m in range(2, MOST + 1) if levels.level_db(m) > -60]
+    listed = ", ".join(f"{m} at {decibels(levels.level_db(m))}" for m in visible) or "none above −60 dB"
     even = max(levels.level_db(m) for m in range(2, MOST + 1, 2))
     return Statement(
         figure=2,
@@ -119,7 +119,7 @@ def _spectrogram(e: Evidence) -> Statement:
         paper="A fundamental of high energy and five weaker components whose slope increases with their order.",
         measured=(
             f"The fundamental holds {100 * levels.share[1]:.2f} % of the energy{_offset(levels)}; overtones re the "
-            f"fundamental: {heard}. The strongest even multiple is at {decibels(even)}.{_slopes(e)}"
+            f"fundamental: {listed}. The strongest even multiple is at {decibels(even)}.{_slopes(e)}"
         ),
     )
 

@@ -165,11 +165,27 @@ def estimator_study(
 ) -> EstimatorStudy:
     """Run every method on every case.
 
-    ``checkpoint`` names a file that holds the cases done: it is written whole after each, proves itself whole by a
-    digest, and is read when it exists.  An
-    interrupt (KeyboardInterrupt) returns the cases done with ``complete=False``, or passes through before the first.
-    Raises InputError for what ``monte_carlo`` refuses, and for a checkpoint of another study.
+    An interrupt (KeyboardInterrupt) returns the cases done with ``complete=False``, or passes through before the first.
 
+    Parameters
+    ----------
+    chosen
+        Cases; by default the base case and each value of each axis on its own.
+    methods, trials, seed, executor
+        As for :func:`ridgeback.compare.noise.monte_carlo.monte_carlo`.
+    checkpoint
+        File that holds the cases done: it is written whole after each, proves itself whole by a digest, and is read
+        when it exists.
+    progress
+        Called with the share of the work that is done, 0 to 1, and the name of the step.
+
+    Raises
+    ------
+    InputError
+        For what ``monte_carlo`` refuses, and for a checkpoint of another study.
+
+    Examples
+    --------
     >>> study = estimator_study([Case(length=10.0)], methods=("hilbert", "wigner"), trials=2)
     >>> [cell.method for cell in study.results[0].cells]
     ['wigner', 'hilbert']

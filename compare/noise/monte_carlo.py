@@ -80,15 +80,54 @@ def monte_carlo(
 ) -> NoiseStudy:
     """Run every method on ``trials`` noisy copies of a record at every signal-to-noise ratio (dB).
 
-    ``source`` is a :class:`Truth`, or a recording or the samples of one (at ``rate``), whose smooth harmonic model is
-    then the truth; by default the paper's case.  ``band``, ``lag_seconds`` and ``remove_bias`` are those
-    of the estimators; without ``intervals`` no coverage is found, in a tenth of the time.
-    ``oscillator`` with its ``free`` parameters is what the method model-fit fits, by default that of the truth.
-
     The cost is predicted from one noise-free run of every method.  An interrupt (KeyboardInterrupt) ends the study
-    with the trials done so far and ``complete=False``; before any trial is done it passes through.  Raises InputError
-    for an unknown method, trials or ratios out of range, and a study that would take more than ``budget_seconds``.
+    with the trials done so far and ``complete=False``; before any trial is done it passes through.
 
+    Parameters
+    ----------
+    source
+        A :class:`Truth`; or a recording, or the samples of one, shape (n,), whose smooth harmonic model is then the
+        truth.  By default the paper's case.
+    rate
+        Samples per time unit of ``source`` when that is an array.
+    methods
+        Estimators; ``harmonic-least-squares/local`` and ``/global`` settle that method's scope.
+    snr_db
+        Ratios of the noise-free signal's variance to the noise's, in decibels, each once.
+    trials
+        Noisy records at each ratio, 2 or more.
+    seed
+        Of the noise; every method sees the same records.
+    band, lag_seconds, remove_bias
+        Those of :func:`ridgeback.numeric.estimators.estimate.estimate`: search band in rad per time unit, length of the
+        window in time units, and whether the estimated bias is taken off.
+    intervals
+        Whether 95 % intervals are found, for their coverage; without them a study takes a tenth of the time.
+    oscillator, free
+        What the method model-fit fits, and which of its parameters it finds; by default those of the truth.
+    executor
+        Where trials run, here by default; the result is the same.
+    budget_seconds
+        CPU seconds beyond which a study is refused beforehand.
+    progress
+        Called with the share of the work that is done, 0 to 1, and the name of the step.
+
+    Returns
+    -------
+    NoiseStudy
+        One cell per method and ratio; errors are relative, over 10 % to 90 % of the record.
+
+    Raises
+    ------
+    InputError
+        For an unknown method, trials or ratios out of range, and a study that would take more than its budget.
+
+    References
+    ----------
+    S. M. Kay, Fundamentals of Statistical Signal Processing: Estimation Theory (1993), ch. 3 (Cramer-Rao bound).
+
+    Examples
+    --------
     >>> study = monte_carlo(methods=("pseudo-wigner",), snr_db=(20.0,), trials=3)
     >>> cell = study.cells[0]
     >>> cell.trials, cell.failures, 1e-3 < cell.rms < 1e-2

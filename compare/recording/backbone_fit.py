@@ -31,8 +31,24 @@ class BackboneFit:
 
 
 def fit_backbone(amplitude: Array, omega: Array, deviation: Array) -> BackboneFit | None:
-    """Fit an even polynomial; None with fewer than three points.
+    """Fit omega0(a) = w0 + w2 a^2 + w4 a^4 + ... by weighted least squares, its degree by the least BIC.
 
+    Parameters
+    ----------
+    amplitude
+        Fundamental amplitudes, shape (n,).
+    omega
+        Angular frequency at each, shape (n,), rad per time unit.
+    deviation
+        Standard deviation of each frequency, shape (n,), the same unit.
+
+    Returns
+    -------
+    BackboneFit or None
+        None with fewer than three usable points.
+
+    Examples
+    --------
     >>> a = np.linspace(0.1, 1.0, 12)
     >>> fit_backbone(a, 2.0 - 0.25 * a**2, np.full(12, 1e-3)).coefficients.round(9).tolist()
     [2.0, -0.25]

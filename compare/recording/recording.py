@@ -54,8 +54,32 @@ def compare_recording(
 ) -> RecordingComparison:
     """Estimate the frequency of a recording by several methods and make its backbone from the first that succeeds.
 
-    ``source`` is a path or a Recording already read; ``oscillator``, with its parameters in the recording's units,
-    is overlaid as theory at the measured amplitude.  Raises InputError when no method succeeds, OSError for files.
+    Parameters
+    ----------
+    source
+        A file, or a recording already read.
+    column, time_column
+        Names or numbers of the columns of the samples and of their times; found by default.
+    rate
+        Samples per second, in place of a time column.
+    methods
+        Estimators in order of preference.
+    oscillator
+        Drawn as theory at the measured amplitude, its parameters in the recording's units.
+    progress
+        Called with the share of the work that is done, 0 to 1, and the name of the step.
+
+    Returns
+    -------
+    RecordingComparison
+        Tracks, backbone and growth rate with their deviations; angular frequency in rad/s.
+
+    Raises
+    ------
+    InputError
+        When no method succeeds.
+    OSError
+        For a file that cannot be read.
     """
     progress(0.0, "reading")
     if isinstance(source, Recording):

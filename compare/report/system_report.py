@@ -95,9 +95,36 @@ def assemble_system(
 ) -> Report:
     """Derive, study, integrate, compare and time one oscillator, and say what was found.
 
-    ``order`` is the expansion that the title and the formulas are about; ``orders`` and ``amplitudes`` span the
-    study, ``target`` is the relative error of its ranges; ``trials`` is the number of noisy records a point of the
-    noise study (0: none).  Raises InputError as the parts do.
+    Parameters
+    ----------
+    chosen
+        An oscillator, or anything that names one, which then starts from its own initial state; or a setting with its
+        initial state, duration and rate.
+    order
+        The expansion that title, formulas and code are about.
+    orders
+        Orders of the accuracy study; by default up to 40 (limit cycles: 48).
+    amplitudes
+        Peak amplitudes of the study in the unit of u, or values of eps for a limit cycle, shape (n,); by default up to
+        98 % of the separatrix.
+    target
+        Relative error of the ranges of use, between 0 and 1.
+    trials
+        Noisy records a point of the noise study; 0 for none.
+    command
+        The command line that makes the same report, for its provenance.
+    progress
+        Called with the share of the work that is done, 0 to 1, and the name of the step.
+
+    Returns
+    -------
+    Report
+        Complete; a method that fails keeps its reason, and a noise study that is left out is named in the summary.
+
+    Raises
+    ------
+    InputError
+        For a target outside 0 to 1, and for whatever cannot be derived, studied or integrated.
     """
     case = chosen if isinstance(chosen, Setting) else setting(chosen)
     watch = Stopwatch(progress)

@@ -43,11 +43,31 @@ def certified(oscillator: Oscillator, order: int, largest: float) -> Certified |
 def certified_rows(
     oscillator: OscillatorLike, orders: Sequence[int], amplitudes: Sequence[float]
 ) -> list[dict[str, float | int | str | None]]:
-    """Return one row per order, formula and amplitude: the keys of a study's rows, and the radius of the proof.
+    """Errors of every formula, proved, as rows with the keys of a study's rows and the radius of the proof.
 
-    ``omega`` and ``relative_error`` are None where the formula does not hold.  Raises InputError where omega0 has no
-    enclosure: limit cycles, damping, symbolic parameters, amplitudes at or beyond the separatrix.
+    Parameters
+    ----------
+    oscillator
+        A conservative oscillator whose parameters have values.
+    orders
+        Orders of the series and of the formulas made from it.
+    amplitudes
+        Peak amplitudes, shape (n,), in the unit of u.
 
+    Returns
+    -------
+    list of dict
+        One row per order, formula and amplitude; ``omega`` and ``relative_error`` are None where the formula does not
+        hold.
+
+    Raises
+    ------
+    InputError
+        Where omega0 has no enclosure: limit cycles, damping, symbolic parameters, amplitudes at or beyond the
+        separatrix.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> rows = certified_rows(find("pendulum"), [4], [1.0])
     >>> rows[0]["method"], f"{rows[0]['relative_error']:.4e}"

@@ -55,13 +55,35 @@ def study(
     method: str = "lindstedt",
     values: Mapping[str, Value] | None = None,
 ) -> Study:
-    """Error of ``omega0`` against the exact frequency over a grid of orders and amplitudes (peak, or eps).
+    """Error of ``omega0`` against the exact frequency over a grid of orders and amplitudes.
 
-    ``orders`` are powers of the variable kept; ``amplitudes`` are peak amplitudes of a conservative oscillator, or
-    values of eps for a limit cycle.  Any damping is left out: it is the undamped backbone that is studied.
-    Raises InputError for orders below 0, amplitudes that are not positive or reach the separatrix, an unknown
-    method, and a grid that is too large.
+    Parameters
+    ----------
+    oscillator
+        An oscillator, or anything that names one; any damping is left out: it is the undamped backbone that is studied.
+    orders
+        Highest powers of the variable that are kept, any order, each 0 or more.
+    amplitudes
+        Peak amplitudes of a conservative oscillator in the unit of u, or values of eps for a limit cycle; shape (n,),
+        all positive.
+    method
+        Which series is truncated: ``lindstedt``, ``energy-integral`` or ``multiple-scales``.
+    values
+        Parameters to set first, by name.
 
+    Returns
+    -------
+    Study
+        Grids ``[order, amplitude]`` with orders and amplitudes rising, the reference and its uncertainty.
+
+    Raises
+    ------
+    InputError
+        For orders below 0, amplitudes that are not positive or reach the separatrix, an unknown method, and a grid that
+        is too large.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> result = study(find("pendulum"), (2, 4), [0.5, 1.0])
     >>> result.relative_error.shape, bool(abs(result.relative_error[1, 1]) < 1e-4)
@@ -104,9 +126,25 @@ def study_of(
 
 
 def ranges(result: Study, target: float) -> tuple[Range, ...]:
-    """How far each order may be used: the largest studied amplitude before the first violation of ``target``.
+    """How far each order may be used: the largest studied amplitude before the first violation of a target.
 
-    Amplitudes are taken in rising order.  Raises InputError for a target that is not positive.
+    Parameters
+    ----------
+    result
+        A study.
+    target
+        Relative error that must hold at every studied amplitude up to the one returned.
+
+    Raises
+    ------
+    InputError
+        For a target that is not positive.
+
+    Examples
+    --------
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> [item.up_to for item in ranges(study(find("pendulum"), (2, 4), [0.5, 1.0, 2.0]), 1e-4)]
+    [0.5, 1.0]
     """
     if not target > 0:
         raise InputError(f"target {target} is not positive; give a relative error such as 0.001")
@@ -124,6 +162,24 @@ def order_needed(result: Study, target: float) -> tuple[Need, ...]:
 
     The condition on the smaller amplitudes is the first-violation rule of :func:`ranges`: an error that passes
     through zero at one amplitude does not count as accuracy there.
+
+    Parameters
+    ----------
+    result
+        A study.
+    target
+        Relative error.
+
+    Returns
+    -------
+    tuple of Need
+        One per studied amplitude, rising.
+
+    Examples
+    --------
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> [need.order for need in order_needed(study(find("pendulum"), (2, 4), [0.5, 1.0, 2.0]), 1e-4)]
+    [2, 4, None]
     """
     reach = {item.order: item.up_to for item in ranges(result, target)}
     return tuple(Need(float(a), _smallest(reach, float(a))) for a in result.amplitudes)

@@ -28,9 +28,25 @@ SERIES_TERMS = (3, 20)
 def timings(
     expansion: Expansion, dynamics: Dynamics, *, upper: float, pendulum: bool, values: int = VALUES
 ) -> tuple[Timing, ...]:
-    """Time every way to omega0 over ``values`` arguments spread evenly over (0, upper].
+    """Time every way to omega0 on one array of arguments.
 
-    ``upper`` is in the expansion's variable.  Raises InputError when the coefficients have no double.
+    Parameters
+    ----------
+    expansion
+        The series whose generated code is timed.
+    dynamics
+        The same oscillator bound to numbers, for its closed form.
+    upper
+        Largest argument, in the expansion's variable; they are spread evenly over (0, upper].
+    pendulum
+        Whether the paper's series (14) belongs to this oscillator.
+    values
+        Number of arguments.
+
+    Raises
+    ------
+    InputError
+        When the coefficients have no double.
     """
     x = np.linspace(upper / values, upper, values)
     return tuple(

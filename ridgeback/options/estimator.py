@@ -50,10 +50,10 @@ class Estimator:
         }
         return {name: value for name, value in said.items() if value is not None}
 
-    def beside(self, *names: str) -> list[str]:
+    def given_besides(self, *names: str) -> list[str]:
         """Options that were given although only those of these settings have a meaning.
 
-        >>> Estimator("auto", None, 2.0, True).beside("band", "lag_seconds")
+        >>> Estimator("auto", None, 2.0, True).given_besides("band", "lag_seconds")
         ['--remove-bias']
         """
         unset = {"method": "auto", "remove_bias": False}

@@ -135,7 +135,7 @@ def command(
 
 def refuse_beside(estimator: Estimator, option: str, *names: str) -> None:
     """Refuse settings of the estimator that an option would leave unused."""
-    unused = estimator.beside(*names)
+    unused = estimator.given_besides(*names)
     if unused:
         raise click.UsageError(f"{option} has no use for {', '.join(unused)}; leave out")
 

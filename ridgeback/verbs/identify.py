@@ -174,7 +174,7 @@ def prose(found: Identification) -> str:
     unit = f" [{found.unit}]" if found.unit else ""
     parts = [
         f"{found.source}, {found.column}{unit}: {found.samples} samples at {found.rate:g} per second, "
-        f"worth {found.effective_samples:.0f} independent ones",
+        f"of which {found.effective_samples:.0f} are independent",
         found.verdict,
         aligned(["candidate", "damping", "parameters", "delta", "weight", "residual"], ranking(found)),
         best_of(found),
