@@ -54,7 +54,7 @@ def prepared(recording: Recording, *, span: tuple[float, float] | None = None) -
     >>> t = np.arange(40_000) / 200.0
     >>> long = Recording(t, np.exp(-0.02 * t) * np.cos(7.0 * t), 200.0, "u", "mm", "long.csv", "")
     >>> prepared(long).notes
-    ('Every 6th sample was used, after a low-pass filter.',)
+    ('Every 7th sample was used, after a low-pass filter.',)
     """
     used, notes = usable(recording, span)
     return Prepared(used, local_track(used), notes)

@@ -126,8 +126,8 @@ def candidate(fit: Fit, data: Data, unit: str, score: float, best: float, total:
     def both(theta: Array) -> Array:
         return np.concatenate(fit.model.curves(theta, a / data.length, span))
 
-    omega, damping = np.split(both(fit.theta), 2)
-    omega_sd, damping_sd = np.split(spread_along(both, fit, data, matrix), 2)
+    omega, growth_rate = np.split(both(fit.theta), 2)
+    omega_sd, growth_rate_sd = np.split(spread_along(both, fit, data, matrix), 2)
     return Candidate(
         name=fit.model.name,
         title=fit.model.title,
@@ -142,9 +142,9 @@ def candidate(fit: Fit, data: Data, unit: str, score: float, best: float, total:
         omega=omega,
         omega_low=omega - NORMAL_95 * omega_sd,
         omega_high=omega + NORMAL_95 * omega_sd,
-        damping=damping,
-        damping_low=damping - NORMAL_95 * damping_sd,
-        damping_high=damping + NORMAL_95 * damping_sd,
+        growth_rate=growth_rate,
+        growth_rate_low=growth_rate - NORMAL_95 * growth_rate_sd,
+        growth_rate_high=growth_rate + NORMAL_95 * growth_rate_sd,
         note=at_bounds(fit, data),
         has_equation=fit.model.name != BACKBONE,
     )

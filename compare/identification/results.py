@@ -69,11 +69,11 @@ class Parameter(_Values):
 
 @dataclass(frozen=True)
 class Candidate(_Values):
-    """One oscillator class with its best parameters; ``omega`` and ``damping`` against ``amplitude``, with bands.
+    """One oscillator class with its best parameters; ``omega`` and ``growth_rate`` against ``amplitude``, with bands.
 
     ``criterion`` is the information criterion, less is better; ``delta`` its distance from the best candidate's, and
     ``weight`` proportional to exp(-delta / 2), with sum 1 over all candidates.  ``residual`` is the root mean square of
-    the samples less the model.  ``damping`` is a'/a per time unit, negative in a decay.
+    the samples less the model.  ``growth_rate`` is a'/a per time unit, negative in a decay.
     """
 
     name: str
@@ -91,9 +91,9 @@ class Candidate(_Values):
     omega: Array
     omega_low: Array
     omega_high: Array
-    damping: Array
-    damping_low: Array
-    damping_high: Array
+    growth_rate: Array
+    growth_rate_low: Array
+    growth_rate_high: Array
     note: str = ""
     has_equation: bool = True
     """False for a polynomial backbone: a slow flow without an equation of motion."""
@@ -108,13 +108,13 @@ class Candidate(_Values):
 
 @dataclass(frozen=True)
 class MeasuredBackbone(_Values):
-    """What was measured, without any class in mind: frequency and damping by amplitude, with one-sigma deviations."""
+    """Measured without any class in mind: frequency and growth rate by amplitude, one standard deviation each."""
 
     amplitude: Array
     omega: Array
     omega_sd: Array
-    damping: Array
-    damping_sd: Array
+    growth_rate: Array
+    growth_rate_sd: Array
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""A recording: its fundamental frequency by several estimators, the backbone and damping with bands, a fitted form.
+"""A recording: its fundamental frequency by several estimators, the backbone and growth rate with bands, a fitted form.
 
 What is known of the result is what the estimators say of themselves; there is no reference to hold them against,
 so their mutual distance is reported beside each one's own uncertainty.
@@ -143,9 +143,8 @@ def _assembled(
         backbone_amplitude=measured.curve_amplitude,
         backbone_omega=measured.curve_omega,
         backbone_omega_sd=measured.curve_omega_sd,
-        damping_amplitude=measured.curve_amplitude,
-        damping=measured.curve_damping,
-        damping_sd=measured.curve_damping_sd,
+        growth_rate=measured.curve_damping,
+        growth_rate_sd=measured.curve_damping_sd,
         fit=None if fit is None else formula_of(fit),
         notes=tuple(_notes(recording, curves, measured, failed)),
         theory=() if oscillator is None else (theory_curve(oscillator, measured),),

@@ -15,7 +15,7 @@ from ridgeback.numeric.arrays import Array
 
 @dataclass(frozen=True)
 class RecordingComparison:
-    """A user's recording: its tracks, backbone and damping, with bands."""
+    """A user's recording: its tracks, backbone and growth rate, with bands."""
 
     source: str
     sha256: str
@@ -32,9 +32,9 @@ class RecordingComparison:
     backbone_amplitude: Array
     backbone_omega: Array
     backbone_omega_sd: Array
-    damping_amplitude: Array
-    damping: Array
-    damping_sd: Array
+    growth_rate: Array
+    """a'/a at the amplitudes of the backbone, per time unit; negative in a decay."""
+    growth_rate_sd: Array
     fit: Formula | None
     notes: tuple[str, ...]
     theory: tuple[Curve, ...] = ()

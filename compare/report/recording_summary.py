@@ -41,7 +41,7 @@ def recording_title(found: RecordingComparison) -> str:
 
 
 def recording_sentences(found: RecordingComparison) -> tuple[str, ...]:
-    """Say in plain words what was estimated, how the estimators compare, and what the damping is."""
+    """Say in plain words what was estimated, how the estimators compare, and what the growth rate is."""
     return tuple(_sentences(found))
 
 
@@ -54,8 +54,8 @@ def _sentences(found: RecordingComparison) -> Iterator[str]:
     )
     yield f"The backbone's relative standard deviation is {relative(_middle(_relative_sd(found)))} in the median."
     yield (
-        f"The amplitude changes at a′/a = {signed(found.damping[high])} per second at the largest amplitude and "
-        f"{signed(found.damping[low])} at the smallest."
+        f"The amplitude changes at a′/a = {signed(found.growth_rate[high])} per second at the largest amplitude and "
+        f"{signed(found.growth_rate[low])} at the smallest."
     )
     yield from found.notes
 
@@ -69,14 +69,14 @@ def _middle(values: Array) -> float:
 
 
 def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
-    """Frequency range, damping, uncertainty."""
+    """Frequency range, growth rate, uncertainty."""
     low, high = _ends(found)
     span = f"{_hertz(found.backbone_omega[high])} to {_hertz(found.backbone_omega[low])}"
     amplitudes = f"{found.backbone_amplitude[high]:.3g} to {found.backbone_amplitude[low]:.3g}"
-    damping = float(np.median(found.damping))
+    growth_rate = float(np.median(found.growth_rate))
     return (
         Card("Fundamental frequency", span, f"Amplitudes {amplitudes} (first harmonic): {_trend(found).value}."),
-        Card("Damping", f"{signed(damping)} per s", "Median of a′/a over the backbone; see the figure."),
+        Card("Growth rate", f"{signed(growth_rate)} per s", "Median of a′/a over the backbone; see the figure."),
         Card(
             "Uncertainty",
             relative(_middle(_relative_sd(found))),

@@ -36,6 +36,7 @@ def derivation(derived: Derived, *, order: int | None = None) -> Derivation:
 
     Examples
     --------
+    >>> from ridgeback.compare.study.derived import derive
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> sorted(derivation(derive(find("pendulum"), 6), order=2).code)
     ['C', 'Python']
@@ -64,6 +65,7 @@ def _formulas(derived: Derived) -> Iterator[Formula]:
 def frequency_formula(expansion: Expansion) -> Formula:
     r"""Return omega_0 / k as a sum of exact terms.
 
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> frequency_formula(lindstedt(find("pendulum"), 2)).terms
     ('1', '- \\frac{A^{2}}{16}')

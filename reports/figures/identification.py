@@ -1,4 +1,4 @@
-"""What made it: the candidates against the measured backbone and damping, their ranking, and the prediction."""
+"""What made it: the candidates against the measured backbone and growth rate, their ranking, and the prediction."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MOST = 4
 
 def identification_blocks(found: Identification) -> tuple[Block, ...]:
     """Return the figures of an identification, in reading order."""
-    first = (frequency_figure(found), damping_figure(found))
+    first = (frequency_figure(found), growth_figure(found))
     return first if found.prediction is None else (*first, *prediction_figures(found.prediction, found))
 
 
@@ -88,12 +88,12 @@ def frequency_figure(found: Identification) -> Block:
     return _fitted("identify-backbone", found, (data.omega * f, data.omega_sd * f), bands, texts=texts, unit="Hz")
 
 
-def damping_figure(found: Identification) -> Block:
-    """The measured damping and those of the leading candidates."""
+def growth_figure(found: Identification) -> Block:
+    """The measured growth rate and those of the leading candidates."""
     data: MeasuredBackbone = found.data
-    bands = [(c, c.damping, c.damping_low, c.damping_high) for c in found.candidates[:MOST]]
-    texts = ("Which damping fits", "a′/a / (1/s)", _caption(found, "Rate of change a′/a"))
-    return _fitted("identify-damping", found, (data.damping, data.damping_sd), bands, texts=texts, unit="1/s")
+    bands = [(c, c.growth_rate, c.growth_rate_low, c.growth_rate_high) for c in found.candidates[:MOST]]
+    texts = ("Which growth rate fits", "a′/a / (1/s)", _caption(found, "Growth rate a′/a"))
+    return _fitted("identify-growth", found, (data.growth_rate, data.growth_rate_sd), bands, texts=texts, unit="1/s")
 
 
 def prediction_figures(made: Prediction, found: Identification) -> tuple[Block, ...]:

@@ -1,4 +1,4 @@
-"""One picture of what was measured: signal and amplitude, frequency over time, backbone and damping, with bands."""
+"""One picture of what was measured: signal and amplitude, frequency over time, backbone and growth rate, with bands."""
 
 from __future__ import annotations
 
@@ -154,7 +154,7 @@ def track_band(one: Measurement, label: str, token: str) -> Band:
 
 
 def curve_panel(axes: Axes, found: Survey, what: str) -> None:
-    """Frequency or damping against amplitude: each signal, and what they have in common."""
+    """Frequency or growth rate against amplitude: each signal, and what they have in common."""
     shown = found.measured[: len(SERIES)]
     factor = CLOCK.factor if what == "omega" else 1.0
     bands = []

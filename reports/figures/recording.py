@@ -1,4 +1,4 @@
-"""The figures of a user's recording: signal, spectrogram with its ridge, tracks, backbone and damping with bands."""
+"""The figures of a recording: signal, spectrogram with its ridge, tracks, backbone and growth rate with bands."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def recording_blocks(recording: RecordingComparison) -> tuple[Block, ...]:
     """Return all figures of a recording, in reading order."""
     return (
         backbone_figure(recording),
-        damping_figure(recording),
+        growth_figure(recording),
         signal_figure(recording),
         spectrogram_figure(recording),
         tracks_figure(recording),
@@ -131,16 +131,16 @@ def backbone_figure(recording: RecordingComparison) -> Block:
     return _band_block("recording-backbone", recording, x, y, sd, texts=texts, unit="Hz")
 
 
-def damping_figure(recording: RecordingComparison) -> Block:
-    """Logarithmic rate of change a'/a against amplitude with its band."""
-    caption = "Rate of change a′/a of the amplitude, negative in a decay. Band: two standard deviations either side."
-    texts = ("Damping of the recording", "a′/a / (1/s)", caption, "damping")
+def growth_figure(recording: RecordingComparison) -> Block:
+    """Growth rate a'/a against amplitude with its band."""
+    caption = "Growth rate a′/a of the amplitude, negative in a decay. Band: two standard deviations either side."
+    texts = ("Growth rate of the recording", "a′/a / (1/s)", caption, "growth rate")
     return _band_block(
-        "recording-damping",
+        "recording-growth",
         recording,
-        recording.damping_amplitude,
-        recording.damping,
-        recording.damping_sd,
+        recording.backbone_amplitude,
+        recording.growth_rate,
+        recording.growth_rate_sd,
         texts=texts,
         unit="1/s",
     )

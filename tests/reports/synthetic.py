@@ -286,9 +286,8 @@ def make_recording() -> RecordingComparison:
         backbone_amplitude=amplitude,
         backbone_omega=omega,
         backbone_omega_sd=sd,
-        damping_amplitude=amplitude,
-        damping=np.full(time.size, 1 / 22),
-        damping_sd=sd / 10,
+        growth_rate=np.full(time.size, 1 / 22),
+        growth_rate_sd=sd / 10,
         fit=Formula("Fitted backbone", r"\omega_0", ("7.917", r"-0.0226\, a^{2}")),
         notes=("The longest window whose bias stays below its noise was taken.",),
     )
@@ -336,7 +335,7 @@ def make_noise() -> NoiseStudy:
 def _candidate(name: str, title: str, delta: float, cubic: float) -> Candidate:
     a = np.linspace(0.3, 4.7, 30)
     omega = 2 * np.pi * (1.25 - cubic * a**2)
-    damping = -0.06 - 0.003 * a
+    growth_rate = -0.06 - 0.003 * a
     return Candidate(
         name=name,
         title=title,
@@ -351,9 +350,9 @@ def _candidate(name: str, title: str, delta: float, cubic: float) -> Candidate:
         omega=omega,
         omega_low=omega * 0.998,
         omega_high=omega * 1.002,
-        damping=damping,
-        damping_low=damping - 0.004,
-        damping_high=damping + 0.004,
+        growth_rate=growth_rate,
+        growth_rate_low=growth_rate - 0.004,
+        growth_rate_high=growth_rate + 0.004,
     )
 
 
@@ -389,7 +388,7 @@ def make_identification() -> Identification:
         effective_samples=420.0,
         criterion_name="BIC",
         candidates=(best, other),
-        data=MeasuredBackbone(a, best.omega[::3] * 1.0005, a * 0 + 0.01, best.damping[::3] + 0.001, a * 0 + 0.002),
+        data=MeasuredBackbone(a, best.omega[::3] * 1.0005, a * 0 + 0.01, best.growth_rate[::3] + 0.001, a * 0 + 0.002),
         unexplained=0.02,
         indistinguishable=("duffing-softening", "pendulum"),
         notes=("Independent samples are counted from the residual's correlation.",),

@@ -26,7 +26,7 @@ FIGURES = {
     ],
     "recording": [
         *(f"recording-{name}" for name in ("backbone", "damping", "signal", "plane", "tracks")),
-        *("identify-backbone", "identify-damping"),
+        *("identify-backbone", "identify-growth"),
         *(f"prediction-{name}" for name in ("amplitude", "frequency", "phase")),
     ],
 }

@@ -215,7 +215,7 @@ def test_a_recording_shows_tracks_backbone_damping_and_fit(recording_page: str) 
         assert wanted in root.text
     ids = [figure.attributes["id"] for figure in root.all("figure")]
     drawn = [name.removeprefix("recording-") for name in ids if name.startswith("recording-")]
-    assert drawn == ["backbone", "damping", "signal", "plane", "tracks"]
+    assert drawn == ["backbone", "growth", "signal", "plane", "tracks"]
     assert len(root.all("math")) == 3
 
 
@@ -236,7 +236,7 @@ def test_an_identification_shows_its_ranking_parameters_and_prediction(recording
     assert ranked[0][1:3] == ["0", "90.0 %"]
     assert _cells(root, "parameters")[0][:3] == ["k, natural frequency, in rad/s", "7.85", "7.8461 to 7.8539"]
     ids = {figure.attributes["id"] for figure in root.all("figure")}
-    assert ids >= {"identify-backbone", "identify-damping", "prediction-amplitude", "prediction-phase"}
+    assert ids >= {"identify-backbone", "identify-growth", "prediction-amplitude", "prediction-phase"}
 
 
 def test_an_identification_without_a_prediction_still_renders() -> None:
@@ -262,9 +262,8 @@ def test_a_recording_without_a_backbone_still_renders() -> None:
         backbone_amplitude=nothing,
         backbone_omega=nothing,
         backbone_omega_sd=nothing,
-        damping_amplitude=nothing,
-        damping=nothing,
-        damping_sd=nothing,
+        growth_rate=nothing,
+        growth_rate_sd=nothing,
         fit=None,
         notes=(),
     )

@@ -72,7 +72,7 @@ def test_bands_hold_the_backbone_and_grow_with_its_deviation(hardening: Identifi
     assert np.all(best.omega_low <= best.omega)
     assert np.mean((best.omega_low <= exact) & (exact <= best.omega_high)) > 0.5
     assert np.abs(best.omega / exact - 1).max() < 1e-3
-    assert np.all((best.damping_low < best.damping) & (best.damping < best.damping_high))
+    assert np.all((best.growth_rate_low < best.growth_rate) & (best.growth_rate < best.growth_rate_high))
 
 
 def test_a_result_is_frozen_and_json_knows_it(hardening: Identification) -> None:

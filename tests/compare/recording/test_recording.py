@@ -42,9 +42,9 @@ def test_the_backbone_is_that_of_the_oscillator(found):
     assert np.median(off[inside]) < 4
 
 
-def test_the_damping_is_found(found):
-    inside = found.damping_amplitude > 0.2
-    np.testing.assert_allclose(found.damping[inside], -0.06, rtol=0.12)
+def test_the_growth_rate_is_found(found):
+    inside = found.backbone_amplitude > 0.2
+    np.testing.assert_allclose(found.growth_rate[inside], -0.06, rtol=0.12)
 
 
 def test_theory_is_overlaid_at_the_measured_amplitude(found):

@@ -44,7 +44,7 @@ def test_json_holds_candidates_bands_and_the_measured_backbone(ridgeback: Ridgeb
     best = found["candidates"][0]
     assert best["name"] == "linear"
     assert {"equation", "parameters", "criterion", "delta", "weight", "residual", "note"} <= set(best)
-    assert len(best["amplitude"]) == len(best["omega_low"]) == len(best["damping_high"])
+    assert len(best["amplitude"]) == len(best["omega_low"]) == len(best["growth_rate_high"])
     assert len(found["data"]["omega_sd"]) == len(found["data"]["amplitude"])
     k = next(p for p in best["parameters"] if p["name"] == "k")
     assert abs(k["value"] - 6.0) < 4 * k["standard_deviation"] + 1e-3
