@@ -6,7 +6,6 @@ recording, which is then the truth by definition: its noise is replaced by noise
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -17,6 +16,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion.error_norms import Zones, zones
 from ridgeback.compare.motion.motion import Motion
+from ridgeback.compare.motion.paper_case import DURATION, paper_case
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.harmonics.cramer_rao import Order, local_bound
@@ -28,12 +28,12 @@ from ridgeback.numeric.motion.trajectory import Trajectory, integrate
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.windows import half_width
 from ridgeback.numeric.tracking.request import LAG_CYCLES
-from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
-PAPER_PARAMETERS = {"k": "12.566370614359172", "mu": "0.01"}
-PAPER_INITIAL = (0.95 * math.pi, 0.0)
-PAPER_DURATION, PAPER_RATE = 20.0, 32.0
+SMOOTH = "harmonic-least-squares"
+"""The estimator whose track makes the smooth model of a recording."""
+PAPER_RATE = 32.0
+"""Samples per second of the paper's case in noise: enough for the harmonics that the bound counts."""
 KNOT_WINDOWS = 1.0
 """Knots of a recording's smooth model, in windows of four cycles: what is rougher counts as its noise."""
 STRAIGHT = 2
@@ -105,16 +105,16 @@ class Truth:
         )
 
 
-def paper_truth(*, rate: float = PAPER_RATE, duration: float = PAPER_DURATION) -> Truth:
+def paper_truth(*, rate: float = PAPER_RATE, duration: float = DURATION) -> Truth:
     """The paper's damped pendulum from 0.95 pi at rest.
 
     >>> truth = paper_truth(duration=6.0)
     >>> truth.x.size, truth.signal.multiples[:2]
     (193, (1, 3))
     """
+    case = paper_case(duration=duration, rate=rate)
     title = "the paper's damped pendulum"
-    oscillator = find("pendulum").with_parameters(PAPER_PARAMETERS)
-    return oscillator_truth(oscillator, PAPER_INITIAL, duration=duration, rate=rate, title=title)
+    return oscillator_truth(case.oscillator, case.initial, duration=duration, rate=rate, title=title)
 
 
 def oscillator_truth(
@@ -160,15 +160,34 @@ def _integrated_truth(run: Trajectory, cycle: CycleFrequency, title: str, name: 
     )
 
 
-def recording_truth(x: Array, rate: float, *, start: float = 0.0, title: str = "the recording") -> Truth:
+def recording_truth(
+    x: Array, rate: float, *, start: float = 0.0, title: str = "the recording", omega: Array | None = None
+) -> Truth:
     """The smooth harmonic model of a recording: harmonic least squares, its residual left out.
 
-    Raises InputError for what harmonic least squares refuses.
+    Parameters
+    ----------
+    x
+        Samples, shape (n,).
+    rate
+        Samples per time unit.
+    start
+        Time of the first sample.
+    title
+        What the recording is called in a table.
+    omega
+        Its frequency at every sample by harmonic least squares, shape (n,), when that is known already.
+
+    Raises
+    ------
+    InputError
+        For what harmonic least squares refuses.
     """
-    track = estimate(x, rate, method="harmonic-least-squares", start=start, bias=False)
+    if omega is None:
+        omega = estimate(x, rate, method=SMOOTH, start=start, bias=False).omega
     what = "frequency of the recording's own smooth harmonic model, whose residual is replaced by white noise"
-    omega = smoothed(track.omega, rate, KNOT_WINDOWS * LAG_CYCLES * TWO_PI / float(np.median(track.omega)))
-    return _with_harmonics(title, what, np.asarray(x, dtype=np.float64), omega, rate, start, own=True)
+    smooth = smoothed(omega, rate, KNOT_WINDOWS * LAG_CYCLES * TWO_PI / float(np.median(omega)))
+    return _with_harmonics(title, what, np.asarray(x, dtype=np.float64), smooth, rate, start, own=True)
 
 
 def smoothed(omega: Array, rate: float, spacing: float) -> Array:

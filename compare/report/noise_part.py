@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress
-from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.noise.monte_carlo import monte_carlo
 from ridgeback.compare.noise.results import NoiseStudy
-from ridgeback.compare.noise.truth import motion_truth
-from ridgeback.numeric.recording.recording import Recording
+from ridgeback.compare.noise.truth import Truth
 
 TRIALS = 5
 """Noisy records a point: enough for a figure, whose bands say how well each point is known."""
@@ -27,13 +26,13 @@ class NoisePart:
     """A sentence; empty when there is a study, or when none was asked for."""
 
 
-def noise_part(source: Motion | Recording, trials: int, progress: Progress) -> NoisePart:
+def noise_part(truth: Callable[[], Truth], trials: int, progress: Progress) -> NoisePart:
     """The estimators in noise, within the budget of a report.
 
     Parameters
     ----------
-    source
-        An integrated motion, or a recording, whose own smooth model is then the truth.
+    truth
+        Makes the noise-free record with its true frequency; it may refuse.
     trials
         Noisy records a point; 0 for no study.
     progress
@@ -42,9 +41,8 @@ def noise_part(source: Motion | Recording, trials: int, progress: Progress) -> N
     if not trials:
         return NoisePart(None)
     try:
-        truth = motion_truth(source) if isinstance(source, Motion) else source
         study = monte_carlo(
-            truth,
+            truth(),
             methods=NOISE_METHODS,
             trials=trials,
             intervals=False,

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.identification.results import Identification
+from ridgeback.compare.noise.monte_carlo import truth_of
+from ridgeback.compare.noise.truth import SMOOTH, Truth
 from ridgeback.compare.recording.recording import compare_recording
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report import csv_tables as tables
@@ -74,7 +76,7 @@ def assemble_recording(
     with watch.stage("what made it", 0.3, 0.7) as inner:
         made = identification_part(recording, found, cycles, inner)
     with watch.stage("estimators in noise", 0.7, 1.0) as inner:
-        noise = noise_part(recording, trials, inner)
+        noise = noise_part(lambda: _truth(recording, found), trials, inner)
     progress(1.0, "done")
     left_out = tuple(reason for reason in (made.left_out, noise.left_out) if reason)
     settings = _settings(found, theory, {"cycles": cycles, "trials": trials})
@@ -106,6 +108,12 @@ def _read(
     if isinstance(source, Recording):
         return source
     return read_recording(source, column=column, time_column=time_column, rate=rate)
+
+
+def _truth(recording: Recording, found: RecordingComparison) -> Truth:
+    """The recording's own smooth model, from the track that the comparison made where that has every sample."""
+    known = [c.omega for c in found.curves if c.name == SMOOTH and c.time.size == recording.time.size]
+    return truth_of(recording, omega=known[0] if known else None)
 
 
 def _verdict(made: Identification | None) -> tuple[str, ...]:

@@ -14,6 +14,7 @@ from ridgeback.compare.motion.comparison import HIGH_ORDER, compare_decay
 from ridgeback.compare.motion.model_curves import LOW_ORDERS
 from ridgeback.compare.motion.motion import Setting, integrate_motion, setting
 from ridgeback.compare.motion.results import DecayComparison
+from ridgeback.compare.noise.truth import motion_truth
 from ridgeback.compare.report import csv_tables as tables
 from ridgeback.compare.report.noise_part import TRIALS, noise_part
 from ridgeback.compare.report.provenance import provenance
@@ -29,7 +30,6 @@ from ridgeback.compare.study.study import ranges, study_of
 from ridgeback.compare.study.timing import timings
 from ridgeback.compare.study.truncations import already_derived
 from ridgeback.numeric.arrays import Array
-from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.door import OscillatorLike
 
 ORDERS = (2, 4, 6, 8, 10, 12, 16, 20, 30, 40)
@@ -38,19 +38,6 @@ CYCLE_ORDERS = (2, 4, 6, 8, 12, 16, 20, 30, 48)
 AMPLITUDES = 49
 CYCLE_STRENGTHS = np.linspace(0.2, 2.6, 13)
 ORDER, TARGET = 8, 1e-3
-
-# The paper's case: k = 4 pi to the last digit of a double, mu = 0.01, theta(0) = 0.95 pi at rest, 20 s.
-PAPER_PARAMETERS = {"k": "12.566370614359172", "mu": "0.01"}
-
-
-def paper_case() -> Setting:
-    """Return the paper's damped pendulum: k = 4 pi, mu = 0.01, theta(0) = 0.95 pi at rest, 0 .. 20 s at 64 Hz.
-
-    >>> paper_case().duration, paper_case().is_pendulum
-    (20.0, True)
-    """
-    oscillator = find("damped-pendulum").with_parameters(PAPER_PARAMETERS)
-    return setting(oscillator, initial=(0.95 * np.pi, 0.0), duration=20.0, rate=64.0, time_unit="s")
 
 
 @dataclass(frozen=True)
@@ -138,7 +125,7 @@ def assemble_system(
     with watch.stage("every estimator", 0.5, 0.7) as inner:
         ranked = standings(decay, progress=inner)
     with watch.stage("estimators in noise", 0.7, 0.97) as inner:
-        noise = noise_part(motion, trials, inner)
+        noise = noise_part(lambda: motion_truth(motion), trials, inner)
     with watch.stage("evaluation time", 0.97, 1.0):
         times = _timings(derived, plan)
     progress(1.0, "done")

@@ -172,7 +172,7 @@ def of_motion(motion: Motion, scope: Scope, shown: str, progress: Progress) -> R
 def setting_of(motion: Motion) -> Setting:
     """The motion asked for; without a system the paper's, with whatever was said changed."""
     from ridgeback.compare.motion.motion import setting
-    from ridgeback.compare.report.system_report import paper_case
+    from ridgeback.compare.motion.paper_case import paper_case
 
     if motion.choice.made:
         return setting(motion.choice.oscillator(), initial=motion.initial, duration=motion.duration, rate=motion.rate)

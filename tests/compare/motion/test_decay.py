@@ -6,9 +6,9 @@ import pytest
 from ridgeback.common.errors import InputError
 from ridgeback.compare.motion.comparison import compare_decay
 from ridgeback.compare.motion.motion import integrate_motion, setting
+from ridgeback.compare.motion.paper_case import paper_case
 from ridgeback.compare.motion.reconstruction import known_motion
 from ridgeback.compare.motion.results import BiasCause
-from ridgeback.compare.report.system_report import paper_case
 from ridgeback.symbolic.systems.catalogue import find
 
 

@@ -14,12 +14,14 @@ from ridgeback.common.progress import silent
 from ridgeback.common.quantities import amplitude
 from ridgeback.compare.motion import motion
 from ridgeback.compare.motion.motion import setting
+from ridgeback.compare.motion.paper_case import paper_case
 from ridgeback.compare.noise import truth
+from ridgeback.compare.noise.monte_carlo import truth_of
 from ridgeback.compare.report.noise_part import NoisePart, noise_part
 from ridgeback.compare.report.provenance import settings_hash
 from ridgeback.compare.report.recording_report import assemble_recording
 from ridgeback.compare.report.results import Report
-from ridgeback.compare.report.system_report import assemble_system, paper_case
+from ridgeback.compare.report.system_report import assemble_system
 from ridgeback.compare.study import derived, truncations
 from ridgeback.compare.study.study import ranges
 from ridgeback.numeric.estimators.estimate import METHODS
@@ -68,7 +70,7 @@ def test_a_noise_study_over_its_budget_is_refused_with_a_reason_for_motions_and_
     swing = motion.integrate_motion(setting(find("damped-pendulum"), initial=(1.0, 0.0), duration=60.0, rate=4.0))
     run = swing.trajectory
     recording = Recording(run.time, run.u, run.rate, "u", "rad", "run.csv", "")
-    for source in (swing, recording):
+    for source in (lambda: truth.motion_truth(swing), lambda: truth_of(recording)):
         part = noise_part(source, 100_000, silent)
         assert part.study is None
         assert "over the budget of 120 s" in part.left_out

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from ridgeback.compare.report.system_report import paper_case
+from ridgeback.compare.motion.paper_case import paper_case
 from ridgeback.console.failure import PartialError
 from ridgeback.options.system import Choice
 from ridgeback.verbs import report
