@@ -6,31 +6,22 @@ reaches it but through a whitelist of characters, and the files have names of ou
 
 from __future__ import annotations
 
-import ctypes
 import importlib.util
 import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from importlib.abc import InspectLoader
 from pathlib import Path
 from types import ModuleType
 from typing import Literal
 
-import numpy as np
-
-from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.codegen import generate
 from ridgeback.symbolic.codegen.languages.registry import find_language
 from ridgeback.symbolic.codegen.program import Form
 from ridgeback.symbolic.expansion.expansion import Expansion
 
-Vectorised = Callable[[Array], Array]
-COMPILERS = ("cc", "gcc", "clang")
-_FLAGS = ("-O3", "-std=c99", "-shared", "-fPIC", "-ffp-contract=off")
 SECONDS = 120
 """A build or a check that takes longer is given up."""
 OWN = "generated"
@@ -121,48 +112,26 @@ def _last_line(done: subprocess.CompletedProcess[str]) -> str:
     return (lines[-1] if lines else f"exit code {done.returncode}").strip()[:200]
 
 
-@contextmanager
-def python_module(expansion: Expansion) -> Iterator[ModuleType]:
-    """Write the generated Python to a temporary file and import it from there, for the time of the block."""
-    with tempfile.TemporaryDirectory(prefix="ridgeback-") as folder:
-        path = Path(folder) / f"{OWN}.py"
-        path.write_text(generate(expansion, "python"), encoding="utf-8")
-        specification = importlib.util.spec_from_file_location("ridgeback_generated", path)
-        if specification is None or specification.loader is None:
-            raise InputError(f"{path} cannot be imported as a module")
-        module = importlib.util.module_from_spec(specification)
-        specification.loader.exec_module(module)
-        yield module
+class _Generated(InspectLoader):
+    """The generated Python as a module's source, without a file."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+    def get_source(self, fullname: str) -> str:  # noqa: ARG002
+        """The text, whatever the module is called."""
+        return self.text
 
 
-def compiler() -> str | None:
-    """Path of a C compiler, or None."""
-    return next((path for name in COMPILERS if (path := shutil.which(name))), None)
+def python_module(expansion: Expansion) -> ModuleType:
+    """The generated Python as a module.
 
-
-def compiled(expansion: Expansion, folder: Path) -> Vectorised | None:
-    """Compile the generated C in ``folder`` and return its omega0 over arrays; None where it cannot be had.
-
-    The shared library stays loaded for the life of the process.
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> python_module(lindstedt(find("duffing"), 2)).omega0(0.0)
+    1.0
     """
-    program = compiler()
-    if program is None:
-        return None
-    source, library = folder / f"{OWN}.c", folder / f"{OWN}.so"
-    source.write_text(generate(expansion, "c", name=OWN), encoding="utf-8")
-    done = _run((program, *_FLAGS, str(source), "-o", str(library), "-lm"), folder)
-    return _loaded(library, float(expansion.scale)) if done.returncode == 0 else None
-
-
-def _loaded(library: Path, k: float) -> Vectorised:
-    fill = getattr(ctypes.CDLL(str(library)), f"{OWN}_omega0_array")
-    pointer = np.ctypeslib.ndpointer(dtype=np.float64, ndim=1, flags="C_CONTIGUOUS")
-    fill.argtypes, fill.restype = [pointer, pointer, ctypes.c_size_t, ctypes.c_double], None
-
-    def values(x: Array) -> Array:
-        given = np.ascontiguousarray(x, dtype=np.float64)
-        out = np.empty_like(given)
-        fill(given, out, given.size, k)
-        return out
-
-    return values
+    loader = _Generated(generate(expansion, "python"))
+    module = ModuleType("ridgeback_generated")
+    loader.exec_module(module)
+    return module

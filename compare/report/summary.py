@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -91,10 +92,11 @@ def _worst_card(study: Study, order: int) -> Card:
 
 
 def _cost_card(timings: Sequence[Timing]) -> Card:
-    if not timings:
+    timed = [item for item in timings if math.isfinite(item.nanoseconds)]
+    if not timed:
         return Card("Cost", "not measured", "No evaluation time was taken in this run.")
-    best = min(timings, key=lambda item: item.nanoseconds)
-    others = [item for item in timings if item is not best]
+    best = min(timed, key=lambda item: item.nanoseconds)
+    others = [item for item in timed if item is not best]
     listed = "; ".join(f"{item.name} {nanoseconds(item.nanoseconds)}" for item in others)
     text = f"{_capital(best.name)}, {best.note}." + (f"  For comparison: {listed}." if listed else "")
     return Card("Cost per value", nanoseconds(best.nanoseconds), text)

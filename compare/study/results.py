@@ -147,7 +147,7 @@ class Certified:
 
 @dataclass(frozen=True)
 class Timing:
-    """Median time of one evaluation over an array, in nanoseconds per value, with its spread."""
+    """Median time of one evaluation over an array, in nanoseconds per value, with its spread; NaN where not timed."""
 
     name: str
     nanoseconds: float

@@ -5,15 +5,15 @@ Medians over repeats, with the lower and upper quartile: on a shared machine the
 
 from __future__ import annotations
 
-import tempfile
+import math
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
-from ridgeback.compare.binding.generated_code import compiled, python_module
+from ridgeback.compare.binding.compiled_code import NotCompiled, compiled
+from ridgeback.compare.binding.generated_code import python_module
 from ridgeback.compare.study.results import Timing
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics
@@ -28,7 +28,7 @@ SERIES_TERMS = (3, 20)
 def timings(
     expansion: Expansion, dynamics: Dynamics, *, upper: float, pendulum: bool, values: int = VALUES
 ) -> tuple[Timing, ...]:
-    """Time every way to omega0 on one array of arguments.
+    """Time every way to omega0 on one array of arguments; where compiled C cannot be had, its row says why instead.
 
     Parameters
     ----------
@@ -57,32 +57,33 @@ def timings(
 
 def _candidates(
     expansion: Expansion, dynamics: Dynamics, *, pendulum: bool
-) -> Iterator[tuple[str, Callable[[Array], object], str]]:
+) -> Iterator[tuple[str, Callable[[Array], object] | NotCompiled, str]]:
     order = f"order {expansion.order}"
-    with tempfile.TemporaryDirectory(prefix="ridgeback-") as folder, python_module(expansion) as module:
-        native = compiled(expansion, Path(folder))
-        if native is not None:
-            yield "generated C", native, f"{order}, compiled with -O2"
-        yield "generated Python, NumPy array", module.omega0, order
-        yield "generated Python, one float at a time", _one_by_one(module.omega0), order
-        if pendulum:
-            k = dynamics.natural_frequency
-            for terms in SERIES_TERMS:
-                yield f"series (14), {terms} terms", partial(series_frequency, k=k, terms=terms), "NumPy array"
-        if dynamics.closed_form is not None and expansion.variable == "A":
-            yield "closed form (agm)", dynamics.closed_form, "NumPy array"
+    with compiled(expansion) as native:
+        yield "generated C", native, f"{order}, compiled with -O3"
+    module = python_module(expansion)
+    yield "generated Python, NumPy array", module.omega0, order
+    yield "generated Python, one float at a time", _one_by_one(module.omega0), order
+    if pendulum:
+        k = dynamics.natural_frequency
+        for terms in SERIES_TERMS:
+            yield f"series (14), {terms} terms", partial(series_frequency, k=k, terms=terms), "NumPy array"
+    if dynamics.closed_form is not None and expansion.variable == "A":
+        yield "closed form (agm)", dynamics.closed_form, "NumPy array"
 
 
 def _one_by_one(function: Callable[[float], float]) -> Callable[[Array], object]:
     return lambda x: [function(value) for value in x.tolist()]
 
 
-def measure(name: str, function: Callable[[Array], object], x: Array, *, note: str = "") -> Timing:
+def measure(name: str, function: Callable[[Array], object] | NotCompiled, x: Array, *, note: str = "") -> Timing:
     """Median time per value over repeats, after one call that is not counted.
 
     >>> measure("square", np.square, np.ones(64)).nanoseconds > 0
     True
     """
+    if isinstance(function, NotCompiled):
+        return Timing(name, math.nan, math.nan, math.nan, x.size, f"not timed: {function.reason}")
     function(x)
     laps = [_lap(function, x) for _ in range(REPEATS)]
     low, middle, high = np.percentile(laps, (25, 50, 75)) / x.size

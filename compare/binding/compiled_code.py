@@ -1,0 +1,107 @@
+"""The generated C of an expansion, compiled and loaded where this machine can; what cannot be had is said, not raised.
+
+The text that is loaded here was written by ``symbolic.codegen`` from exact numbers a moment before, under names of our
+own.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import shutil
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from subprocess import DEVNULL, Popen, TimeoutExpired
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from ridgeback.compare.binding.generated_code import OWN
+from ridgeback.numeric.arrays import Array
+from ridgeback.symbolic.codegen import generate
+from ridgeback.symbolic.expansion.expansion import Expansion
+
+Vectorised = Callable[[Array], Array]
+COMPILERS = ("cc", "gcc", "clang")
+PATIENCE = 20.0
+"""Seconds that a compiler may take for a page of C."""
+_FLAGS = ("-O3", "-std=c99", "-shared", "-fPIC", "-ffp-contract=off")
+
+
+@dataclass(frozen=True)
+class NotCompiled:
+    """Why there is no compiled function: a part of a sentence."""
+
+    reason: str
+
+
+def compiler() -> str | None:
+    """Path of a C compiler, or None."""
+    return next((path for name in COMPILERS if (path := shutil.which(name))), None)
+
+
+@contextmanager
+def compiled(expansion: Expansion) -> Iterator[Vectorised | NotCompiled]:
+    """The omega0 of the generated C over arrays, or why it cannot be had; nothing that goes wrong here is raised.
+
+    It is compiled in a temporary folder that is removed after the block; the library stays loaded until the process
+    ends.
+    """
+    with ExitStack() as stack:
+        yield _compiled(expansion, stack)
+
+
+def _compiled(expansion: Expansion, stack: ExitStack) -> Vectorised | NotCompiled:
+    program = compiler()
+    if program is None:
+        return NotCompiled("there is no C compiler")
+    try:
+        folder = Path(stack.enter_context(TemporaryDirectory(prefix="ridgeback-", ignore_cleanup_errors=True)))
+        source, library = folder / f"{OWN}.c", folder / f"{OWN}.so"
+        source.write_text(generate(expansion, "c", name=OWN), encoding="utf-8")
+        code = _finished([program, *_FLAGS, str(source), "-o", str(library), "-lm"])
+        if code is None:
+            return NotCompiled(f"the C compiler did not finish within {PATIENCE:g} s")
+        return _loaded(library, float(expansion.scale)) if code == 0 else NotCompiled("the C compiler failed")
+    except (OSError, AttributeError, ValueError) as error:
+        return NotCompiled(f"the temporary folder does not serve for compiled code ({' '.join(str(error).split())})")
+
+
+def _finished(command: list[str]) -> int | None:
+    """The exit code of a program; None when it hangs, after which it and what it started are ended."""
+    with Popen(  # noqa: S603 - our own arguments
+        command, stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL, start_new_session=True
+    ) as process:
+        try:
+            return process.wait(PATIENCE)
+        except TimeoutExpired:
+            return None
+        finally:
+            if process.returncode is None:
+                _end_group(process)
+
+
+def _end_group(process: Popen[bytes]) -> None:
+    """End a process and all that it started."""
+    with suppress(ProcessLookupError):
+        if hasattr(os, "killpg"):
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
+
+
+def _loaded(library: Path, k: float) -> Vectorised:
+    fill = getattr(ctypes.CDLL(str(library)), f"{OWN}_omega0_array")
+    pointer = np.ctypeslib.ndpointer(dtype=np.float64, ndim=1, flags="C_CONTIGUOUS")
+    fill.argtypes, fill.restype = [pointer, pointer, ctypes.c_size_t, ctypes.c_double], None
+
+    def values(x: Array) -> Array:
+        given = np.ascontiguousarray(x, dtype=np.float64)
+        out = np.empty_like(given)
+        fill(given, out, given.size, k)
+        return out
+
+    return values
