@@ -16,7 +16,7 @@ from ridgeback.reports.text.mathml import FormulaError, mathml
 WARN_BYTES = 2_000_000
 
 
-def render(report: Report) -> str:
+def html_page(report: Report) -> str:
     """The whole page of a report as HTML; the same report gives the same bytes.
 
     The page's only script is admitted by its hash, so that markup smuggled in through a name could not run

@@ -1,9 +1,11 @@
 """Ridgeback: the ridge of a time-frequency distribution against the backbone of perturbation theory.
 
-The public names, each imported from its room on first use, so that ``import ridgeback`` costs nothing:
+Each public name is imported from its room on first use, so that ``import ridgeback`` costs nothing.  An oscillator may
+be named in any way: a name of the catalogue, an equation as text, a SymPy equation, a TOML path.  A signal is a list,
+an array, a masked array, a pandas or xarray object, a recording or a file.
 
 >>> import ridgeback
->>> ridgeback.lindstedt(ridgeback.find("pendulum"), 4).frequency
+>>> ridgeback.lindstedt("pendulum", 4).frequency
 (1, 0, -1/16, 0, 1/3072)
 """
 
@@ -12,29 +14,55 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-if TYPE_CHECKING:
+from ridgeback.public import BY_NAME as _BY_NAME
+from ridgeback.public import contents as _contents
+from ridgeback.public import home as _home
+
+if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types; a test holds the two together
+    from ridgeback.common.errors import InputError as InputError
     from ridgeback.compare.binding.bind import bind as bind
-    from ridgeback.compare.binding.family import family as family
-    from ridgeback.compare.identification.identify import identify as identify
-    from ridgeback.compare.identification.prediction import predict as predict
-    from ridgeback.compare.recording.survey import survey as survey
-    from ridgeback.compare.report.recording_report import assemble_recording as assemble_recording
-    from ridgeback.compare.report.system_report import assemble_system as assemble_system
-    from ridgeback.compare.study.study import study as study
-    from ridgeback.numeric.backbone.backbone import backbone as backbone
-    from ridgeback.numeric.backbone.half_cycles import half_cycles as half_cycles
-    from ridgeback.numeric.estimators.estimate import estimate as estimate
-    from ridgeback.numeric.model_fit.fit import model_fit as model_fit
+    from ridgeback.compare.identification.results import Identification as Identification
+    from ridgeback.compare.recording.survey import measure_recordings as measure_recordings
+    from ridgeback.compare.report.results import Report as Report
+    from ridgeback.compare.study.certified import certified_rows as certified_rows
+    from ridgeback.compare.study.results import Study as Study
+    from ridgeback.interface.derive import derive as derive
+    from ridgeback.interface.derive import generate as generate
+    from ridgeback.interface.estimate import backbone as backbone
+    from ridgeback.interface.estimate import estimate as estimate
+    from ridgeback.interface.estimate import half_cycles as half_cycles
+    from ridgeback.interface.estimate import model_fit as model_fit
+    from ridgeback.interface.identify import identify as identify
+    from ridgeback.interface.identify import predict as predict
+    from ridgeback.interface.report import report as report
+    from ridgeback.interface.report import study as study
+    from ridgeback.interface.simulate import simulate as simulate
+    from ridgeback.numeric.backbone.curve import Backbone as Backbone
+    from ridgeback.numeric.backbone.half_cycles import HalfCycles as HalfCycles
+    from ridgeback.numeric.distributions.cross_wigner import cross_wigner as cross_wigner
+    from ridgeback.numeric.distributions.distribution import Distribution as Distribution
+    from ridgeback.numeric.distributions.plane_ridge import ridge as ridge
+    from ridgeback.numeric.distributions.polynomial_wigner import polynomial_wigner as polynomial_wigner
+    from ridgeback.numeric.distributions.reassigned_spectrogram import reassigned_spectrogram as reassigned_spectrogram
+    from ridgeback.numeric.distributions.reassigned_spectrogram import (
+        synchrosqueezed_spectrogram as synchrosqueezed_spectrogram,
+    )
+    from ridgeback.numeric.distributions.spectrogram import spectrogram as spectrogram
+    from ridgeback.numeric.distributions.wigner import pseudo_wigner as pseudo_wigner
+    from ridgeback.numeric.distributions.wigner import smoothed_pseudo_wigner as smoothed_pseudo_wigner
+    from ridgeback.numeric.distributions.wigner import wigner as wigner
+    from ridgeback.numeric.model_fit.fit import ModelFit as ModelFit
     from ridgeback.numeric.motion.dynamics import Dynamics as Dynamics
     from ridgeback.numeric.motion.trajectory import Trajectory as Trajectory
-    from ridgeback.numeric.motion.trajectory import integrate as integrate
+    from ridgeback.numeric.recording.recording import Recording as Recording
     from ridgeback.numeric.recording.recording import read_recording as read_recording
     from ridgeback.numeric.recording.recording import read_recordings as read_recordings
+    from ridgeback.numeric.recording.recording import recordings_from_arrays as recordings_from_arrays
     from ridgeback.numeric.tracking.track import Track as Track
-    from ridgeback.reports.page import render as render
-    from ridgeback.symbolic.certificates.at_amplitudes import readings as readings
-    from ridgeback.symbolic.codegen import generate as generate
+    from ridgeback.symbolic.certificates.at_amplitudes import certified_frequencies as certified_frequencies
+    from ridgeback.symbolic.certificates.certificate import certify as certify
     from ridgeback.symbolic.enclosure.enclosure import enclose as enclose
+    from ridgeback.symbolic.expansion.cost import Budget as Budget
     from ridgeback.symbolic.expansion.energy_integral import energy_integral as energy_integral
     from ridgeback.symbolic.expansion.expansion import Expansion as Expansion
     from ridgeback.symbolic.expansion.lindstedt import lindstedt as lindstedt
@@ -42,48 +70,16 @@ if TYPE_CHECKING:
     from ridgeback.symbolic.flow.slow_flow import SlowFlow as SlowFlow
     from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes as lindstedt_by_primes
     from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls as lindstedt_in_balls
-    from ridgeback.symbolic.resummation.by_name import resummed as resummed
+    from ridgeback.symbolic.resummation.by_name import resum as resum
+    from ridgeback.symbolic.singularities.limits import settled_limits as limits  # noqa: F401
     from ridgeback.symbolic.systems.catalogue import catalogue as catalogue
-    from ridgeback.symbolic.systems.catalogue import find as find
+    from ridgeback.symbolic.systems.door import as_oscillator as oscillator  # noqa: F401
     from ridgeback.symbolic.systems.oscillator import Oscillator as Oscillator
 
     __version__: str
 
-HOMES = {
-    "Dynamics": "ridgeback.numeric.motion.dynamics",
-    "Expansion": "ridgeback.symbolic.expansion.expansion",
-    "Oscillator": "ridgeback.symbolic.systems.oscillator",
-    "SlowFlow": "ridgeback.symbolic.flow.slow_flow",
-    "Track": "ridgeback.numeric.tracking.track",
-    "Trajectory": "ridgeback.numeric.motion.trajectory",
-    "assemble_recording": "ridgeback.compare.report.recording_report",
-    "assemble_system": "ridgeback.compare.report.system_report",
-    "backbone": "ridgeback.numeric.backbone.backbone",
-    "bind": "ridgeback.compare.binding.bind",
-    "catalogue": "ridgeback.symbolic.systems.catalogue",
-    "enclose": "ridgeback.symbolic.enclosure.enclosure",
-    "energy_integral": "ridgeback.symbolic.expansion.energy_integral",
-    "estimate": "ridgeback.numeric.estimators.estimate",
-    "family": "ridgeback.compare.binding.family",
-    "find": "ridgeback.symbolic.systems.catalogue",
-    "generate": "ridgeback.symbolic.codegen",
-    "identify": "ridgeback.compare.identification.identify",
-    "integrate": "ridgeback.numeric.motion.trajectory",
-    "lindstedt": "ridgeback.symbolic.expansion.lindstedt",
-    "lindstedt_by_primes": "ridgeback.symbolic.high_order.by_primes",
-    "lindstedt_in_balls": "ridgeback.symbolic.high_order.in_balls",
-    "model_fit": "ridgeback.numeric.model_fit.fit",
-    "multiple_scales": "ridgeback.symbolic.flow.multiple_scales",
-    "half_cycles": "ridgeback.numeric.backbone.half_cycles",
-    "predict": "ridgeback.compare.identification.prediction",
-    "read_recording": "ridgeback.numeric.recording.recording",
-    "read_recordings": "ridgeback.numeric.recording.recording",
-    "survey": "ridgeback.compare.recording.survey",
-    "readings": "ridgeback.symbolic.certificates.at_amplitudes",
-    "render": "ridgeback.reports.page",
-    "resummed": "ridgeback.symbolic.resummation.by_name",
-    "study": "ridgeback.compare.study.study",
-}
+__all__ = sorted([*_BY_NAME, "__version__"])  # noqa: PLE0605 - made of the table
+__doc__ = f"{__doc__ or ''}\n{_contents()}\n"
 
 
 def __getattr__(name: str) -> Any:
@@ -99,8 +95,9 @@ def __getattr__(name: str) -> Any:
         from importlib.metadata import version
 
         value: Any = version("ridgeback")
-    elif name in HOMES:
-        value = getattr(import_module(HOMES[name]), name)
+    elif name in _BY_NAME:
+        module, attribute = _home(_BY_NAME[name])
+        value = getattr(import_module(module), attribute)
     else:
         raise AttributeError(f"module 'ridgeback' has no attribute {name!r}")
     globals()[name] = value
@@ -108,4 +105,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *HOMES, "__version__"})
+    return sorted([*__all__, "__doc__", "__name__", "__file__", "__path__", "__all__"])

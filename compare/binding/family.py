@@ -21,13 +21,13 @@ START = 1.0
 """Where a free parameter begins that has no value."""
 
 
-def family(oscillator: OscillatorLike, free: Sequence[str]) -> Family:
+def family_of(oscillator: OscillatorLike, free: Sequence[str]) -> Family:
     """Free the named parameters of an oscillator; their present values are where a fit begins.
 
     Raises InputError for unknown names, for none or one twice, and for another parameter that has no number.
 
     >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> pendulum = family(find("pendulum").with_parameters({"k": 2, "mu": "0.1"}), ("k", "mu"))
+    >>> pendulum = family_of(find("pendulum").with_parameters({"k": 2, "mu": "0.1"}), ("k", "mu"))
     >>> pendulum.start.tolist(), pendulum.force(0.0, 1.0, (2.0, 0.1)), pendulum.partials(0.0, 1.0, (2.0, 0.1))
     ([2.0, 0.1], 0.2, (4.0, 0.2, 0.0, 2.0))
     """

@@ -20,7 +20,7 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.slow_flow import Flow, Motion, ScaledOrbits, decay_flow, motion
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.reconstruction import Reconstruction
-from ridgeback.symbolic.flow.slow_flow import Term
+from ridgeback.symbolic.flow.term import Term
 from ridgeback.symbolic.systems.catalogue import find
 
 Described = tuple[str, float, str, str]

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, fields
 import numpy as np
 
 from ridgeback.compare.identification.candidates import DampingLaw
+from ridgeback.compare.identification.shown import ShownIdentification
 from ridgeback.numeric.arrays import Array, freeze
 
 NORMAL_95 = 1.959963984540054
@@ -148,8 +149,8 @@ class Prediction(_Values):
     note: str = ""
 
 
-@dataclass(frozen=True)
-class Identification(_Values):
+@dataclass(frozen=True, repr=False)
+class Identification(ShownIdentification, _Values):
     """Candidates, best first, of one recording."""
 
     source: str

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
-from ridgeback.compare.binding.family import family
+from ridgeback.compare.binding.family import family_of
 from ridgeback.compare.noise.results import NoiseCell, NoiseStudy, Trial, Window, cell_of
 from ridgeback.compare.noise.truth import STRAIGHT, Truth, paper_truth, recording_truth
 from ridgeback.numeric.arrays import Array, Mask
@@ -219,18 +219,18 @@ def attempt(truth: Truth, x: Array, method: str, options: Mapping[str, object]) 
     name, _, scope = method.partition("/")
     try:
         if name == MODEL_FIT:
-            return estimate(x, truth.rate, method=name, start=truth.start, family=family_of(truth))
+            return estimate(x, truth.rate, method=name, start=truth.start, family=fitted_family(truth))
         more = {"scope": scope} if scope else {}
         return estimate(x, truth.rate, method=name, start=truth.start, **options, **more)  # type: ignore[arg-type]
     except InputError as refusal:
         return refusal
 
 
-def family_of(truth: Truth) -> Family:
+def fitted_family(truth: Truth) -> Family:
     """The oscillator that model-fit fits; InputError when the study names none."""
     if truth.oscillator is None:
         raise InputError(f"{MODEL_FIT} needs an oscillator; name it and its free parameters, or leave the method out")
-    return family(truth.oscillator, truth.free)
+    return family_of(truth.oscillator, truth.free)
 
 
 def noisy(truth: Truth, snr_db: float, seed: int, trial: int) -> Array:

@@ -216,7 +216,7 @@ def marked(recording: Recording) -> Mask | None:
     return recording.clipped if recording.clipped.any() else None
 
 
-def survey(
+def measure_recordings(
     recordings: Sequence[Recording],
     *,
     combine_over: str = "runs",

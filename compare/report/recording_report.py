@@ -23,7 +23,7 @@ from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 
-def assemble_recording(
+def recording_report(
     source: str | Path | Recording,
     *,
     column: str | int | None = None,

@@ -9,6 +9,7 @@ from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.motion.results import DecayComparison
 from ridgeback.compare.noise.results import NoiseStudy
 from ridgeback.compare.recording.results import RecordingComparison
+from ridgeback.compare.report.shown import ShownReport
 from ridgeback.compare.study.results import Certified, Derivation, Range, Study, Timing
 
 
@@ -55,8 +56,8 @@ class Provenance:
     seconds: Mapping[str, float] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
-class Report:
+@dataclass(frozen=True, repr=False)
+class Report(ShownReport):
     """All that the page shows; parts that a run does not have are None."""
 
     title: str
@@ -82,3 +83,7 @@ class Report:
     """File name to CSV text, for the download links."""
     finding: Range | None = None
     """The range of use that the title states and the figures mark; None: the first of ``ranges``."""
+
+    def findings(self) -> tuple[tuple[str, str, str], ...]:
+        """The cards."""
+        return tuple((card.heading, card.value, card.text) for card in self.cards)

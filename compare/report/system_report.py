@@ -69,7 +69,7 @@ class Plan:
         }
 
 
-def assemble_system(
+def system_report(
     chosen: Setting | OscillatorLike,
     *,
     order: int = ORDER,

@@ -16,7 +16,8 @@ from ridgeback.compare.study.results import Checked, Derivation, Formula
 from ridgeback.symbolic.certificates.certificate import Check, certify
 from ridgeback.symbolic.codegen import generate
 from ridgeback.symbolic.expansion.expansion import Expansion
-from ridgeback.symbolic.flow.slow_flow import SlowFlow, Term
+from ridgeback.symbolic.flow.slow_flow import SlowFlow
+from ridgeback.symbolic.flow.term import Term
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 MAX_HARMONICS = 3

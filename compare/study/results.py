@@ -13,6 +13,7 @@ from enum import Enum
 
 import numpy as np
 
+from ridgeback.compare.study.shown import ShownStudy
 from ridgeback.numeric.arrays import Array
 
 
@@ -64,8 +65,8 @@ class Formula:
     python: str = ""
 
 
-@dataclass(frozen=True)
-class Study:
+@dataclass(frozen=True, repr=False)
+class Study(ShownStudy):
     """Error of truncated expansions over order and amplitude; grids are ``[order, amplitude]``."""
 
     system: str

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.study.derived import Undamped, without_damping
 from ridgeback.compare.study.reference import (
     Reference,
@@ -54,6 +55,7 @@ def study(
     *,
     method: str = "lindstedt",
     values: Mapping[str, Value] | None = None,
+    progress: Progress = silent,
 ) -> Study:
     """Error of ``omega0`` against the exact frequency over a grid of orders and amplitudes.
 
@@ -70,6 +72,8 @@ def study(
         Which series is truncated: ``lindstedt``, ``energy-integral`` or ``multiple-scales``.
     values
         Parameters to set first, by name.
+    progress
+        Told the share of the work that is done, and the step.
 
     Returns
     -------
@@ -91,17 +95,25 @@ def study(
     """
     oscillator = as_oscillator(oscillator)
     rest = without_damping(oscillator.with_parameters(values) if values else oscillator)
-    return study_of(rest, orders, amplitudes, method=method, truncate=_method(method))
+    return study_of(rest, orders, amplitudes, method=method, truncate=_method(method), progress=progress)
 
 
 def study_of(
-    rest: Undamped, orders: Sequence[int], amplitudes: ArrayLike, *, truncate: Method, method: str = "lindstedt"
+    rest: Undamped,
+    orders: Sequence[int],
+    amplitudes: ArrayLike,
+    *,
+    truncate: Method,
+    method: str = "lindstedt",
+    progress: Progress = silent,
 ) -> Study:
     """The same for an oscillator whose damping is left out already, ``truncate`` giving the series of ``method``."""
     bound = rest.oscillator
     kept, grid = _checked_orders(orders), _checked_amplitudes(amplitudes)
     _check_size(len(kept), grid.size, limit_cycle=bound.kind == "limit-cycle")
+    progress(0.0, "exact frequencies")
     limit, exact = _reference(rest, grid)
+    progress(0.5, f"expansion to order {max(kept)}")
     series = truncate(rest, kept, grid)
     return Study(
         system=bound.name,

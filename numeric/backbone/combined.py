@@ -19,11 +19,12 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, freeze
 from ridgeback.numeric.backbone.curve import MOST_BINS, Backbone
+from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.signal.samples import TWO_PI
 
 
-@dataclass(frozen=True)
-class CombinedBackbone:
+@dataclass(frozen=True, repr=False)
+class CombinedBackbone(ShownBackbone):
     """The common curve: amplitude, omega and a'/a with the standard deviations of the means.
 
     ``omega_between`` and ``damping_between`` are the standard deviations between the runs beyond their own errors, NaN
@@ -40,9 +41,15 @@ class CombinedBackbone:
     runs: Array
     labels: tuple[str, ...]
     definition: str
+    units: str = ""
+    """Unit of the signal, where it is known."""
 
     def __post_init__(self) -> None:
         freeze(self)
+
+    def along(self) -> Curve:
+        """The curve that is drawn."""
+        return Curve(self.amplitude, self.omega, self.omega_sd)
 
     def rows(self) -> list[dict[str, float]]:
         """One row per amplitude, named as those of a Backbone, with the scatter between runs."""

@@ -10,13 +10,14 @@ from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from ridgeback.numeric.arrays import Array, Mask, freeze
+from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.signal.samples import TWO_PI
 
 MOST_BINS = 24
 
 
-@dataclass(frozen=True)
-class Backbone:
+@dataclass(frozen=True, repr=False)
+class Backbone(ShownBackbone):
     """omega0 and a'/a against the amplitude a; ``definition`` says which amplitude, "fundamental" or "peak".
 
     Along time: ``time, amplitude, omega, damping`` (a'/a per time unit, negative in a decay) with one-sigma ``_sd``,
@@ -43,9 +44,15 @@ class Backbone:
     definition: str = "fundamental"
     settings: Mapping[str, object] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    units: str = ""
+    """Unit of the signal, where it is known."""
 
     def __post_init__(self) -> None:
         freeze(self)
+
+    def along(self) -> Curve:
+        """The curve that is drawn."""
+        return Curve(self.curve_amplitude, self.curve_omega, self.curve_omega_sd)
 
     def rows(self) -> list[dict[str, float]]:
         """One row per point of the curve: amplitude, omega, frequency and damping with their standard deviations."""

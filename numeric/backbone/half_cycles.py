@@ -25,6 +25,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask, freeze
 from ridgeback.numeric.backbone.backbone import CLEAR
 from ridgeback.numeric.backbone.curve import Backbone, Crowding, Points, assemble
+from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.estimators.zero_crossing import crossing_samples, interpolate
 from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
 from ridgeback.numeric.signal.samples import TWO_PI
@@ -36,8 +37,8 @@ DEGREE = 4
 FEWEST = 6
 
 
-@dataclass(frozen=True)
-class HalfCycles:
+@dataclass(frozen=True, repr=False)
+class HalfCycles(ShownBackbone):
     """One value per half cycle, at the middle between its crossings; ``side`` is 1 above zero, -1 below.
 
     ``amplitude`` has the definition ``peak``; ``damping`` is a'/a, NaN in the first and the last half cycle.
@@ -55,9 +56,19 @@ class HalfCycles:
     noise: float
     settings: Mapping[str, object] = field(default_factory=dict)
     definition: str = "peak"
+    units: str = ""
+    """Unit of the signal, where it is known."""
 
     def __post_init__(self) -> None:
         freeze(self)
+
+    def along(self) -> Curve:
+        """Each half cycle's amplitude and frequency."""
+        return Curve(self.amplitude, self.omega, self.omega_sd)
+
+    def index(self) -> tuple[str, ...]:
+        """Half cycles follow one another in time."""
+        return ("time_s",)
 
     def rows(self) -> list[dict[str, float]]:
         """One row per half cycle."""

@@ -12,14 +12,15 @@ from numpy.typing import NDArray
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, frozen
+from ridgeback.numeric.distributions.shown import ShownDistribution
 from ridgeback.numeric.signal.samples import TWO_PI
 
 Plane = NDArray[np.inexact[Any]]
 """float32, float64, complex64 or complex128."""
 
 
-@dataclass(frozen=True)
-class Distribution:
+@dataclass(frozen=True, repr=False)
+class Distribution(ShownDistribution):
     """A plane of values over frequency and time, with its axes.
 
     Parameters

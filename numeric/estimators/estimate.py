@@ -9,6 +9,7 @@ from types import MappingProxyType
 from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.estimators.auto import for_auto, for_least_squares
 from ridgeback.numeric.estimators.global_harmonics import by_harmonic_splines, with_spline_interval
 from ridgeback.numeric.estimators.higher_harmonics import harmonic_track, vouched_harmonic
@@ -95,6 +96,7 @@ def estimate(
     bias: bool = True,
     remove_bias: bool = False,
     family: Family | None = None,
+    progress: Progress = silent,
 ) -> Track:
     """Estimate the fundamental frequency omega0(t) of the real signal ``x``, shape ``(N,)``, sampled at ``rate``.
 
@@ -157,10 +159,15 @@ def estimate(
     )
     if method in QUADRATIC and band is not None:
         refuse_cross_term(request, method)
+    progress(0.1, "choosing an estimator" if method == "auto" else method)
     name, request = for_auto(request) if method == "auto" else (method, request)
     if method == "harmonic-least-squares":
         request = for_least_squares(request, scope)
-    track = trusted(finish(vouched(ESTIMATORS[name](request), ESTIMATORS[name], request), remove_bias))
+    progress(0.3, name)
+    found = ESTIMATORS[name](request)
+    progress(0.5, f"bias and interval of {name}")
+    track = trusted(finish(vouched(found, ESTIMATORS[name], request), remove_bias))
+    progress(1.0, "done")
     if few.factor > 1:
         track = replace(track, settings={**track.settings, "decimated_by": few.factor, "rate_given": rate})
     return track if harmonic == 1 else of_harmonic(harmonic, request, track, remove_bias)

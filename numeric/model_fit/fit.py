@@ -13,11 +13,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.show.displayed import Displayed
+from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.numeric.arrays import Array, freeze
 from ridgeback.numeric.harmonics.harmonic_signal import HarmonicSignal, decompose
 from ridgeback.numeric.harmonics.local_fit import choose_multiples
@@ -49,8 +52,8 @@ MISFIT = 0.01
 """A residual that white noise would show less often than this is called a misfit."""
 
 
-@dataclass(frozen=True)
-class ModelFit:
+@dataclass(frozen=True, repr=False)
+class ModelFit(Displayed):
     """An oscillator fitted to samples; ``theta`` holds u0, v0, d and the parameters, in this order.
 
     ``covariance`` belongs to ``theta``; row and column of the offset are 0 where it was not fitted.
@@ -72,6 +75,26 @@ class ModelFit:
 
     def __post_init__(self) -> None:
         freeze(self)
+
+    INDEX: ClassVar[tuple[str, ...]] = ("parameter",)
+
+    def headline(self) -> str:
+        """The fitted parameters and the noise."""
+        deviations = self.deviations[3:].tolist()
+        fitted = ", ".join(
+            f"{n} = {v:.6g} ± {s:.1g}" for (n, v), s in zip(self.parameters.items(), deviations, strict=True)
+        )
+        return f"{self.family.name}, {fitted}, noise {self.noise:.3g}{', a misfit' if self.misfit else ''}"
+
+    def own_units(self) -> dict[str, str]:
+        """Each parameter has a unit of its own."""
+        return {"value": "of the parameter", "standard_deviation": "of the parameter"}
+
+    def picture(self) -> Picture:
+        """Samples and fit over time."""
+        time = self.start + np.arange(self.fitted.size) / self.rate
+        strokes = (Stroke(time, self.fitted + self.residual, "samples"), Stroke(time, self.fitted, "fit", dashed=True))
+        return Picture(self.family.name, "time", "unit of the samples", strokes)
 
     @property
     def initial(self) -> tuple[float, float]:

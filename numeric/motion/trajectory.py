@@ -15,6 +15,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask, frozen, frozen_mask
 from ridgeback.numeric.motion.dynamics import Dynamics, well
 from ridgeback.numeric.motion.roots import bracketed_newton
+from ridgeback.numeric.motion.shown import ShownTrajectory
 
 Interpolant = Callable[[Array], tuple[Array, Array]]
 
@@ -44,8 +45,8 @@ class TurningEvents:
     value: Array
 
 
-@dataclass(frozen=True)
-class Trajectory:
+@dataclass(frozen=True, repr=False)
+class Trajectory(ShownTrajectory):
     """A solution sampled at ``rate`` from t = 0, with its events; arrays are 1-D, read-only, of one length.
 
     ``steps`` are the integrator's own times, between which ``at`` is smooth.

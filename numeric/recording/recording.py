@@ -31,6 +31,7 @@ from ridgeback.numeric.files.column_choice import (
 from ridgeback.numeric.files.columns import FILE_BUDGET, Columns
 from ridgeback.numeric.files.in_memory import Samples, columns_of
 from ridgeback.numeric.files.readers import READERS
+from ridgeback.numeric.recording.shown import ShownRecording
 from ridgeback.numeric.recording.stretches import Rows, stamped
 from ridgeback.numeric.recording.treatment import FEWEST_SAMPLES, Treatment, treated
 from ridgeback.numeric.signal.samples import checked_rate, checked_swing
@@ -40,8 +41,8 @@ MOST_SAMPLES = 50_000_000
 """Samples of one signal: 400 MB each for its times and its values."""
 
 
-@dataclass(frozen=True)
-class Recording:
+@dataclass(frozen=True, repr=False)
+class Recording(ShownRecording):
     """A uniformly sampled signal; ``time[i] = time[0] + i / rate``, ``values`` as in the file (the mean included).
 
     ``units`` is what the column's header states in brackets, "full scale" for integer WAV, else empty.  ``run`` names

@@ -42,7 +42,7 @@ def checked_samples(x: ArrayLike, *, name: str = "signal", at_least: int = 1) ->
         ...
     ridgeback.common.errors.InputError: signal[1] is nan; every sample must be finite (cut or fill the gap first)
     """
-    array = np.asarray(x)
+    array = np.asarray(np.ma.filled(x.astype(np.float64), np.nan) if isinstance(x, np.ma.MaskedArray) else x)
     if array.dtype.kind not in "biufc":
         raise InputError(f"{name} has dtype {array.dtype}; use real or complex numbers")
     if array.ndim != 1:

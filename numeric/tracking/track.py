@@ -26,6 +26,7 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask, frozen, frozen_mask
 from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.tracking.shown import Ends, ShownEstimate
 
 NORMAL_95 = 1.959963984540054
 """The standard normal distribution's 97.5 % point: plus and minus this many sigma hold 95 %."""
@@ -46,10 +47,8 @@ class Interval(NamedTuple):
         return np.asarray((self.low <= truth) & (truth <= self.high), dtype=np.bool_)
 
 
-class Estimated:
+class Estimated(ShownEstimate):
     """What every estimate against time says of itself; the frozen dataclasses below give the fields their order."""
-
-    QUANTITY: ClassVar[str]
 
     time: Array
     valid: Mask
@@ -99,6 +98,10 @@ class Estimated:
         reach = NORMAL_95 * np.hypot(self.standard_deviation, self.bias_deviation)
         return Interval(frozen(centre - reach), frozen(centre + reach))
 
+    def band(self) -> Ends | None:
+        """The ends of the interval, for a picture."""
+        return None if self.interval is None else Ends(*self.interval)
+
     def inside(self) -> Self:
         """Return the valid part of the track."""
         return self._select(self.valid)
@@ -111,7 +114,7 @@ class Estimated:
         return type(self)(**vars(self) | {name: getattr(self, name)[keep] for name in self._columns()})
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Track(Estimated):
     """One estimate of a frequency against time: ``omega`` in rad per time unit, and what :class:`Estimated` says of it.
 
@@ -121,6 +124,7 @@ class Track(Estimated):
     """
 
     QUANTITY: ClassVar[str] = "omega"
+    AXIS: ClassVar[str] = "omega, rad/s"
 
     time: Array
     omega: Array
@@ -143,7 +147,7 @@ class Track(Estimated):
         return rows_of(columns, self, "_rad_s")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class AmplitudeTrack(Estimated):
     """One estimate of an amplitude against time, in the signal's own unit; ``definition`` says which amplitude it is.
 
@@ -155,6 +159,7 @@ class AmplitudeTrack(Estimated):
     """
 
     QUANTITY: ClassVar[str] = "amplitude"
+    AXIS: ClassVar[str] = "amplitude, unit of the signal"
 
     time: Array
     amplitude: Array

@@ -22,11 +22,11 @@ def resummed_from(oscillator: Oscillator, result: Result, demand: Demand) -> Res
     Raises click.UsageError for a slow flow, InputError from the resummation.
     """
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
-    from ridgeback.symbolic.resummation.by_name import resummed
+    from ridgeback.symbolic.resummation.by_name import resum
 
     if isinstance(result, SlowFlow):
         raise click.UsageError("--resummed belongs to a series in one variable, not to a slow flow; leave it out")
-    return resummed(
+    return resum(
         oscillator,
         result,
         demand.resummed or "",

@@ -68,12 +68,12 @@ class Model:
         self.check(method)
         if method != MODEL_FIT:
             return None
-        from ridgeback.compare.binding.family import family
+        from ridgeback.compare.binding.family import family_of
 
         oscillator = self.oscillator()
         if oscillator is None:
             raise click.UsageError("--method model-fit fits an oscillator; name it by --system or --equation")
-        return family(oscillator, self.to_find(oscillator))
+        return family_of(oscillator, self.to_find(oscillator))
 
 
 def model_options(command: Command) -> Command:

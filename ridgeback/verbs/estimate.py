@@ -156,11 +156,11 @@ def surveyed(
     files: tuple[str, ...], reading: Reading, estimator: Estimator, *, combine: str, harmonic: int, halves: bool
 ) -> Survey:
     """Every signal of the files, measured."""
-    from ridgeback.compare.recording.survey import survey
+    from ridgeback.compare.recording.survey import measure_recordings
 
     recordings = reading.all(files)
     with Progress() as progress:
-        return survey(
+        return measure_recordings(
             recordings,
             combine_over=combine,
             harmonic=harmonic,

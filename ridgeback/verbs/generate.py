@@ -78,23 +78,13 @@ def formula_of(oscillator: Oscillator, series: Expansion | SlowFlow, code: Code)
 
 def form_for(oscillator: Oscillator, series: Expansion | SlowFlow, result: Formula, code: Code) -> Form:
     """The code with what is known about the formula: where the oscillation ends, and its certified error."""
-    from ridgeback.compare.study.derivation import described
-    from ridgeback.compare.study.derived import Undamped
-    from ridgeback.symbolic.codegen import form_of
-    from ridgeback.symbolic.codegen.proofs.facts import certified_facts, end_of
-    from ridgeback.symbolic.flow.slow_flow import SlowFlow
+    from ridgeback.interface.source import known_form
 
-    limit = Undamped(oscillator).limit if series.amplitude == "peak" and not free(oscillator) else None
-    end, facts = code.up_to, tuple[str, ...]()
-    if not isinstance(series, SlowFlow) and not isinstance(result, SlowFlow):
-        end = end or end_of(oscillator, series, result, limit)
-        facts = () if end is None else certified_facts(oscillator, result, end)
-    return form_of(
+    return known_form(
+        oscillator,
+        series,
         result,
-        equation=described(oscillator),
-        limit=limit,
-        up_to=end,
-        more=facts,
+        up_to=code.up_to,
         name=code.name,
         mode=code.mode,  # type: ignore[arg-type]
         real=code.real,
@@ -113,8 +103,3 @@ def checked(form: Form, language: str) -> None:
     if found.state == "failed":
         raise RuntimeError(f"the generated code fails its self-test: {found}")
     click.echo(f"self-test of the generated code: {found}", err=True)
-
-
-def free(oscillator: Oscillator) -> bool:
-    """Whether a parameter has no value, so that no limit can be computed."""
-    return any(value is None for value in oscillator.parameters.values())

@@ -155,9 +155,9 @@ def refuse(given: Mapping[str, object], why: str) -> None:
 def of_motion(motion: Motion, scope: Scope, shown: str, progress: Progress) -> Report:
     """The report on a simulated motion."""
     from ridgeback.compare.report.system_report import ORDER as USUAL
-    from ridgeback.compare.report.system_report import TARGET, assemble_system
+    from ridgeback.compare.report.system_report import TARGET, system_report
 
-    return assemble_system(
+    return system_report(
         setting_of(motion),
         order=USUAL if scope.order is None else scope.order,
         orders=scope.orders,
@@ -188,7 +188,7 @@ def setting_of(motion: Motion) -> Setting:
 
 def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progress: Progress) -> Report:
     """The report on a recording, with an oscillator's exact backbone over it when one is named."""
-    from ridgeback.compare.report.recording_report import assemble_recording
+    from ridgeback.compare.report.recording_report import recording_report
 
     refuse({"--initial": motion.initial, "--duration": motion.duration}, "belongs to a simulation, not to a recording")
     studied = {"--order": scope.order, "--orders": scope.orders, "--amplitudes": scope.amplitudes}
@@ -196,7 +196,7 @@ def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progr
     if not motion.choice.made and motion.choice.assignments:
         raise click.UsageError("--set needs a SYSTEM whose parameters it sets; name one, or leave it out")
     reading = Reading(source.column, source.time_column, motion.rate, treatment=source.treatment)
-    return assemble_recording(
+    return recording_report(
         reading.one(source.file),
         oscillator=motion.choice.oscillator() if motion.choice.made else None,
         cycles=source.cycles,
@@ -224,9 +224,9 @@ def as_typed(arguments: Sequence[str]) -> str:
 
 def publish(report: Report, output: str, style: str) -> None:
     """Write the page and say what it found, then raise PartialError for what is wrong or missing on it."""
-    from ridgeback.reports.page import render, size_warning
+    from ridgeback.reports.page import html_page, size_warning
 
-    page = render(report)
+    page = html_page(report)
     write_text(output, page)
     if output != STDOUT:
         write_text(STDOUT, printed(report, output, len(page.encode()), style))

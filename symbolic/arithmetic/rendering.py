@@ -5,11 +5,14 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from fractions import Fraction
 from typing import Any
 
 import sympy
 from flint import fmpq
 from latex2mathml.converter import convert
+
+from ridgeback.common.errors import InputError
 
 
 @contextmanager
@@ -53,3 +56,33 @@ def mathml(latex: str) -> str:
     True
     """
     return str(convert(latex))
+
+
+def series_latex(terms: tuple[sympy.Expr, ...]) -> str:
+    r"""Join terms with their signs, in the order given.
+
+    >>> series_latex((sympy.S.One, -sympy.Symbol("A") ** 2 / 16))
+    '1 - \\frac{A^{2}}{16}'
+    """
+    names = {sympy.Symbol("eps", real=True): r"\varepsilon"}
+    text = ""
+    for term in terms:
+        latex = sympy.latex(term, symbol_names=names)
+        text += f" {latex[0]} {latex[1:].lstrip()}" if latex.startswith("-") else f" + {latex}" if text else latex
+    return text.strip() or "0"
+
+
+def nearest(value: sympy.Expr) -> float:
+    """Round an exact coefficient once to the nearest float.
+
+    Raises InputError when a parameter is still symbolic.
+
+    >>> nearest(sympy.Rational(1, 3))
+    0.3333333333333333
+    """
+    if value.is_Rational:
+        return float(Fraction(int(value.p), int(value.q)))
+    if not value.is_number:
+        free = ", ".join(sorted(str(s) for s in value.free_symbols))
+        raise InputError(f"the coefficient {value} has no number for {free}; set it before evaluating")
+    return float(value.evalf(30))

@@ -116,7 +116,7 @@ def wherever(read: Callable[[Fraction], Reading], amplitudes: Sequence[Fraction]
 
 
 def reading(oscillator: Oscillator, formula: Formula, amplitude: Fraction, *, bits: int = 128) -> Reading:
-    """Enclose omega0 at one amplitude, and the formula with its error; raises as ``readings``."""
+    """Enclose omega0 at one amplitude, and the formula with its error; raises as ``certified_frequencies``."""
     exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
     if isinstance(formula, Expansion):
         check_belongs(oscillator, formula)
@@ -127,7 +127,7 @@ def reading(oscillator: Oscillator, formula: Formula, amplitude: Fraction, *, bi
         return Reading(exact, value, value / exact.omega - 1)
 
 
-def readings(
+def certified_frequencies(
     oscillator: OscillatorLike, formula: Formula, amplitudes: Sequence[Fraction], *, bits: int = 128
 ) -> tuple[Reading, ...]:
     """Enclose omega0 at each amplitude, in the formula's own definition, and the formula with its error.
@@ -158,7 +158,7 @@ def readings(
     --------
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
     >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> row = readings(find("pendulum"), lindstedt(find("pendulum"), 8), [Fraction(1)])[0].to_dict(12)
+    >>> row = certified_frequencies(find("pendulum"), lindstedt(find("pendulum"), 8), [Fraction(1)])[0].to_dict(12)
     >>> row["omega0"], row["relative_error"]
     ('0.937792258051', '1.71087e-7')
     """

@@ -20,7 +20,7 @@ from flint import arb, fmpq
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
 from ridgeback.symbolic.arithmetic.balls import natural_frequency
-from ridgeback.symbolic.arithmetic.rendering import as_sympy, long_integers, mathml
+from ridgeback.symbolic.arithmetic.rendering import as_sympy, long_integers, mathml, nearest, series_latex
 from ridgeback.symbolic.expansion.amplitude import (
     check_definition,
     check_velocity,
@@ -28,6 +28,7 @@ from ridgeback.symbolic.expansion.amplitude import (
     measured,
     same_definition,
 )
+from ridgeback.symbolic.expansion.shown import ShownExpansion
 from ridgeback.symbolic.series.spaces import Scalar
 from ridgeback.symbolic.series.trigonometric import Trig, degree, harmonic
 
@@ -41,8 +42,8 @@ class Harmonic:
     sine: tuple[sympy.Expr, ...]
 
 
-@dataclass(frozen=True)
-class Expansion:
+@dataclass(frozen=True, repr=False)
+class Expansion(ShownExpansion):
     """omega0 as a power series in one variable, with the amplitude definition it holds for.
 
     Made by ``lindstedt`` and ``energy_integral``.  ``frequency`` holds the exact coefficients in the oscillator's own
@@ -260,36 +261,6 @@ class Expansion:
     def _rows(self, values: tuple[sympy.Expr, ...]) -> list[dict[str, object]]:
         with long_integers():
             return [{"powers": {self.variable: n}, "coefficient": str(c)} for n, c in enumerate(values) if c != 0]
-
-
-def series_latex(terms: tuple[sympy.Expr, ...]) -> str:
-    r"""Join terms with their signs, in the order given.
-
-    >>> series_latex((sympy.S.One, -sympy.Symbol("A") ** 2 / 16))
-    '1 - \\frac{A^{2}}{16}'
-    """
-    names = {sympy.Symbol("eps", real=True): r"\varepsilon"}
-    text = ""
-    for term in terms:
-        latex = sympy.latex(term, symbol_names=names)
-        text += f" {latex[0]} {latex[1:].lstrip()}" if latex.startswith("-") else f" + {latex}" if text else latex
-    return text.strip() or "0"
-
-
-def nearest(value: sympy.Expr) -> float:
-    """Round an exact coefficient once to the nearest float.
-
-    Raises InputError when a parameter is still symbolic.
-
-    >>> nearest(sympy.Rational(1, 3))
-    0.3333333333333333
-    """
-    if value.is_Rational:
-        return float(Fraction(int(value.p), int(value.q)))
-    if not value.is_number:
-        free = ", ".join(sorted(str(s) for s in value.free_symbols))
-        raise InputError(f"the coefficient {value} has no number for {free}; set it before evaluating")
-    return float(value.evalf(30))
 
 
 def first_harmonic(p: Trig) -> Scalar:

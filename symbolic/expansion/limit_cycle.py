@@ -19,7 +19,7 @@ from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 from ridgeback.symbolic.systems.structure import free_names
 
 
-def limit_cycle(oscillator: Oscillator, order: int, amplitude: str) -> Expansion:
+def limit_cycle(oscillator: Oscillator, order: int, amplitude: str, *, watch: BetweenOrders = no_watch) -> Expansion:
     """Expand omega0 and the amplitude of a limit cycle in eps through the power ``order``.
 
     Raises InputError when the equation is not u'' + k^2 u plus terms in eps, or has no rational first amplitude.
@@ -29,7 +29,7 @@ def limit_cycle(oscillator: Oscillator, order: int, amplitude: str) -> Expansion
     (2, 0, 1/96)
     """
     natural = oscillator.normalised
-    recursion = cycle_recursion(oscillator, order, amplitude, space_for(()))
+    recursion = cycle_recursion(oscillator, order, amplitude, space_for(()), watch=watch)
     read = at_zero if amplitude == "peak" else first_harmonic
     return Expansion(
         system=oscillator.name,

@@ -20,6 +20,7 @@ from __future__ import annotations
 from flint import fmpq
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
 from ridgeback.symbolic.expansion.amplitude import DEFINITIONS, check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order
@@ -36,7 +37,12 @@ DIRECT = ("peak", "fundamental")
 
 
 def lindstedt(
-    oscillator: OscillatorLike, order: int, *, amplitude: str = "peak", budget: Budget | None = None
+    oscillator: OscillatorLike,
+    order: int,
+    *,
+    amplitude: str = "peak",
+    budget: Budget | None = None,
+    progress: Progress = silent,
 ) -> Expansion:
     """Expand omega0 in the amplitude (conservative) or in eps (limit cycle) by Lindstedt's recursion.
 
@@ -52,6 +58,8 @@ def lindstedt(
         ``fundamental`` for a limit cycle.
     budget : Budget, optional
         What the derivation may cost; 10 minutes and 4 GB by default.
+    progress : callable, optional
+        Told the share of the work that is done and the order about to be found.
 
     Returns
     -------
@@ -80,17 +88,30 @@ def lindstedt(
     budget = budget or Budget()
     if oscillator.kind == "limit-cycle":
         check("limit-cycle", order, budget)
-        return limit_cycle(oscillator, order, amplitude)
+        return limit_cycle(oscillator, order, amplitude, watch=watching(progress, order))
     if amplitude not in DIRECT:
-        return _conservative(oscillator, order, "peak", budget).convert(amplitude)
-    return _conservative(oscillator, order, amplitude, budget)
+        return _conservative(oscillator, order, "peak", budget, progress).convert(amplitude)
+    return _conservative(oscillator, order, amplitude, budget, progress)
 
 
-def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Budget) -> Expansion:
+STEEPNESS = 4
+"""Power of the order that the time of a derivation follows (``cost``): what is done is said by it."""
+
+
+def watching(progress: Progress, order: int) -> BetweenOrders:
+    """Tell the progress as each order begins.
+
+    >>> watching(lambda share, step: print(f"{share:.2f}", step), 3)(None, 2)
+    0.06 order 2 of 3
+    """
+    return lambda _, n: progress((n / (order + 1)) ** STEEPNESS, f"order {n} of {order}")
+
+
+def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Budget, progress: Progress) -> Expansion:
     natural = oscillator.normalised
     force, names = natural.rational, free_names(natural.rational)
     check("lindstedt", order, budget, parameters=len(names))
-    recursion = conservative_recursion(oscillator, order, amplitude, space_for(names))
+    recursion = conservative_recursion(oscillator, order, amplitude, space_for(names), watch=watching(progress, order))
     return Expansion(
         system=oscillator.name,
         method="lindstedt",

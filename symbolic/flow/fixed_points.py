@@ -28,7 +28,8 @@ from ridgeback.symbolic.arithmetic.balls import polynomial_at, rational, whole_p
 from ridgeback.symbolic.enclosure.turning_points import real_roots
 from ridgeback.symbolic.expansion.ball_expansion import ball_row
 from ridgeback.symbolic.flow.reach import Reach, reach_of
-from ridgeback.symbolic.flow.slow_flow import SlowFlow, Term
+from ridgeback.symbolic.flow.slow_flow import SlowFlow
+from ridgeback.symbolic.flow.term import Term
 from ridgeback.symbolic.singularities.limits import Limits
 from ridgeback.symbolic.systems.parameters import Value, merged
 

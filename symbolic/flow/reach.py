@@ -15,8 +15,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from ridgeback.symbolic.expansion.expansion import nearest
-from ridgeback.symbolic.flow.slow_flow import SlowFlow, Term, amplitude_powers
+from ridgeback.symbolic.arithmetic.rendering import nearest
+from ridgeback.symbolic.flow.slow_flow import SlowFlow, amplitude_powers
+from ridgeback.symbolic.flow.term import Term
 from ridgeback.symbolic.singularities.limits import Limits
 
 LARGEST: Final = 0.02

@@ -16,9 +16,9 @@ from typing import Any, Final, NamedTuple, TypeAlias
 import sympy
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.arithmetic.rendering import mathml
-from ridgeback.symbolic.expansion.expansion import nearest, series_latex
-from ridgeback.symbolic.flow.slow_flow import SlowFlow, Term, evaluate, json_rows, rounded
+from ridgeback.symbolic.arithmetic.rendering import mathml, nearest, series_latex
+from ridgeback.symbolic.flow.slow_flow import SlowFlow, evaluate, json_rows, rounded
+from ridgeback.symbolic.flow.term import Term
 from ridgeback.symbolic.series.trigonometric import degree, harmonic
 
 MOST_ITERATIONS: Final = 200

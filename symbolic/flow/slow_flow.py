@@ -17,23 +17,16 @@ import sympy
 from flint import fmpq
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.arithmetic.rendering import as_sympy, mathml
-from ridgeback.symbolic.expansion.expansion import nearest, series_latex
+from ridgeback.symbolic.arithmetic.rendering import as_sympy, mathml, nearest, series_latex
 from ridgeback.symbolic.flow.ordering import UNITS
+from ridgeback.symbolic.flow.shown import ShownSlowFlow
+from ridgeback.symbolic.flow.term import Term
 from ridgeback.symbolic.series.spaces import Scalar
 from ridgeback.symbolic.series.trigonometric import Trig
 
 
-@dataclass(frozen=True)
-class Term:
-    """One term ``coefficient * a^powers[0] * m_1^powers[1] * m_2^powers[2] ...``."""
-
-    powers: tuple[int, ...]
-    coefficient: sympy.Expr
-
-
-@dataclass(frozen=True)
-class SlowFlow:
+@dataclass(frozen=True, repr=False)
+class SlowFlow(ShownSlowFlow):
     """phi' and a'/a as exact polynomials in the fundamental amplitude and the small parameters.
 
     Made by ``multiple_scales``.  ``frequency`` and ``damping`` are the terms in the oscillator's own units,

@@ -25,8 +25,9 @@ from typing import Final, NamedTuple, TypeAlias
 import sympy
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.expansion.expansion import series_latex
-from ridgeback.symbolic.flow.slow_flow import SlowFlow, Term, amplitude_powers, rounded
+from ridgeback.symbolic.arithmetic.rendering import series_latex
+from ridgeback.symbolic.flow.slow_flow import SlowFlow, amplitude_powers, rounded
+from ridgeback.symbolic.flow.term import Term
 
 TIME: Final = sympy.Symbol("t", real=True)
 START: Final = sympy.Symbol("a_0", positive=True)

@@ -18,7 +18,7 @@ Kind: TypeAlias = Literal["pade", "map", "nome"]
 KINDS: tuple[Kind, ...] = ("pade", "map", "nome")
 
 
-def resummed(
+def resum(
     oscillator: OscillatorLike,
     series: Expansion,
     kind: str,
@@ -59,7 +59,7 @@ def resummed(
     --------
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
     >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> resummed(find("pendulum"), lindstedt(find("pendulum"), 8), "pade").method
+    >>> resum(find("pendulum"), lindstedt(find("pendulum"), 8), "pade").method
     'Pade [2/2]'
     """
     oscillator = as_oscillator(oscillator)

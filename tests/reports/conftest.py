@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ridgeback.compare.report.results import Report
-from ridgeback.reports.page import render
+from ridgeback.reports.page import html_page
 from tests.reports import synthetic
 
 
@@ -16,9 +16,9 @@ def full() -> Report:
 
 @pytest.fixture(scope="session")
 def full_page(full: Report) -> str:
-    return render(full)
+    return html_page(full)
 
 
 @pytest.fixture(scope="session")
 def recording_page() -> str:
-    return render(synthetic.recording_report())
+    return html_page(synthetic.recording_report())

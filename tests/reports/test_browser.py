@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from ridgeback.compare.report.results import Report
-from ridgeback.reports.page import render
+from ridgeback.reports.page import html_page
 from tests.reports import synthetic
 from tests.reports.chromium import NAMES, Browser, binary
 
@@ -52,8 +52,8 @@ def pages(tmp_path_factory: pytest.TempPathFactory, full_page: str, recording_pa
     made = {
         "full": full_page,
         "recording": recording_page,
-        "empty": render(synthetic.empty_report()),
-        "hostile": render(_hostile()),
+        "empty": html_page(synthetic.empty_report()),
+        "hostile": html_page(_hostile()),
     }
     for name, page in made.items():
         (folder / f"{name}.html").write_text(page, encoding="utf-8")

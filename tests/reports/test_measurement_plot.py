@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from ridgeback.compare.recording.survey import Survey, survey
+from ridgeback.compare.recording.survey import Survey, measure_recordings
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.reports.drawing.canvas import Canvas
 from ridgeback.reports.drawing.labels import measured
@@ -28,13 +28,13 @@ def decay(size: float, name: str = "u", run: str = "", stretch: int = 0) -> Reco
 
 @pytest.fixture(scope="module")
 def one() -> Survey:
-    return survey([decay(1.0)], method="pseudo-wigner", bias=False)
+    return measure_recordings([decay(1.0)], method="pseudo-wigner", bias=False)
 
 
 @pytest.fixture(scope="module")
 def several() -> Survey:
     runs = [decay(1.0, run="first.csv"), decay(0.8, run="second <b>.csv")]
-    return survey(runs, method="pseudo-wigner", bias=False)
+    return measure_recordings(runs, method="pseudo-wigner", bias=False)
 
 
 def texts(picture: bytes) -> list[ET.Element]:
@@ -117,7 +117,7 @@ def test_the_other_forms_are_what_they_are_called_and_the_same_each_time(kind: s
 
 def test_many_signals_of_long_names_are_still_drawn() -> None:
     runs = [decay(1.0 + 0.05 * i, name="displacement of the third mass " * 4, run=f"run {i}") for i in range(7)]
-    picture = plot_file(survey(runs, method="pseudo-wigner", bias=False), "svg")
+    picture = plot_file(measure_recordings(runs, method="pseudo-wigner", bias=False), "svg")
     assert max(right for _, _, _, right, _ in boxes(picture)) <= 72 * PAGE.width
     assert any("…" in words for words, *_ in boxes(picture))
     assert any("5 of 7 signals" in words for words, *_ in boxes(picture))

@@ -17,7 +17,7 @@ import pytest
 
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.study.results import Formula
-from ridgeback.reports.page import WARN_BYTES, render, size_warning
+from ridgeback.reports.page import WARN_BYTES, html_page, size_warning
 from tests.reports import synthetic
 from tests.reports.markup import Element, parse
 
@@ -33,13 +33,13 @@ def tree(full_page: str) -> Element:
 
 
 def test_a_report_made_again_gives_the_same_bytes(full_page: str) -> None:
-    assert render(synthetic.full_report()) == full_page
+    assert html_page(synthetic.full_report()) == full_page
 
 
 def test_another_process_with_another_hash_seed_gives_the_same_bytes(recording_page: str) -> None:
     program = (
-        "import sys\nfrom ridgeback.reports.page import render\nfrom tests.reports import synthetic\n"
-        "sys.stdout.buffer.write(render(synthetic.recording_report()).encode())"
+        "import sys\nfrom ridgeback.reports.page import html_page\nfrom tests.reports import synthetic\n"
+        "sys.stdout.buffer.write(html_page(synthetic.recording_report()).encode())"
     )
     root = Path(__file__).parents[2]
     environment = {**os.environ, "PYTHONHASHSEED": "12345", "PYTHONPATH": str(root)}
@@ -67,12 +67,12 @@ def small() -> Report:
 
 @pytest.fixture(scope="module")
 def harmless(small: Report) -> Element:
-    return parse(render(small))
+    return parse(html_page(small))
 
 
 @pytest.mark.parametrize("text", HOSTILE)
 def test_hostile_names_stay_text(small: Report, harmless: Element, text: str) -> None:
-    root = parse(render(synthetic.poisoned(small, text)))
+    root = parse(html_page(synthetic.poisoned(small, text)))
     formulas = {("code", "")} | {(tag, name) for tag, name in _vocabulary(root) if tag in ("math", "mtext", "mo")}
     assert _vocabulary(root) <= _vocabulary(harmless) | formulas
     assert len(root.all("script")) == len(harmless.all("script"))
@@ -111,7 +111,7 @@ HOSTILE_FORMULAS = (
 @pytest.mark.parametrize("latex", HOSTILE_FORMULAS)
 def test_hostile_formulas_stay_text(latex: str) -> None:
     derivation = replace(synthetic.make_derivation(), formulas=(Formula("f", "u", ("1", latex), python=latex),))
-    root = parse(render(replace(synthetic.empty_report(), derivation=derivation)))
+    root = parse(html_page(replace(synthetic.empty_report(), derivation=derivation)))
     assert len(root.all("script")) == 1
     assert not [e for e in root.all() for name in e.attributes if name.startswith("on")]
     assert not [e for e in root.all("math") for inner in e.all() if "href" in inner.attributes]
@@ -150,7 +150,7 @@ def test_every_part_has_its_section(tree: Element) -> None:
 )
 def test_missing_parts_are_left_out(small: Report, part: set[str], wanted: list[str]) -> None:
     only = replace(synthetic.empty_report(), **{name: getattr(small, name) for name in part})
-    assert _keys(parse(render(only))) == [*wanted, "provenance"]
+    assert _keys(parse(html_page(only))) == [*wanted, "provenance"]
 
 
 def test_a_decay_without_models_or_estimates_still_renders() -> None:
@@ -166,20 +166,20 @@ def test_a_decay_without_models_or_estimates_still_renders() -> None:
         reconstruction=replace(decay.reconstruction, multicomponent=None, rms_multicomponent=None),
         statements=tuple(replace(s, curves=()) for s in decay.statements),
     )
-    parse(render(replace(synthetic.empty_report(), decay=bare)))
+    parse(html_page(replace(synthetic.empty_report(), decay=bare)))
 
 
 def test_tracks_that_are_nowhere_valid_still_render() -> None:
     decay = synthetic.make_decay()
     blind = tuple(replace(c, valid=np.zeros(c.time.size, bool)) for c in decay.curves)
-    parse(render(replace(synthetic.empty_report(), decay=replace(decay, curves=blind))))
+    parse(html_page(replace(synthetic.empty_report(), decay=replace(decay, curves=blind))))
 
 
 @pytest.mark.parametrize(("count", "orders"), [(2, (2,)), (3, (2, 4)), (40, tuple(range(2, 62, 2)))])
 def test_studies_of_any_shape_render(count: int, orders: tuple[int, ...]) -> None:
     study = synthetic.make_study(count, orders)
     for ranges in ((), synthetic.make_ranges(study)):
-        parse(render(replace(synthetic.empty_report(), study=study, ranges=ranges)))
+        parse(html_page(replace(synthetic.empty_report(), study=study, ranges=ranges)))
 
 
 def test_an_order_without_values_is_kept_and_marked() -> None:
@@ -187,7 +187,7 @@ def test_an_order_without_values_is_kept_and_marked() -> None:
     error, omega = np.array(study.relative_error), np.array(study.omega)
     error[1], omega[1] = np.nan, np.nan
     holed = replace(study, relative_error=error, omega=omega)
-    root = parse(render(replace(synthetic.empty_report(), study=holed)))
+    root = parse(html_page(replace(synthetic.empty_report(), study=holed)))
     drawn = next(figure for figure in root.all("figure") if figure.attributes["id"] == "map")
     assert "not available" in drawn.text
 
@@ -241,7 +241,7 @@ def test_an_identification_shows_its_ranking_parameters_and_prediction(recording
 
 def test_an_identification_without_a_prediction_still_renders() -> None:
     found = replace(synthetic.make_identification(), prediction=None, failed=(), notes=())
-    root = parse(render(replace(synthetic.empty_report(), identification=found)))
+    root = parse(html_page(replace(synthetic.empty_report(), identification=found)))
     assert not [f for f in root.all("figure") if f.attributes["id"].startswith("prediction")]
 
 
@@ -267,7 +267,7 @@ def test_a_recording_without_a_backbone_still_renders() -> None:
         fit=None,
         notes=(),
     )
-    parse(render(replace(synthetic.empty_report(), recording=bare)))
+    parse(html_page(replace(synthetic.empty_report(), recording=bare)))
 
 
 # --- nothing leaves the file
@@ -321,7 +321,7 @@ def test_ids_are_unique_and_references_resolve(full_page: str, tree: Element) ->
 
 
 def test_a_nearly_empty_page_is_light() -> None:
-    assert len(render(synthetic.empty_report()).encode()) <= 60_000
+    assert len(html_page(synthetic.empty_report()).encode()) <= 60_000
 
 
 def test_a_full_page_keeps_its_budget(full_page: str) -> None:

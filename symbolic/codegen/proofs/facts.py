@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Final, TypeAlias
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.certificates.at_amplitudes import readings
+from ridgeback.symbolic.certificates.at_amplitudes import certified_frequencies
 from ridgeback.symbolic.codegen.closed_forms import MeanForm, SineSeries
 from ridgeback.symbolic.codegen.proofs.notes import upwards
 from ridgeback.symbolic.expansion.expansion import Expansion
@@ -66,7 +66,7 @@ def certified_facts(oscillator: Oscillator, formula: Formula, reach: Fraction) -
         return ()  # the one is exact, the other proves its own bound
     places = [Fraction(f"{float(share * reach):.3g}") for share in SHARES]
     try:
-        bounds = [reading.to_dict(6)["error_bound"] for reading in readings(oscillator, formula, places)]
+        bounds = [reading.to_dict(6)["error_bound"] for reading in certified_frequencies(oscillator, formula, places)]
     except InputError:
         return ()  # a refusal is an answer here: limit cycles, damping and some definitions have no enclosure
     pairs = [(upwards(Fraction(str(b))), f"{float(a):g}") for b, a in zip(bounds, places, strict=True)]

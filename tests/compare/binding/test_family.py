@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.binding.family import family
+from ridgeback.compare.binding.family import family_of
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 
 def test_partials_are_derivatives_and_agree_with_the_bound_oscillator() -> None:
     own = Oscillator.from_equation("x'' + 2*c*x' + a*sin(x) + b*x**3*x'**2 = 0", parameters={"c": "0.1"})
-    made = family(own, ("a", "b"))
+    made = family_of(own, ("a", "b"))
     assert made.start.tolist() == [1.0, 1.0]
     p, (u, v), step = (2.0, 0.3), (0.7, -0.4), 1e-6
     partials = made.partials(u, v, p)
@@ -33,10 +33,10 @@ def test_partials_are_derivatives_and_agree_with_the_bound_oscillator() -> None:
 )
 def test_refusals(free: tuple[str, ...], message: str) -> None:
     with pytest.raises(InputError, match=message):
-        family(find("pendulum"), free)
+        family_of(find("pendulum"), free)
 
 
 def test_what_is_neither_free_nor_set_is_named() -> None:
     own = Oscillator.from_equation("x'' + x + b*x**3 + c*x**5 = 0")
     with pytest.raises(InputError, match="parameter c has no number"):
-        family(own, ("b",))
+        family_of(own, ("b",))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.recording.survey import amplitude_columns, measure, survey
+from ridgeback.compare.recording.survey import amplitude_columns, measure, measure_recordings
 from ridgeback.numeric.backbone.backbone import backbone
 from ridgeback.numeric.recording.recording import Recording
 
@@ -72,33 +72,35 @@ def test_a_harmonic_has_no_backbone():
 
 def test_a_short_stretch_is_left_out_and_a_short_signal_fails():
     long, short = recording(stretch=1), recording(samples=40, stretch=2, start=450)
-    found = survey([long, short], **QUICK)
+    found = measure_recordings([long, short], **QUICK)
     assert len(found.measured) == 1
     assert found.failed == ()
     assert found.notes[0].startswith("Left out, a.csv, u, stretch 2: signal spans")
-    other = survey([long, recording(samples=40, name="w")], **QUICK)
+    other = measure_recordings([long, recording(samples=40, name="w")], **QUICK)
     assert other.failed[0].startswith("a.csv, w: signal spans")
     assert other.notes == ()
     with pytest.raises(InputError, match="signal spans"):
-        survey([short], **QUICK)
+        measure_recordings([short], **QUICK)
 
 
 def test_what_is_combined():
     runs = [recording(run="1"), recording(run="2"), recording(name="w", run="1")]
-    assert [c.channel for c in survey(runs, **QUICK).combined] == ["u"]
-    (every,) = survey(runs, combine_over="all", **QUICK).combined
+    assert [c.channel for c in measure_recordings(runs, **QUICK).combined] == ["u"]
+    (every,) = measure_recordings(runs, combine_over="all", **QUICK).combined
     assert (every.channel, len(every.curve.labels)) == ("all channels", 3)
-    assert survey(runs, combine_over="none", **QUICK).combined == ()
+    assert measure_recordings(runs, combine_over="none", **QUICK).combined == ()
     with pytest.raises(InputError, match="combine 'both' is unknown; use one of runs, all, none"):
-        survey(runs, combine_over="both", **QUICK)
+        measure_recordings(runs, combine_over="both", **QUICK)
     mixed = [recording(units="mm"), recording(name="w", units="V")]
     with pytest.raises(InputError, match="backbones in V and mm cannot be combined"):
-        survey(mixed, combine_over="all", **QUICK)
+        measure_recordings(mixed, combine_over="all", **QUICK)
 
 
 def test_progress_names_each_signal():
     told = []
-    survey([recording(run="1"), recording(run="2")], progress=lambda share, text: told.append((share, text)), **QUICK)
+    measure_recordings(
+        [recording(run="1"), recording(run="2")], progress=lambda share, text: told.append((share, text)), **QUICK
+    )
     assert told == [(0.0, "estimating a.csv, 1, u"), (0.5, "estimating a.csv, 2, u")]
 
 

@@ -7,7 +7,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.recording.backbone_fit import fit_backbone, formula_of
 from ridgeback.compare.recording.recording import compare_recording
-from ridgeback.compare.report.recording_report import assemble_recording
+from ridgeback.compare.report.recording_report import recording_report
 from ridgeback.numeric.motion.trajectory import integrate
 from ridgeback.symbolic.systems.catalogue import find
 
@@ -86,7 +86,7 @@ def test_a_method_that_fails_is_named_and_all_failing_is_an_error(path):
 
 
 def test_the_report_states_what_was_found(path):
-    report = assemble_recording(path, command="ridgeback report decay.csv", trials=2)
+    report = recording_report(path, command="ridgeback report decay.csv", trials=2)
     assert report.title.endswith("hardening")
     assert report.decay is None
     assert len(report.cards) == 3

@@ -19,9 +19,9 @@ from ridgeback.compare.noise import truth
 from ridgeback.compare.noise.monte_carlo import truth_of
 from ridgeback.compare.report.noise_part import NoisePart, noise_part
 from ridgeback.compare.report.provenance import settings_hash
-from ridgeback.compare.report.recording_report import assemble_recording
+from ridgeback.compare.report.recording_report import recording_report
 from ridgeback.compare.report.results import Report
-from ridgeback.compare.report.system_report import assemble_system
+from ridgeback.compare.report.system_report import system_report
 from ridgeback.compare.study import derived, truncations
 from ridgeback.compare.study.study import ranges
 from ridgeback.numeric.estimators.estimate import METHODS
@@ -31,9 +31,7 @@ from ridgeback.symbolic.systems.catalogue import find
 
 def small(**options) -> Report:
     case = setting(find("damped-duffing-hardening"), initial=(0.8, 0.0), duration=40.0, rate=5.0)
-    return assemble_system(
-        case, orders=(2, 6), amplitudes=np.linspace(0.1, 0.9, 9), order=6, **{"trials": 2, **options}
-    )
+    return system_report(case, orders=(2, 6), amplitudes=np.linspace(0.1, 0.9, 9), order=6, **{"trials": 2, **options})
 
 
 @pytest.fixture(scope="module")
@@ -120,7 +118,7 @@ def test_the_same_request_gives_the_same_report_apart_from_times(report):
 
 
 def test_another_setting_has_another_hash(report):
-    other = assemble_system(
+    other = system_report(
         setting(find("damped-duffing-hardening"), initial=(0.7, 0.0), duration=40.0, rate=5.0),
         orders=(2,), order=2, amplitudes=[0.1], trials=0,
     )  # fmt: skip
@@ -151,7 +149,7 @@ def test_the_papers_case_is_the_papers():
 
 def test_a_limit_cycle_reports_in_eps():
     case = setting(find("van-der-pol").with_parameters({"eps": "0.4"}), initial=(1.0, 0.0), duration=40.0, rate=5.0)
-    report = assemble_system(case, orders=(2, 4), amplitudes=[0.2, 0.5], order=4, trials=0)
+    report = system_report(case, orders=(2, 4), amplitudes=[0.2, 0.5], order=4, trials=0)
     assert "ε = 0.5" in report.title
     assert report.study.limit is None
     assert any("Amplitude of the limit cycle" in formula.title for formula in report.derivation.formulas)
@@ -161,11 +159,11 @@ def test_bad_requests_are_refused():
     with pytest.raises(InputError, match="target"):
         small(target=2.0)
     with pytest.raises(InputError, match="order -1"):
-        assemble_system(paper_case(), order=-1)
+        system_report(paper_case(), order=-1)
     with pytest.raises(InputError, match="the suffix"):
-        assemble_recording("missing.unknown")
+        recording_report("missing.unknown")
     with pytest.raises(OSError, match=r"missing\.csv"):
-        assemble_recording("missing.csv")
+        recording_report("missing.csv")
 
 
 @pytest.mark.parametrize(

@@ -221,7 +221,7 @@ def test_a_report_reads_what_estimate_reads(
         seen.append(recording)
         raise InputError("that is enough")
 
-    monkeypatch.setattr("ridgeback.compare.report.recording_report.assemble_recording", taken)
+    monkeypatch.setattr("ridgeback.compare.report.recording_report.recording_report", taken)
     x = decay()
     x[250] = np.nan
     path = written(tmp_path / "a.csv", t=T, u=x)

@@ -117,7 +117,7 @@ def test_requests_that_cannot_be_met(
 def test_missing_results_are_owned_up_to(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from types import SimpleNamespace
 
-    monkeypatch.setattr("ridgeback.reports.page.render", lambda _: "<html></html>")
+    monkeypatch.setattr("ridgeback.reports.page.html_page", lambda _: "<html></html>")
     scores = (SimpleNamespace(label="Wigner peak", failed="too short"), SimpleNamespace(label="model", failed=""))
     made = SimpleNamespace(title="t", cards=(), summary=(), decay=SimpleNamespace(scores=scores))
     page = tmp_path / "page.html"

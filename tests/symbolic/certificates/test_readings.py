@@ -8,11 +8,11 @@ import mpmath
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.certificates.at_amplitudes import Formula, readings
+from ridgeback.symbolic.certificates.at_amplitudes import Formula, certified_frequencies
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
-from ridgeback.symbolic.resummation.by_name import resummed
+from ridgeback.symbolic.resummation.by_name import resum
 from ridgeback.symbolic.systems.catalogue import find
 
 PENDULUM = find("pendulum")
@@ -28,7 +28,7 @@ def exact_pendulum(amplitude: Fraction) -> mpmath.mpf:
 @pytest.mark.parametrize("amplitude", [Fraction(1, 10), Fraction(2), Fraction(31, 10)])
 def test_the_error_is_the_true_one(amplitude: Fraction) -> None:
     series = energy_integral(PENDULUM, 12)
-    row = readings(PENDULUM, series, [amplitude])[0].to_dict(30)
+    row = certified_frequencies(PENDULUM, series, [amplitude])[0].to_dict(30)
     with mpmath.workdps(40):
         true = exact_pendulum(amplitude)
         assert abs(mpmath.mpf(str(row["omega0"])) - true) <= mpmath.mpf(str(row["radius"]))
@@ -42,9 +42,9 @@ def test_balls_exact_coefficients_and_resummations_have_one_interface() -> None:
     formulas: list[Formula] = [
         series,
         lindstedt_in_balls(PENDULUM, 16),
-        *(resummed(PENDULUM, series, k) for k in ("pade", "nome")),
+        *(resum(PENDULUM, series, k) for k in ("pade", "nome")),
     ]
-    errors = [readings(PENDULUM, f, [Fraction(2)])[0].error for f in formulas]
+    errors = [certified_frequencies(PENDULUM, f, [Fraction(2)])[0].error for f in formulas]
     assert all(e is not None for e in errors)
     exact, balls, pade, nome = (abs(e) for e in errors if e is not None)
     assert exact.overlaps(balls)
@@ -54,24 +54,22 @@ def test_balls_exact_coefficients_and_resummations_have_one_interface() -> None:
 
 def test_a_series_of_another_oscillator_is_refused() -> None:
     with pytest.raises(InputError, match="not one of pendulum"):
-        readings(PENDULUM, lindstedt(find("duffing"), 4), [Fraction(1)])
+        certified_frequencies(PENDULUM, lindstedt(find("duffing"), 4), [Fraction(1)])
     with pytest.raises(InputError, match="no series of pendulum"):
-        readings(PENDULUM, lindstedt_in_balls(find("duffing"), 4), [Fraction(1)])
+        certified_frequencies(PENDULUM, lindstedt_in_balls(find("duffing"), 4), [Fraction(1)])
     with pytest.raises(InputError, match="separatrix at 3"):
-        readings(PENDULUM, lindstedt(PENDULUM, 4), [Fraction(4)])
+        certified_frequencies(PENDULUM, lindstedt(PENDULUM, 4), [Fraction(4)])
 
 
 def test_a_pole_in_the_range_is_refused() -> None:
     series = lindstedt(PENDULUM, 16)
-    assert resummed(PENDULUM, series, "pade", up_to=Fraction(33, 10)).to_dict()["pole"] == pytest.approx(
-        3.3395, abs=1e-4
-    )
+    assert resum(PENDULUM, series, "pade", up_to=Fraction(33, 10)).to_dict()["pole"] == pytest.approx(3.3395, abs=1e-4)
     with pytest.raises(InputError, match=r"has a pole at A = 3\.339"):
-        resummed(PENDULUM, series, "pade", up_to=Fraction(34, 10))
+        resum(PENDULUM, series, "pade", up_to=Fraction(34, 10))
 
 
 def test_the_pole_printed_is_a_zero_of_the_denominator_printed() -> None:
-    public = resummed(PENDULUM, lindstedt(PENDULUM, 16), "pade").to_dict()
+    public = resum(PENDULUM, lindstedt(PENDULUM, 16), "pade").to_dict()
     denominator = [Fraction(str(c)) for c in public["denominator"]]  # type: ignore[attr-defined]
     pole = float(public["pole"])  # type: ignore[arg-type]
     sizes = [float(c) * pole ** (2 * n) for n, c in enumerate(denominator)]
@@ -81,9 +79,9 @@ def test_the_pole_printed_is_a_zero_of_the_denominator_printed() -> None:
 def test_maps_take_out_the_growth_at_infinity() -> None:
     duffing = find("duffing")
     plain, grown = (
-        resummed(duffing, lindstedt(duffing, 16), "map", growth=growth) for growth in (Fraction(0), Fraction(1, 2))
+        resum(duffing, lindstedt(duffing, 16), "map", growth=growth) for growth in (Fraction(0), Fraction(1, 2))
     )
-    bounds = [readings(duffing, f, [Fraction(10)])[0].to_dict(20)["error_bound"] for f in (plain, grown)]
+    bounds = [certified_frequencies(duffing, f, [Fraction(10)])[0].to_dict(20)["error_bound"] for f in (plain, grown)]
     assert float(str(bounds[1])) < 1e-3
     assert float(str(bounds[0])) > 0.1
 
@@ -99,17 +97,17 @@ def test_maps_take_out_the_growth_at_infinity() -> None:
 )
 def test_bad_requests(kind: str, options: dict[str, object], said: str) -> None:
     with pytest.raises(InputError, match=said):
-        resummed(PENDULUM, lindstedt(PENDULUM, 8), kind, **options)  # type: ignore[arg-type]
+        resum(PENDULUM, lindstedt(PENDULUM, 8), kind, **options)  # type: ignore[arg-type]
 
 
 def test_a_constant_frequency_has_nothing_to_resum() -> None:
     linear = find("linear")
     with pytest.raises(InputError, match="constant through order 8"):
-        resummed(linear, lindstedt(linear, 8), "pade")
+        resum(linear, lindstedt(linear, 8), "pade")
 
 
 def test_the_nome_is_of_the_peak_amplitude() -> None:
     with pytest.raises(InputError, match="peak"):
-        resummed(PENDULUM, lindstedt(PENDULUM, 8, amplitude="fundamental"), "nome")
+        resum(PENDULUM, lindstedt(PENDULUM, 8, amplitude="fundamental"), "nome")
     with pytest.raises(InputError, match="neither"):
-        resummed(find("helmholtz-duffing"), lindstedt(find("helmholtz-duffing"), 8), "nome")
+        resum(find("helmholtz-duffing"), lindstedt(find("helmholtz-duffing"), 8), "nome")

@@ -24,8 +24,9 @@ from ridgeback.symbolic.codegen.program import Argument, Form, Function, Operati
 from ridgeback.symbolic.codegen.proofs.notes import gamma, roundings
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
-from ridgeback.symbolic.flow.slow_flow import SlowFlow, Term
-from ridgeback.symbolic.resummation.by_name import resummed
+from ridgeback.symbolic.flow.slow_flow import SlowFlow
+from ridgeback.symbolic.flow.term import Term
+from ridgeback.symbolic.resummation.by_name import resum
 from ridgeback.symbolic.resummation.elliptic_nome import nome
 from ridgeback.symbolic.resummation.mapping import Euler
 from ridgeback.symbolic.resummation.pade import mapped
@@ -181,7 +182,7 @@ FORMULAS = [
 
 def resummation(system: str, order: int, kind: str, growth: object, up_to: Fraction) -> Resummation:
     series = lindstedt(find(system), order)
-    return resummed(find(system), series, kind, growth=Fraction(str(growth)), up_to=up_to)
+    return resum(find(system), series, kind, growth=Fraction(str(growth)), up_to=up_to)
 
 
 @pytest.mark.parametrize(("system", "order", "kind", "growth", "up_to"), FORMULAS)

@@ -11,7 +11,7 @@ from flint import arb
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.certificates.accuracy import accuracy
-from ridgeback.symbolic.certificates.at_amplitudes import readings
+from ridgeback.symbolic.certificates.at_amplitudes import certified_frequencies
 from ridgeback.symbolic.enclosure.enclosure import enclose
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.systems.oscillator import Oscillator, U
@@ -46,7 +46,7 @@ def test_the_enclosure_holds_the_plain_quadrature(force: str) -> None:
 def test_the_series_tends_to_the_enclosure_at_its_order() -> None:
     """Lindstedt-Poincaré knows nothing of the integrating factor; its error at order 6 is that of A^8."""
     series = lindstedt(HEAVY, 6)
-    first, second = (readings(HEAVY, series, [Fraction(1, n)])[0].error for n in (16, 32))
+    first, second = (certified_frequencies(HEAVY, series, [Fraction(1, n)])[0].error for n in (16, 32))
     assert first is not None
     assert second is not None
     assert float(first / second) == pytest.approx(2**8, rel=0.02)
@@ -56,7 +56,7 @@ def test_the_series_tends_to_the_enclosure_at_its_order() -> None:
 def test_the_closed_form_of_mathews_and_lakshmanan_has_its_error() -> None:
     """omega0 = 1/sqrt(1 + A^2/4) exactly (Quarterly of Applied Mathematics 32 (1974) 215)."""
     own = Oscillator.from_equation("(1 + u**2/4)*u'' - u*u'**2/4 + u")
-    row = readings(own, lindstedt(own, 4), [Fraction(1)])[0]
+    row = certified_frequencies(own, lindstedt(own, 4), [Fraction(1)])[0]
     assert row.exact.omega.overlaps(2 / arb(5).sqrt())
     assert row.error is not None
     assert float(row.error) == pytest.approx((1 - 1 / 8 + 3 / 128) / (2 / 5**0.5) - 1, rel=1e-10)

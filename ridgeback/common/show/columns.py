@@ -1,0 +1,76 @@
+"""The columns of every table that a result gives: their units and what they hold.  The list stands here only.
+
+The unit of a signal is whatever its samples were measured in, and an oscillator without a unit of time has rad per time
+unit where this says rad/s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Final, NamedTuple
+
+OF_SIGNAL: Final = "unit of the signal"
+OF_OSCILLATOR: Final = "unit of the unknown"
+
+
+class Quantity(NamedTuple):
+    """One column: its unit ("1" for a pure number, "" for a word) and what it is."""
+
+    unit: str
+    meaning: str
+
+
+QUANTITIES: Final[Mapping[str, Quantity]] = MappingProxyType(
+    {
+        "time_s": Quantity("s", "time"),
+        "omega_rad_s": Quantity("rad/s", "angular frequency"),
+        "frequency_hz": Quantity("Hz", "frequency"),
+        "standard_deviation_rad_s": Quantity("rad/s", "standard deviation of the angular frequency"),
+        "omega_standard_deviation_rad_s": Quantity("rad/s", "standard deviation of the angular frequency"),
+        "omega_between_runs_rad_s": Quantity("rad/s", "standard deviation of the angular frequency between runs"),
+        "bias_rad_s": Quantity("rad/s", "estimated bias of the angular frequency"),
+        "bias_deviation_rad_s": Quantity("rad/s", "standard deviation of the bias"),
+        "low_95_rad_s": Quantity("rad/s", "lower end of the 95 % interval of the angular frequency"),
+        "high_95_rad_s": Quantity("rad/s", "upper end of the 95 % interval of the angular frequency"),
+        "standard_deviation": Quantity(OF_SIGNAL, "standard deviation"),
+        "bias": Quantity(OF_SIGNAL, "estimated bias"),
+        "bias_deviation": Quantity(OF_SIGNAL, "standard deviation of the bias"),
+        "low_95": Quantity(OF_SIGNAL, "lower end of the 95 % interval"),
+        "high_95": Quantity(OF_SIGNAL, "upper end of the 95 % interval"),
+        "valid": Quantity("", "whether the estimator sees a whole window there"),
+        "ambiguous": Quantity("", "whether the definition itself leaves more room than the interval"),
+        "amplitude": Quantity(OF_SIGNAL, "amplitude"),
+        "amplitude_standard_deviation": Quantity(OF_SIGNAL, "standard deviation of the amplitude"),
+        "amplitude_low_95": Quantity(OF_SIGNAL, "lower end of the 95 % interval of the amplitude"),
+        "amplitude_high_95": Quantity(OF_SIGNAL, "upper end of the 95 % interval of the amplitude"),
+        "damping_per_s": Quantity("1/s", "growth rate a'/a, negative in a decay"),
+        "damping_standard_deviation_per_s": Quantity("1/s", "standard deviation of the growth rate"),
+        "damping_between_runs_per_s": Quantity("1/s", "standard deviation of the growth rate between runs"),
+        "side": Quantity("1", "1 above zero, -1 below"),
+        "runs": Quantity("1", "number of runs that reach this amplitude"),
+        "u": Quantity(OF_OSCILLATOR, "the unknown"),
+        "velocity": Quantity(f"{OF_OSCILLATOR}/s", "time derivative of the unknown"),
+        "value": Quantity(OF_SIGNAL, "value"),
+        "clipped": Quantity("", "whether the sample lies in a flat top"),
+        "filled": Quantity("", "whether the sample was interpolated"),
+        "order": Quantity("1", "highest power kept"),
+        "eps": Quantity("1", "parameter of the limit cycle"),
+        "method": Quantity("", "how the frequency is computed"),
+        "omega": Quantity("rad/s", "angular frequency"),
+        "omega_reference": Quantity("rad/s", "exact angular frequency"),
+        "relative_error": Quantity("1", "omega / omega_reference - 1"),
+        "power": Quantity("1", "power of the variable"),
+        "relation": Quantity("", "which of the two equations of the slow flow"),
+        "coefficient": Quantity("exact", "exact coefficient"),
+        "decimal": Quantity("1", "the coefficient rounded to a float"),
+        "parameter": Quantity("", "name of a fitted parameter"),
+        "candidate": Quantity("", "class of oscillators"),
+        "delta": Quantity("1", "distance of the criterion from the best candidate's"),
+        "weight": Quantity("1", "Akaike weight of the candidate"),
+        "unit": Quantity("", "unit of the value"),
+        "heading": Quantity("", "what was found"),
+        "finding": Quantity("", "the finding"),
+        "text": Quantity("", "the finding in words"),
+    }
+)

@@ -1,0 +1,207 @@
+"""``ridgeback.derive`` and ``ridgeback.generate``: an exact series by any method, and its source text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import cast
+
+from ridgeback.common.errors import InputError
+from ridgeback.common.names import chosen
+from ridgeback.common.progress import Wanted, shown
+from ridgeback.interface.source import known_form
+from ridgeback.symbolic.codegen import Formula, written
+from ridgeback.symbolic.codegen.closed_forms import mean_form, sine_series
+from ridgeback.symbolic.codegen.program import MODES as ARITHMETIC
+from ridgeback.symbolic.codegen.program import Mode
+from ridgeback.symbolic.expansion.cost import Budget
+from ridgeback.symbolic.expansion.energy_integral import energy_integral
+from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.flow.slow_flow import SlowFlow
+from ridgeback.symbolic.resummation.by_name import resum
+from ridgeback.symbolic.resummation.resummation import Resummation
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.oscillator import Oscillator
+from ridgeback.symbolic.systems.parameters import Value
+
+METHODS = ("lindstedt", "multiple-scales", "energy-integral")
+
+
+def derive(
+    oscillator: OscillatorLike,
+    order: int = 8,
+    *,
+    method: str | None = None,
+    amplitude: str | None = None,
+    weight: int | None = None,
+    weights: Mapping[str, int] | None = None,
+    parameters: Mapping[str, Value] | None = None,
+    about: str | None = None,
+    budget: Budget | None = None,
+    progress: Wanted = None,
+) -> Expansion | SlowFlow:
+    """Derive the fundamental frequency as an exact series.
+
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        The oscillator, in any of the forms that :func:`ridgeback.oscillator` takes.
+    order : int
+        Highest power of the amplitude, or of eps, that is kept; for multiple scales the highest weighted degree.
+    method : {"lindstedt", "multiple-scales", "energy-integral"}, optional
+        The derivation; by default multiple scales for a damped oscillator, else Lindstedt's.
+    amplitude : {"peak", "trough", "fundamental", "action", "energy"}, optional
+        Which amplitude the series is in; ``"peak"`` by default, and ``"fundamental"`` for multiple scales.
+    weight : int, optional
+        Multiple scales: mu counts as this power of the amplitude (2 by default).
+    weights : mapping of str to int, optional
+        Multiple scales: the weight of each small parameter; 0 makes one a coefficient.
+    parameters : mapping, optional
+        Values of parameters, exact as they are written.
+    about : str, optional
+        Equilibrium to expand about.
+    budget : Budget, optional
+        Time and memory that it may take; a derivation beyond them is refused with the order that fits.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the step.
+
+    Returns
+    -------
+    Expansion or SlowFlow
+        The series; a slow flow (phi' and a'/a) by multiple scales.
+
+    Raises
+    ------
+    InputError
+        For options that the method does not have, and for what the derivation refuses.
+
+    Examples
+    --------
+    >>> derive("pendulum", 4).frequency
+    (1, 0, -1/16, 0, 1/3072)
+    >>> derive("damped_pendulum", 2).damping_expression()
+    -mu
+    """
+    system = as_oscillator(oscillator, parameters=parameters, about=about)
+    name = method_for(system, method)
+    if name == "multiple-scales":
+        if amplitude not in (None, "fundamental"):
+            raise InputError(f"multiple-scales has the fundamental amplitude, not {amplitude!r}; leave amplitude out")
+        return multiple_scales(system, order, weight=2 if weight is None else weight, weights=weights, budget=budget)
+    if weight is not None or weights is not None:
+        raise InputError(f"weights belong to multiple-scales, not to {name}; leave them out")
+    if name == "energy-integral":
+        return energy_integral(system, order, amplitude=amplitude or "peak", budget=budget)
+    with shown(progress) as told:
+        return lindstedt(system, order, amplitude=amplitude or "peak", budget=budget, progress=told)
+
+
+def method_for(oscillator: Oscillator, method: str | None) -> str:
+    """The method asked for, or the one that suits the oscillator."""
+    if method is None:
+        return "multiple-scales" if oscillator.kind == "damped" else "lindstedt"
+    return chosen(method, METHODS, "method")
+
+
+def generate(
+    formula: OscillatorLike | Expansion | SlowFlow | Resummation,
+    language: str = "python",
+    *,
+    oscillator: OscillatorLike | None = None,
+    order: int = 8,
+    method: str | None = None,
+    amplitude: str | None = None,
+    parameters: Mapping[str, Value] | None = None,
+    resummed: str | None = None,
+    degrees: tuple[int, int] | None = None,
+    growth: Fraction = Fraction(0),
+    terms: int = 1,
+    up_to: Fraction | None = None,
+    name: str = "",
+    mode: str = "strict",
+    real: str = "float64",
+    motion: bool = False,
+    progress: Wanted = None,
+) -> str:
+    """Write an expansion as source text in one of eleven languages, its rounding error proved.
+
+    Parameters
+    ----------
+    formula : Oscillator, str, path, sympy.Eq, sympy.Expr, Expansion, SlowFlow or Resummation
+        What has been derived, or the oscillator to derive it of.
+    language : str
+        ``"python"``, ``"c"``, ``"rust"`` ...; an unknown name lists them.
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr, optional
+        The oscillator of a formula that has been derived, when that is not in the catalogue.
+    order, method, amplitude, parameters : optional
+        The derivation, as for :func:`derive`.
+    resummed : {"pade", "map", "nome", "agm", "sine"}, optional
+        Another formula in place of the series.
+    degrees, growth : optional
+        Of the resummation, as for :func:`ridgeback.resum`.
+    terms : int
+        Terms of ``"sine"``.
+    up_to : Fraction, optional
+        End of the domain: no pole, and a bounded rounding error, up to there.
+    name : str
+        Identifier of what is written; by default the system's name.
+    mode : {"strict", "fma", "accurate"}
+        The same bits in every language; fused; with the last steps compensated.
+    real : {"float64", "float32"}
+        Numbers of the code.
+    motion : bool
+        Whether u(t) and its harmonics are written, too.
+    progress : bool or callable, optional
+        As for :func:`derive`.
+
+    Returns
+    -------
+    str
+        The source text.
+
+    Raises
+    ------
+    InputError
+        For an unknown language and for what the derivation or the resummation refuses.
+
+    Examples
+    --------
+    >>> source = generate("pendulum", "c", order=4)
+    >>> "double pendulum_omega0(double" in source
+    True
+    """
+    series: Expansion | SlowFlow
+    result: Formula
+    if isinstance(formula, Expansion | SlowFlow | Resummation):
+        system, result = as_oscillator(formula.system if oscillator is None else oscillator), formula
+        series = lindstedt(system, formula.order) if isinstance(formula, Resummation) else formula
+    else:
+        system = as_oscillator(formula, parameters=parameters)
+        result = series = derive(system, order, method=method, amplitude=amplitude, progress=progress)
+    if resummed is not None:
+        result = in_its_place(system, series, resummed, degrees=degrees, growth=growth, terms=terms, up_to=up_to)
+    how = cast(Mode, chosen(mode, ARITHMETIC, "mode"))
+    form = known_form(system, series, result, up_to=up_to, name=name, mode=how, real=real, motion=motion)
+    return written(form, language)
+
+
+def in_its_place(
+    oscillator: Oscillator,
+    series: Expansion | SlowFlow,
+    kind: str,
+    *,
+    degrees: tuple[int, int] | None,
+    growth: Fraction,
+    terms: int,
+    up_to: Fraction | None,
+) -> Formula:
+    """Another formula in place of the series: a closed form, or one from the same coefficients."""
+    if kind == "agm":
+        return mean_form(oscillator)
+    if kind == "sine":
+        return sine_series(oscillator, terms)
+    if not isinstance(series, Expansion):
+        raise InputError("resummed belongs to a series in one variable; leave it out")
+    return resum(oscillator, series, kind, degrees=degrees, growth=growth, up_to=up_to)

@@ -1,0 +1,80 @@
+"""The door for signals: arrays, tables, recordings and files become a ``Recording`` here."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from typing import Any, TypeAlias
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.recording.recording import Recording, read_recording
+
+SignalLike: TypeAlias = Any
+"""A Recording, a path, or samples: a list, an array, a masked array, a pandas or xarray object."""
+
+
+def as_recording(
+    x: SignalLike,
+    rate: float | None = None,
+    *,
+    time: Any = None,
+    column: str | int | None = None,
+    resample: float | None = None,
+    fill: float | None = None,
+    detrend: str = "none",
+) -> Recording:
+    """Make a recording of a signal in any of its forms; of one with gaps the longest stretch, with a warning.
+
+    Parameters
+    ----------
+    x : array_like, masked array, Series, DataFrame, DataArray, Dataset, Recording, str or path
+        The samples, or the file that holds them (CSV, NPZ, NPY, WAV, MAT, HDF5).  NaN, ``None`` and masked samples are
+        missing.
+    rate : float, optional
+        Samples per time unit.
+    time : array_like, optional
+        The time of each sample, in place of a rate.
+    column : str or int, optional
+        The signal of a table or a file with several.
+    resample, fill : float, optional
+        Rate to interpolate uneven times to; longest gap to interpolate across.
+    detrend : {"none", "linear", "slow"}
+        What is taken off.
+
+    Returns
+    -------
+    Recording
+        The uniformly sampled signal.
+
+    Raises
+    ------
+    InputError
+        For what is no signal of numbers with a rate or times.
+    OSError
+        For a file that cannot be read.
+
+    Examples
+    --------
+    >>> as_recording([0.0, 1.0] * 20, rate=4.0).rate
+    4.0
+    """
+    treatment: dict[str, Any] = {"resample": resample, "fill": fill, "detrend": detrend}
+    if isinstance(x, Recording):
+        refuse_beside_recording(rate=rate, time=time, column=column, resample=resample, fill=fill)
+        return x
+    if isinstance(x, str | os.PathLike):
+        if time is not None:
+            raise InputError(f"{os.fspath(x)} has times of its own; leave time out, or name its column when reading it")
+        found = read_recording(os.fspath(x), column=column, rate=rate, **treatment)
+    else:
+        found = Recording.from_arrays(x, rate, time=time, column=column, **treatment)
+    if found.stretch:
+        warnings.warn(f"{found.label}: {found.notes[-1]} fill= interpolates across short gaps.", stacklevel=3)
+    return found
+
+
+def refuse_beside_recording(**given: object) -> None:
+    """Refuse what a recording has settled already."""
+    settled = [name for name, value in given.items() if value is not None]
+    if settled:
+        raise InputError(f"a Recording has its {settled[0]} already; leave {settled[0]} out, or give its values alone")

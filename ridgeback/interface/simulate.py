@@ -1,0 +1,104 @@
+"""``ridgeback.simulate``: an integrated trajectory, by any of the integrators."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ridgeback.common.errors import InputError
+from ridgeback.common.names import chosen
+from ridgeback.compare.binding.bind import bind
+from ridgeback.compare.binding.heyoka import integrate_heyoka
+from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.numeric.motion.taylor import integrate_taylor
+from ridgeback.numeric.motion.trajectory import METHODS, Trajectory, integrate
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.parameters import Value
+
+ALL = (*METHODS, "taylor", "heyoka")
+DIGITS = 30
+
+
+def simulate(
+    oscillator: OscillatorLike | Dynamics,
+    initial: tuple[float, float] | None = None,
+    *,
+    duration: float = 20.0,
+    rate: float = 64.0,
+    method: str = "DOP853",
+    digits: int | None = None,
+    rtol: float | None = None,
+    parameters: Mapping[str, Value] | None = None,
+    about: str | None = None,
+) -> Trajectory:
+    """Integrate the equation of motion.
+
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq, sympy.Expr or Dynamics
+        The oscillator, in any of the forms that :func:`ridgeback.oscillator` takes, or one that is bound to numbers.
+    initial : (float, float), optional
+        The state (u, u') at time 0, in the unit of u and that per time unit; by default the oscillator's own.
+    duration : float
+        Time to integrate over.
+    rate : float
+        Samples per time unit.
+    method : {"DOP853", "RK45", "Radau", "BDF", "LSODA", "taylor", "heyoka"}
+        The integrator: one of SciPy's, a Taylor method at any precision, or heyoka where it is installed.
+    digits : int, optional
+        Digits that ``taylor`` works with (30 by default).
+    rtol : float, optional
+        Relative tolerance of SciPy's methods (1e-12 by default).
+    parameters, about : optional
+        As for :func:`ridgeback.oscillator`.
+
+    Returns
+    -------
+    Trajectory
+        Samples ``time``, ``u``, ``velocity``, and located zero crossings and turning points.
+
+    Raises
+    ------
+    InputError
+        For a parameter without a value, a state that is not usable, a motion that leaves the well, work beyond the
+        budget.
+    OSError
+        For ``heyoka`` where it is not installed.
+
+    Examples
+    --------
+    >>> run = simulate("pendulum", (0.5, 0.0), duration=10.0)
+    >>> run.u.size, round(float(run.crossings.time[0]), 4)
+    (641, 1.5957)
+    """
+    name = chosen(method, ALL, "method")
+    if digits is not None and name != "taylor":
+        raise InputError(f"digits belong to method 'taylor'; {name} works in double precision")
+    if rtol is not None and name not in METHODS:
+        raise InputError(f"rtol belongs to {', '.join(METHODS)}, not to {name}; leave it out")
+    if isinstance(oscillator, Dynamics):
+        return of_dynamics(oscillator, initial, duration, rate, name, digits, rtol)
+    system = as_oscillator(oscillator, parameters=parameters, about=about)
+    start = system.initial if initial is None else initial
+    if name == "heyoka":
+        return integrate_heyoka(system, start, duration=duration, rate=rate)
+    return of_dynamics(bind(system), start, duration, rate, name, digits, rtol)
+
+
+def of_dynamics(
+    dynamics: Dynamics,
+    initial: tuple[float, float] | None,
+    duration: float,
+    rate: float,
+    method: str,
+    digits: int | None,
+    rtol: float | None,
+) -> Trajectory:
+    """Integrate an oscillator that is bound to numbers."""
+    if initial is None:
+        raise InputError("an oscillator that is bound to numbers has no initial state of its own; give initial=(u, u')")
+    if method == "heyoka":
+        raise InputError("heyoka forms its own derivatives; give the oscillator itself rather than its dynamics")
+    if method == "taylor":
+        return integrate_taylor(dynamics, initial, duration=duration, rate=rate, digits=digits or DIGITS)
+    tolerance = 1e-12 if rtol is None else rtol
+    return integrate(dynamics, initial, duration=duration, rate=rate, method=method, rtol=tolerance)

@@ -1,0 +1,114 @@
+"""The public names: where each lives, what it is for, and what it is.  The list stands here only.
+
+The lazy imports, ``dir(ridgeback)``, ``ridgeback.__all__`` and ``help(ridgeback)`` are made of it.
+"""
+
+from __future__ import annotations
+
+from itertools import groupby
+from typing import Final, NamedTuple
+
+
+class Public(NamedTuple):
+    """One public name: its module under ``ridgeback``, the group it belongs to, and one line about it."""
+
+    name: str
+    home: str
+    group: str
+    about: str
+
+
+_NAME = "Name an oscillator"
+_DERIVE = "Derive exactly"
+_PROVE = "Prove and resum"
+_SIMULATE = "Simulate"
+_READ = "Take in signals"
+_PLANES = "Time-frequency planes"
+_ESTIMATE = "Estimate from signals"
+_IDENTIFY = "Identify"
+_COMPARE = "Compare and report"
+_VALUES = "What is handed over"
+
+PUBLIC: Final = (
+    Public("oscillator", "symbolic.systems.door:as_oscillator", _NAME, "from a name, an equation, SymPy or TOML"),
+    Public("catalogue", "symbolic.systems.catalogue", _NAME, "the oscillators that have names"),
+    Public("Oscillator", "symbolic.systems.oscillator", _NAME, "an equation of motion with exact parameters"),
+    Public("derive", "interface.derive", _DERIVE, "the exact series of the frequency, by the method that suits"),
+    Public("lindstedt", "symbolic.expansion.lindstedt", _DERIVE, "omega0 in the amplitude or in eps, and u"),
+    Public("multiple_scales", "symbolic.flow.multiple_scales", _DERIVE, "the slow flow phi' and a'/a, with damping"),
+    Public("energy_integral", "symbolic.expansion.energy_integral", _DERIVE, "omega0 from the potential alone"),
+    Public("lindstedt_in_balls", "symbolic.high_order.in_balls", _DERIVE, "very high orders, enclosed"),
+    Public("lindstedt_by_primes", "symbolic.high_order.by_primes", _DERIVE, "very high orders, exactly"),
+    Public("generate", "interface.derive", _DERIVE, "a formula as Python or C, its rounding bounded"),
+    Public("Budget", "symbolic.expansion.cost", _DERIVE, "the time and memory that a derivation may take"),
+    Public("enclose", "symbolic.enclosure.enclosure", _PROVE, "the exact frequency at an amplitude, enclosed"),
+    Public("certify", "symbolic.certificates.certificate", _PROVE, "every independent check of an expansion"),
+    Public("certified_frequencies", "symbolic.certificates.at_amplitudes", _PROVE, "a formula's proved errors"),
+    Public("certified_rows", "compare.study.certified", _PROVE, "proved errors of a series and its resummations"),
+    Public("resum", "symbolic.resummation.by_name", _PROVE, "another formula from the coefficients of a series"),
+    Public("limits", "symbolic.singularities.limits:settled_limits", _PROVE, "where a series converges, and why"),
+    Public("simulate", "interface.simulate", _SIMULATE, "a trajectory, by any of the integrators"),
+    Public("bind", "compare.binding.bind", _SIMULATE, "an oscillator with its numbers, as functions of floats"),
+    Public("read_recording", "numeric.recording.recording", _READ, "one signal from a file"),
+    Public("read_recordings", "numeric.recording.recording", _READ, "every stretch, channel and run of files"),
+    Public("recordings_from_arrays", "numeric.recording.recording", _READ, "every stretch of samples in memory"),
+    Public("Recording", "numeric.recording.recording", _READ, "a signal; Recording.from_arrays makes one of samples"),
+    Public("wigner", "numeric.distributions.wigner", _PLANES, "the Wigner distribution"),
+    Public("pseudo_wigner", "numeric.distributions.wigner", _PLANES, "the Wigner distribution under a lag window"),
+    Public("smoothed_pseudo_wigner", "numeric.distributions.wigner", _PLANES, "smoothed over time, too"),
+    Public("polynomial_wigner", "numeric.distributions.polynomial_wigner", _PLANES, "of order 4 or 6"),
+    Public("cross_wigner", "numeric.distributions.cross_wigner", _PLANES, "of two signals"),
+    Public("spectrogram", "numeric.distributions.spectrogram", _PLANES, "the squared short-time spectrum"),
+    Public("reassigned_spectrogram", "numeric.distributions.reassigned_spectrogram", _PLANES, "moved to where it is"),
+    Public("synchrosqueezed_spectrogram", "numeric.distributions.reassigned_spectrogram", _PLANES, "in frequency only"),
+    Public("ridge", "numeric.distributions.plane_ridge", _PLANES, "the ridge of a plane as a track"),
+    Public("estimate", "interface.estimate", _ESTIMATE, "the frequency over time, with interval and bias"),
+    Public("backbone", "interface.estimate", _ESTIMATE, "frequency and growth rate against amplitude"),
+    Public("half_cycles", "interface.estimate", _ESTIMATE, "frequency, amplitude, growth rate of each half cycle"),
+    Public("model_fit", "interface.estimate", _ESTIMATE, "an oscillator's own solutions fitted to samples"),
+    Public("measure_recordings", "compare.recording.survey", _ESTIMATE, "tracks and backbones of many recordings"),
+    Public("identify", "interface.identify", _IDENTIFY, "which oscillator made a decay"),
+    Public("predict", "interface.identify", _IDENTIFY, "the rest of a decay from its first cycles"),
+    Public("study", "interface.report", _COMPARE, "the error of each order at each amplitude"),
+    Public("report", "interface.report", _COMPARE, "the whole comparison; its save() writes one HTML page"),
+    Public("Expansion", "symbolic.expansion.expansion", _VALUES, "an exact series in one variable"),
+    Public("SlowFlow", "symbolic.flow.slow_flow", _VALUES, "the slow flow phi' and a'/a"),
+    Public("Trajectory", "numeric.motion.trajectory", _VALUES, "an integrated solution with its events"),
+    Public("Dynamics", "numeric.motion.dynamics", _VALUES, "an oscillator bound to numbers"),
+    Public("Distribution", "numeric.distributions.distribution", _VALUES, "a time-frequency plane with its axes"),
+    Public("Track", "numeric.tracking.track", _VALUES, "a frequency over time with its uncertainty"),
+    Public("Backbone", "numeric.backbone.curve", _VALUES, "a backbone curve with its uncertainty"),
+    Public("HalfCycles", "numeric.backbone.half_cycles", _VALUES, "one value per half cycle"),
+    Public("ModelFit", "numeric.model_fit.fit", _VALUES, "a fitted oscillator with its covariance"),
+    Public("Identification", "compare.identification.results", _VALUES, "ranked candidates and the verdict"),
+    Public("Study", "compare.study.results", _VALUES, "errors over order and amplitude"),
+    Public("Report", "compare.report.results", _VALUES, "all that a page shows"),
+    Public("InputError", "common.errors", _VALUES, "the one error of unusable input, a ValueError"),
+)
+
+BY_NAME: Final = {entry.name: entry for entry in PUBLIC}
+
+
+def home(entry: Public) -> tuple[str, str]:
+    """Module and attribute of a public name.
+
+    >>> home(BY_NAME["oscillator"])
+    ('ridgeback.symbolic.systems.door', 'as_oscillator')
+    """
+    module, _, attribute = entry.home.partition(":")
+    return f"ridgeback.{module}", attribute or entry.name
+
+
+def contents() -> str:
+    """The names by group, one to a line.
+
+    >>> print(contents()[:92])
+    Name an oscillator
+        oscillator                   from a name, an equation, SymPy or TOML
+    """
+    width = max(len(entry.name) for entry in PUBLIC) + 2
+    blocks = [
+        "\n".join([group, *(f"    {entry.name:{width}}{entry.about}" for entry in entries)])
+        for group, entries in groupby(PUBLIC, key=lambda entry: entry.group)
+    ]
+    return "\n\n".join(blocks)
