@@ -119,9 +119,15 @@ def _decay_sentences(decay: DecayComparison) -> Iterator[str]:
         score = scores.get(name)
         if score is not None and score.rms_interior is not None:
             yield words.format(label=score.label, rms=relative(score.rms_interior), mean=offset(score.mean_interior))
+            if name == WIGNER:
+                yield from _cause_of_bias(decay)
+    yield from _best_and_failed(decay.scores)
+
+
+def _cause_of_bias(decay: DecayComparison) -> Iterator[str]:
+    """Why the Wigner peak is off, where the cause is known."""
     if decay.wigner_bias is not None and decay.wigner_bias.cause is BiasCause.CURVATURE:
         yield _CURVATURE
-    yield from _best_and_failed(decay.scores)
 
 
 _CURVATURE = (
