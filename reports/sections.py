@@ -21,9 +21,9 @@ from ridgeback.reports.text.mathml import FormulaError, formula_latex, formula_m
 from ridgeback.reports.text.tables import (
     budget_table,
     certified_table,
+    estimator_table,
     range_table,
     score_table,
-    standing_table,
     timing_table,
 )
 
@@ -183,8 +183,8 @@ def _errors(report: Report) -> Iterator[Part]:
 
 
 def _estimators(report: Report) -> Iterator[Part]:
-    if report.standings and report.decay:
-        yield Part("table", standing_table(report.standings, report.decay.reference.label))
+    if report.estimator_scores and report.decay:
+        yield Part("table", estimator_table(report.estimator_scores, report.decay.reference.label))
         known = max((row.definition for row in report.decay.budget), default=0.0)
         if known:
             yield Part("text", DEFINED.format(relative(known)))

@@ -23,7 +23,7 @@ class Card:
 
 
 @dataclass(frozen=True)
-class Standing:
+class EstimatorScore:
     """One estimator with its own defaults on the samples of a motion, with and without its bias."""
 
     method: str
@@ -73,7 +73,7 @@ class Report(ShownReport):
     provenance: Provenance
     certified: Certified | None = None
     """Proved errors of the series and its resummations, where omega0 can be enclosed."""
-    standings: tuple[Standing, ...] = ()
+    estimator_scores: tuple[EstimatorScore, ...] = ()
     """Every estimator on the same samples."""
     noise: NoiseStudy | None = None
     """The estimators in noise, beside the Cramér-Rao bound."""

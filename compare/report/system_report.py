@@ -16,11 +16,11 @@ from ridgeback.compare.motion.motion import Setting, integrate_motion, setting
 from ridgeback.compare.motion.results import DecayComparison
 from ridgeback.compare.noise.truth import motion_truth
 from ridgeback.compare.report import csv_tables as tables
+from ridgeback.compare.report.estimator_scores import estimator_scores
 from ridgeback.compare.report.noise_part import TRIALS, noise_part
 from ridgeback.compare.report.provenance import provenance
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.report.stages import Stopwatch
-from ridgeback.compare.report.standings import standings
 from ridgeback.compare.report.summary import cards, decay_sentences, study_sentences, study_title
 from ridgeback.compare.study.certified import certified
 from ridgeback.compare.study.derivation import derivation
@@ -123,7 +123,7 @@ def system_report(
         motion = integrate_motion(case)
         decay = compare_decay(motion, derived=derived, orders=_drawn(derived, order), progress=inner)
     with watch.stage("every estimator", 0.5, 0.7) as inner:
-        ranked = standings(decay, progress=inner)
+        ranked = estimator_scores(decay, progress=inner)
     with watch.stage("estimators in noise", 0.7, 0.97) as inner:
         noise = noise_part(lambda: motion_truth(motion), trials, inner)
     with watch.stage("evaluation time", 0.97, 1.0):
@@ -145,7 +145,7 @@ def system_report(
         timings=times,
         provenance=provenance(plan.settings(), command=command, seconds=watch.seconds()),
         certified=certified(derived.undamped.oscillator, plan.order, float(plan.amplitudes[-1])),
-        standings=ranked,
+        estimator_scores=ranked,
         noise=noise.study,
         csv=_system_csv(result, decay),
         finding=finding,

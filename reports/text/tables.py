@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ridgeback.common.numbers import NONE, number, relative, rounded_down, threshold
 from ridgeback.compare.motion.results import BudgetRow, Score
-from ridgeback.compare.report.results import Standing
+from ridgeback.compare.report.results import EstimatorScore
 from ridgeback.compare.study.results import Certified, Range, Timing
 
 
@@ -56,7 +56,7 @@ def _score_row(score: Score) -> Row:
     return Row(cells, score.note)
 
 
-def standing_table(standings: Sequence[Standing], reference: str) -> Table:
+def estimator_table(scores: Sequence[EstimatorScore], reference: str) -> Table:
     """Return every estimator on the same samples, failures kept."""
     return Table(
         "estimators",
@@ -65,24 +65,24 @@ def standing_table(standings: Sequence[Standing], reference: str) -> Table:
         "(median over the interior), the share of the interior where that interval holds the reference, and CPU time, "
         "bias and interval included. A dash: nothing valid there, or no interval claimed.",
         ("method", "raw, interior", "interior", "start", "end", "half width", "coverage", "CPU"),
-        tuple(_standing_row(standing) for standing in standings),
+        tuple(_estimator_row(score) for score in scores),
     )
 
 
-def _standing_row(standing: Standing) -> Row:
-    if standing.failed:
-        return Row((standing.method, *(NONE,) * 7), f"Failed: {standing.failed}", failed=True)
+def _estimator_row(score: EstimatorScore) -> Row:
+    if score.failed:
+        return Row((score.method, *(NONE,) * 7), f"Failed: {score.failed}", failed=True)
     cells = (
-        standing.method,
-        relative(standing.rms_raw),
-        relative(standing.rms_interior),
-        relative(standing.rms_start),
-        relative(standing.rms_end),
-        relative(standing.half_width),
-        NONE if standing.coverage is None else f"{100 * standing.coverage:.0f} %",
-        f"{number(standing.seconds, 2)} s",
+        score.method,
+        relative(score.rms_raw),
+        relative(score.rms_interior),
+        relative(score.rms_start),
+        relative(score.rms_end),
+        relative(score.half_width),
+        NONE if score.coverage is None else f"{100 * score.coverage:.0f} %",
+        f"{number(score.seconds, 2)} s",
     )
-    return Row(cells, standing.note)
+    return Row(cells, score.note)
 
 
 def budget_table(rows: Sequence[BudgetRow]) -> Table:

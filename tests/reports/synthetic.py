@@ -32,7 +32,7 @@ from ridgeback.compare.motion.results import (
 )
 from ridgeback.compare.noise.results import NoiseCell, NoiseStudy
 from ridgeback.compare.recording.results import RecordingComparison
-from ridgeback.compare.report.results import Card, Provenance, Report, Standing
+from ridgeback.compare.report.results import Card, EstimatorScore, Provenance, Report
 from ridgeback.compare.study.results import Certified, CertifiedRow, Checked, Derivation, Formula, Range, Study, Timing
 
 Array = NDArray[np.float64]
@@ -293,11 +293,11 @@ def make_recording() -> RecordingComparison:
     )
 
 
-def make_standings() -> tuple[Standing, ...]:
+def make_estimator_scores() -> tuple[EstimatorScore, ...]:
     return (
-        Standing("pseudo-wigner", 4.6e-4, 1.3e-5, 3e-2, 2e-3, 1e-3, 0.95, 0.031),
-        Standing("wigner", 9.5e-3, 9.5e-3, 8e-2, 7e-3, None, None, 0.12, "Claims no interval."),
-        Standing("model-fit", None, None, None, None, None, None, 0.0, failed="no oscillator was named"),
+        EstimatorScore("pseudo-wigner", 4.6e-4, 1.3e-5, 3e-2, 2e-3, 1e-3, 0.95, 0.031),
+        EstimatorScore("wigner", 9.5e-3, 9.5e-3, 8e-2, 7e-3, None, None, 0.12, "Claims no interval."),
+        EstimatorScore("model-fit", None, None, None, None, None, None, 0.0, failed="no oscillator was named"),
     )
 
 
@@ -432,7 +432,7 @@ def full_report() -> Report:
         ),
         provenance=provenance(),
         certified=make_certified(),
-        standings=make_standings(),
+        estimator_scores=make_estimator_scores(),
         noise=make_noise(),
         csv={"study.csv": "order,amplitude\n" + "\n".join(rows) + "\n"},
         finding=finding,

@@ -96,10 +96,13 @@ def test_three_cards_and_every_part_is_there(report):
 
 
 def test_every_estimator_stands_beside_the_others_and_in_noise(report):
-    assert {standing.method for standing in report.standings} == set(METHODS) - {"auto", "model-fit"}
-    for standing in report.standings:
-        assert standing.failed or standing.rms_interior < 0.05, standing
-    best = next(s for s in report.standings if s.method == "harmonic-least-squares")
+    assert {score.method for score in report.estimator_scores} == set(METHODS) - {
+        "auto",
+        "model-fit",
+    }
+    for score in report.estimator_scores:
+        assert score.failed or score.rms_interior < 0.05, score
+    best = next(s for s in report.estimator_scores if s.method == "harmonic-least-squares")
     assert best.rms_interior < 1e-3
     assert 0.0 < best.half_width < 0.01
     loud, quiet = (report.noise.cell("harmonic-least-squares", snr).rms for snr in (10.0, 40.0))
@@ -108,9 +111,9 @@ def test_every_estimator_stands_beside_the_others_and_in_noise(report):
 
 def test_the_same_request_gives_the_same_report_apart_from_times(report):
     def timeless(item):
-        still = tuple(replace(standing, seconds=0.0) for standing in item.standings)
+        still = tuple(replace(score, seconds=0.0) for score in item.estimator_scores)
         made = replace(item.provenance, command="", seconds={})
-        return replace(item, provenance=made, timings=(), cards=item.cards[:2], standings=still)
+        return replace(item, provenance=made, timings=(), cards=item.cards[:2], estimator_scores=still)
 
     again = small()
     assert repr(timeless(again)) == repr(timeless(report))

@@ -11,7 +11,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.motion.error_norms import Zones, relative_error, rms
 from ridgeback.compare.motion.estimate_curves import curve_of
 from ridgeback.compare.motion.results import Curve, DecayComparison
-from ridgeback.compare.report.results import Standing
+from ridgeback.compare.report.results import EstimatorScore
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.estimators.estimate import METHODS, estimate
 from ridgeback.numeric.tracking.track import Track
@@ -20,29 +20,29 @@ COMPARED = tuple(method for method in METHODS if method not in ("auto", "model-f
 """All that need nothing but the samples; ``auto`` is one of the others."""
 
 
-def standings(
+def estimator_scores(
     decay: DecayComparison, *, methods: Iterable[str] = COMPARED, progress: Callable[[float, str], None]
-) -> tuple[Standing, ...]:
-    """Run every method on the samples of u; a refusal becomes a standing with its reason."""
+) -> tuple[EstimatorScore, ...]:
+    """Run every method on the samples of u; a refusal becomes a score with its reason."""
     wanted = tuple(methods)
     found = []
     for i, method in enumerate(wanted):
         progress(i / len(wanted), method)
-        found.append(standing(decay, method))
+        found.append(estimator_score(decay, method))
     return tuple(found)
 
 
-def standing(decay: DecayComparison, method: str) -> Standing:
+def estimator_score(decay: DecayComparison, method: str) -> EstimatorScore:
     """Run one method."""
     began = time.process_time()
     try:
         track = estimate(decay.u, decay.case.rate, method=method, start=float(decay.time[0]), remove_bias=True)
     except InputError as refusal:
-        return Standing(method, *(None,) * 6, time.process_time() - began, failed=str(refusal))
+        return EstimatorScore(method, *(None,) * 6, time.process_time() - began, failed=str(refusal))
     return judged(decay, track, time.process_time() - began)
 
 
-def judged(decay: DecayComparison, track: Track, seconds: float) -> Standing:
+def judged(decay: DecayComparison, track: Track, seconds: float) -> EstimatorScore:
     """Errors and interval of a track, its bias removed, against the reference of the decay."""
     zone = Zones(float(decay.time[0]), *decay.interior, float(decay.time[-1]))
     expected = reference_at(decay.reference, track.time)
@@ -50,7 +50,7 @@ def judged(decay: DecayComparison, track: Track, seconds: float) -> Standing:
     raw = error if track.bias is None else error + track.bias / expected
     inside = zone.interior(track.time)
     half_width, coverage = interval_of(track, expected, inside & track.valid & np.isfinite(expected))
-    return Standing(
+    return EstimatorScore(
         method=track.method,
         rms_raw=rms(raw[inside]),
         rms_interior=rms(error[inside]),
