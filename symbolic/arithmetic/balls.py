@@ -23,6 +23,18 @@ REAL_FUNCTIONS: Final[dict[str, Callable[[arb], arb]]] = {
 def rational(value: Fraction | sympy.Rational) -> fmpq:
     """Return an exact rational in FLINT's form.
 
+    Parameters
+    ----------
+    value : Fraction or sympy.Rational
+        The number.
+
+    Returns
+    -------
+    fmpq
+        The same number.
+
+    Examples
+    --------
     >>> rational(Fraction(2, 6))
     1/3
     """
@@ -30,11 +42,25 @@ def rational(value: Fraction | sympy.Rational) -> fmpq:
 
 
 def ball(value: Any) -> arb:
-    """Return a number as a ball: exact for floats and whole numbers, rounded outwards at the working precision else.
+    """Return a number as a ball.
 
-    Takes int, float, Fraction, SymPy rationals, mpmath's mpf, FLINT's numbers, and NumPy's float scalars.  Raises
-    InputError for anything else.
+    Parameters
+    ----------
+    value : int, float, Fraction, sympy.Rational, mpmath.mpf, arb, fmpq or NumPy float
+        The number.
 
+    Returns
+    -------
+    arb
+        Exact for floats and whole numbers, rounded outwards at the working precision else.
+
+    Raises
+    ------
+    InputError
+        For anything else.
+
+    Examples
+    --------
     >>> ball(Fraction(1, 4)), ball(0.5)
     (0.250000000000000, 0.500000000000000)
     """
@@ -53,6 +79,20 @@ def ball(value: Any) -> arb:
 def whole_power(x: arb, n: int) -> arb:
     """Return x^n by multiplication: FLINT's own power goes by the logarithm and has no answer on balls around 0.
 
+    Parameters
+    ----------
+    x : arb
+        The base.
+    n : int
+        The exponent, 0 or more.
+
+    Returns
+    -------
+    arb
+        A ball that contains the power of each point of ``x``.
+
+    Examples
+    --------
     >>> whole_power(arb(0, 1), 2).is_finite()
     True
     """
@@ -88,8 +128,23 @@ def polynomial_at(coefficients: Sequence[fmpq], x: arb) -> arb:
 def natural_frequency(scale: sympy.Expr) -> arb:
     """Return k, known exactly as the square root of a rational, as a ball.
 
-    Raises InputError when a parameter in it is still symbolic.
+    Parameters
+    ----------
+    scale : sympy.Expr
+        k, in rad per time unit.
 
+    Returns
+    -------
+    arb
+        k at the working precision.
+
+    Raises
+    ------
+    InputError
+        When a parameter in it is still symbolic.
+
+    Examples
+    --------
     >>> natural_frequency(2 * sympy.sqrt(2)).str(10, radius=False)
     '2.828427125'
     """
@@ -102,8 +157,20 @@ def natural_frequency(scale: sympy.Expr) -> arb:
 def evaluated(function: Callable[[arb], arb], value: Any) -> Any:
     """Evaluate a function of balls at a float, at each element of an array, or at an mpf in its own precision.
 
-    The result has the type of the value (a float for whole numbers and fractions) and one rounding.
+    Parameters
+    ----------
+    function : callable
+        Takes and returns an ``arb``.
+    value : float, int, Fraction, mpmath.mpf or array
+        Where to evaluate it.
 
+    Returns
+    -------
+    float, mpmath.mpf or array
+        Of the type of ``value`` (a float for whole numbers and fractions), with one rounding.
+
+    Examples
+    --------
     >>> evaluated(lambda x: x.sqrt(), 2.0) == 2.0**0.5
     True
     """

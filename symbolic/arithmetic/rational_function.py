@@ -21,8 +21,25 @@ Coefficients = tuple[fmpq, ...]
 def approximant(series: Sequence[fmpq], m: int, n: int) -> tuple[Coefficients, Coefficients]:
     """Return numerator and denominator of the [m/n] Padé approximant, the denominator 1 at the origin.
 
-    Raises InputError when the degrees are unfit for the terms given, or the approximant does not exist.
+    Parameters
+    ----------
+    series : sequence of fmpq
+        c_0, c_1, ..., m + n + 1 of them or more.
+    m, n : int
+        Degrees of numerator and denominator.
 
+    Returns
+    -------
+    tuple of two tuples of fmpq
+        Their coefficients, the lowest first.
+
+    Raises
+    ------
+    InputError
+        When the degrees do not fit the terms given, or the approximant does not exist.
+
+    Examples
+    --------
     >>> approximant([fmpq(1, f) for f in (1, 1, 2)], 1, 1)
     ((1, 1/2), (1, -1/2))
     """

@@ -32,8 +32,22 @@ def long_integers() -> Iterator[None]:
 
 
 def as_sympy(value: Any, names: tuple[str, ...] = ()) -> sympy.Expr:
-    """Return a FLINT rational, or a FLINT polynomial in (x, *names) free of x, as a SymPy expression.
+    """Return a FLINT rational or polynomial as a SymPy expression.
 
+    Parameters
+    ----------
+    value : fmpq or fmpq_mpoly
+        A polynomial is one in (x, *names) free of x.
+    names : tuple of str, optional
+        Names of the parameters.
+
+    Returns
+    -------
+    sympy.Expr
+        The same value, exactly.
+
+    Examples
+    --------
     >>> as_sympy(fmpq(-1, 16))
     -1/16
     """
@@ -52,6 +66,18 @@ def as_sympy(value: Any, names: tuple[str, ...] = ()) -> sympy.Expr:
 def mathml(latex: str) -> str:
     """Return presentation MathML of a LaTeX formula (SymPy's own printer sets omega_0 as text).
 
+    Parameters
+    ----------
+    latex : str
+        Without dollar signs.
+
+    Returns
+    -------
+    str
+        A ``math`` element.
+
+    Examples
+    --------
     >>> mathml("x").startswith("<math")
     True
     """

@@ -81,8 +81,20 @@ def equilibria(well: Well, bits: int) -> tuple[arb | None, arb | None]:
 
 
 def real_roots(polynomial: fmpq_poly) -> list[arb]:
-    """The distinct real roots as disjoint balls, in rising order.
+    """Return the distinct real roots of a polynomial.
 
+    Parameters
+    ----------
+    polynomial : fmpq_poly
+        With exact coefficients.
+
+    Returns
+    -------
+    list of arb
+        Disjoint balls, in rising order.
+
+    Examples
+    --------
     >>> [float(r) for r in real_roots(fmpq_poly([0, -4, 0, 1]))]
     [-2.0, 0.0, 2.0]
     """

@@ -69,11 +69,28 @@ class Curves:
 
 @lru_cache(maxsize=64)
 def well_of(oscillator: Oscillator, *, mirrored: bool = False) -> Well:
-    """The well of a conservative oscillator; ``mirrored`` turns u into -u.
+    """Return the well of a conservative oscillator, in units with k = 1.
 
-    Raises InputError, with the alternative, for self-excited and damped oscillators, symbolic parameters, velocity
-    terms other than b(u) u'^2, and where no rule integrates the potential.
+    Parameters
+    ----------
+    oscillator : Oscillator
+        Conservative, with numbers for its parameters.
+    mirrored : bool, optional
+        Whether to turn u into -u.
 
+    Returns
+    -------
+    Well
+        Force, potential and inertia.
+
+    Raises
+    ------
+    InputError
+        With the alternative, for self-excited and damped oscillators, symbolic parameters, velocity terms other than
+        b(u) u'^2, and where no rule integrates the potential.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> well_of(find("duffing")).polynomial
     1/4*x^4 + 1/2*x^2

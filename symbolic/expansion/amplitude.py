@@ -60,12 +60,25 @@ def check_definition(amplitude: str, allowed: Sequence[str] = DEFINITIONS) -> st
 def check_amplitude(oscillator: Oscillator, amplitude: str, allowed: Sequence[str] = DEFINITIONS) -> str:
     """Return the definition of the amplitude A that this oscillator is to be expanded in.
 
-    Raises InputError as ``check_definition``, for ``action`` and ``energy`` where the force holds u', and where a
-    parameter is called A.
+    Parameters
+    ----------
+    oscillator : Oscillator
+        To be expanded.
+    amplitude : str
+        A definition, or another spelling of one.
+    allowed : sequence of str, optional
+        The definitions that the method has.
 
-    >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> check_amplitude(find("pendulum"), "energy")
-    'energy'
+    Returns
+    -------
+    str
+        The definition.
+
+    Raises
+    ------
+    InputError
+        For another definition, for ``action`` and ``energy`` where the force holds u', and where a parameter is called
+        A.
     """
     check_definition(amplitude, allowed)
     check_name(oscillator, "A")
@@ -108,13 +121,19 @@ def check_name(oscillator: Oscillator, variable: str) -> None:
 def measured(definition: str, waveform: Sequence[Trig], omega: Sequence[Scalar]) -> list[Scalar]:
     """Return an amplitude of the orbit ``sum_n X^n u_n`` as a series in X, through the order of the waveform.
 
-    ``omega`` holds the frequency through one order less.  u_0 = 0 and u_1 = cos tau are taken for granted.
+    Parameters
+    ----------
+    definition : str
+        Of the amplitude to be measured.
+    waveform : sequence of Trig
+        u_0, u_1, ...; u_0 = 0 and u_1 = cos tau are taken for granted.
+    omega : sequence of Scalar
+        The frequency through one order less.
 
-    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
-    >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> e = lindstedt(find("duffing"), 2)
-    >>> measured("fundamental", e.waveform, e.coefficients)
-    [0, 1, 0, -1/32]
+    Returns
+    -------
+    list of Scalar
+        Its coefficients.
     """
     return _READERS[check_definition(definition)](waveform, omega)
 

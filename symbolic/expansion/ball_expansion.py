@@ -127,8 +127,22 @@ class BallExpansion:
 
 
 def ball_row(x: arb, digits: int) -> dict[str, object]:
-    """A ball in the public JSON form: midpoint, radius (with that of printing), both, and its certain digits.
+    """Return a ball in the public JSON form.
 
+    Parameters
+    ----------
+    x : arb
+        The ball.
+    digits : int
+        To print.
+
+    Returns
+    -------
+    dict
+        Midpoint, radius (with that of printing), both, and its certain digits.
+
+    Examples
+    --------
     >>> with ctx.workprec(100):
     ...     ball_row(arb(17) / 3072, 12)["coefficient"], ball_row(arb(17) / 3072, 12)["radius"]
     ('0.00553385416667', '3.34e-15')
@@ -162,10 +176,22 @@ def holds(x: arb, value: fmpq) -> bool:
 
 
 def missing_bits(values: Sequence[arb], digits: int) -> int:
-    """How many bits more would give every ball so many digits; 0 when all have them.
+    """Return how many bits more would give every ball so many digits.
 
-    A ball that holds 0 is measured against the smallest one that does not.
+    Parameters
+    ----------
+    values : sequence of arb
+        The balls; one that holds 0 is measured against the smallest one that does not.
+    digits : int
+        Decimal digits wanted of each.
 
+    Returns
+    -------
+    int
+        0 when all have them.
+
+    Examples
+    --------
     >>> missing_bits((arb(1), arb(1, 1e-9)), 8), missing_bits((arb(1), arb(0, 1e-3)), 3) > 0
     (0, True)
     """

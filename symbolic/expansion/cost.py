@@ -106,12 +106,17 @@ def check(
 ) -> None:
     """Refuse a derivation that is predicted to exceed the budget.
 
-    Raises InputError with the prediction and the highest order that fits.
+    Parameters
+    ----------
+    method, order, parameters, weights, workers
+        As for ``predict``.
+    budget : Budget
+        What it may cost.
 
-    >>> check("lindstedt", 100_000, Budget())  # doctest: +ELLIPSIS
-    Traceback (most recent call last):
-        ...
-    ridgeback.common.errors.InputError: order 100000 by lindstedt would take about ... order ... fits
+    Raises
+    ------
+    InputError
+        With the prediction and the highest order that fits.
     """
     predicted = partial(predict, method, parameters=parameters, weights=weights, workers=workers)
     cost = predicted(order)

@@ -296,10 +296,27 @@ def substitute(waveform: tuple[Trig, ...], inner: list[Scalar]) -> tuple[Trig, .
 
 
 def check_order(order: object, *, lowest: int = 0) -> int:
-    """Return the order as an int.
+    """Return an order as an int.
 
-    Raises InputError when it is not a whole number or too low.
+    Parameters
+    ----------
+    order : object
+        What was given.
+    lowest : int, optional
+        The least that is allowed.
 
+    Returns
+    -------
+    int
+        The order.
+
+    Raises
+    ------
+    InputError
+        When it is not a whole number or too low.
+
+    Examples
+    --------
     >>> check_order(4)
     4
     """

@@ -25,11 +25,28 @@ _UNKNOWNS: Final = ("u", "u'", "u''")
 
 
 def value_at_origin(expression: sympy.Expr, values: Values) -> arb | None:
-    """A ball around the expression at u = u' = u'' = 0; None when it depends on a parameter without a value.
+    """Return the value of an expression at u = u' = u'' = 0.
 
-    Raises InputError when the expression is not analytic and real there (1/u, log(u), u**(1/2), sqrt(-1)), when that
-    cannot be decided, or when it overflows.
+    Parameters
+    ----------
+    expression : sympy.Expr
+        In ``U``, ``V``, ``W`` and parameters.
+    values : mapping of str to sympy.Rational or None
+        The parameters' values by name.
 
+    Returns
+    -------
+    arb or None
+        A ball around it; None when it depends on a parameter without a value.
+
+    Raises
+    ------
+    InputError
+        When the expression is not analytic and real there (1/u, log(u), u**(1/2), sqrt(-1)), when that cannot be
+        decided, or when it overflows.
+
+    Examples
+    --------
     >>> u, k = sympy.Symbol("u", real=True), sympy.Symbol("k", real=True)
     >>> value_at_origin(k**2 * sympy.cos(u), {"k": sympy.Rational(3)}) == 9
     True
@@ -39,8 +56,27 @@ def value_at_origin(expression: sympy.Expr, values: Values) -> arb | None:
 
 
 def sign_at_origin(expression: sympy.Expr, values: Values) -> int | None:
-    """-1, 0 or 1; None when a parameter is symbolic or the ball cannot tell (zero is only told when exact).
+    """Return the sign of an expression at u = u' = u'' = 0.
 
+    Parameters
+    ----------
+    expression : sympy.Expr
+        In ``U``, ``V``, ``W`` and parameters.
+    values : mapping of str to sympy.Rational or None
+        The parameters' values by name.
+
+    Returns
+    -------
+    int or None
+        -1, 0 or 1; None when a parameter is symbolic or the ball cannot tell (zero is only told when exact).
+
+    Raises
+    ------
+    InputError
+        As ``value_at_origin`` does.
+
+    Examples
+    --------
     >>> sign_at_origin(sympy.pi - 4, {})
     -1
     """

@@ -93,9 +93,24 @@ class Equation:
 def parse_equation(text: str) -> Equation:
     """Read a second-order equation such as ``u'' + 2*mu*u' + k**2*sin(u) = 0``; ``= 0`` may be left out.
 
-    The unknown is whatever name carries the two primes.  Raises InputError, one line with the column, for anything
-    outside the grammar or beyond the bounds on length, nesting, digits, exponents and predicted size.
+    Parameters
+    ----------
+    text : str
+        The equation; the unknown is whatever name carries the two primes.
 
+    Returns
+    -------
+    Equation
+        The tree of its left-hand side, the right one subtracted, and the unknown's name.
+
+    Raises
+    ------
+    InputError
+        One line with the column, for anything outside the grammar or beyond the bounds on length, nesting, digits,
+        exponents and predicted size.
+
+    Examples
+    --------
     >>> parse_equation("theta'' = -sin(theta)").unknown
     'theta'
     >>> parse_equation("2u + u''")
@@ -117,10 +132,27 @@ def parse_equation(text: str) -> Equation:
 
 
 def parse_expression(text: str, *, unknown: str | None = None) -> Node:
-    """Read an expression; ``unknown`` names the unknown, else the name that carries primes (if any) is it.
+    """Read an expression.
 
-    Raises InputError as ``parse_equation`` does.
+    Parameters
+    ----------
+    text : str
+        The expression.
+    unknown : str, optional
+        The unknown's name; without it, the name that carries primes (if any) is it.
 
+    Returns
+    -------
+    Node
+        Its tree.
+
+    Raises
+    ------
+    InputError
+        As ``parse_equation`` does.
+
+    Examples
+    --------
     >>> to_text(parse_expression("1 - cos(u)", unknown="u"))
     '1 - cos(u)'
     """

@@ -167,11 +167,26 @@ def number_value(text: str) -> Fraction:
 
 
 def parse_number(text: str) -> Fraction:
-    """The exact rational that a command-line value stands for: ``3``, ``-0.01``, ``1e-3`` or ``7/12``.
+    """Return the exact rational that a command-line value stands for: ``3``, ``-0.01``, ``1e-3`` or ``7/12``.
 
-    A decimal means exactly what it says (0.1 is 1/10).  Raises InputError for anything else, nan and inf included,
-    and for more digits or larger exponents than ``MAX_DIGITS`` and ``MAX_DECIMAL_EXPONENT``.
+    Parameters
+    ----------
+    text : str
+        A decimal means exactly what it says (0.1 is 1/10).
 
+    Returns
+    -------
+    Fraction
+        The number.
+
+    Raises
+    ------
+    InputError
+        For anything else, nan and inf included, and for more digits or larger exponents than ``MAX_DIGITS`` and
+        ``MAX_DECIMAL_EXPONENT``.
+
+    Examples
+    --------
     >>> parse_number("-2.5e-1"), parse_number("7/12")
     (Fraction(-1, 4), Fraction(7, 12))
     """

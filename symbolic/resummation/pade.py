@@ -200,10 +200,26 @@ def mapped(
 def mapping_for(found: Limits, *, cut: bool = False) -> Mapping:
     """Choose the change of variable that moves the nearest singularity: Euler, cut plane or Andersen-Geer.
 
-    ``cut`` prefers the cut-plane map for a negative singularity, where Euler's transformation would do; a positive one
-    has only the cut plane.  Places are rounded to the simplest fractions within their uncertainty.  Raises InputError
-    when the limits are not known.
+    Parameters
+    ----------
+    found : Limits
+        Of the series; places are rounded to the simplest fractions within their uncertainty.
+    cut : bool, optional
+        Prefer the cut-plane map for a negative singularity, where Euler's transformation would do; a positive one has
+        only the cut plane.
 
+    Returns
+    -------
+    Mapping
+        The change of variable.
+
+    Raises
+    ------
+    InputError
+        When the limits are not known.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.expansion.energy_integral import energy_integral
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> mapping_for(limits(energy_integral(find("duffing"), 24)))

@@ -56,10 +56,30 @@ class ExpressionRing(Ring, Protocol):
 class Program:
     """An expression compiled to nodes over a ring; equal sub-expressions share one node.
 
-    ``inputs`` (u and u') start with the given coefficients and are continued with ``supply``; ``fixed`` gives the
-    coefficients of the other symbols.  ``root.get(n)`` then yields the expression's coefficient n.  A coefficient of
-    u or u' may be supplied provisionally and corrected with ``correct``: order n of u enters order n of all linearly.
+    ``root.get(n)`` yields the expression's coefficient n.  A coefficient of u or u' may be supplied provisionally and
+    corrected with ``correct``: order n of u enters order n of all linearly.
 
+    Parameters
+    ----------
+    expression : sympy.Expr
+        In the inputs and the fixed symbols.
+    ring : ExpressionRing
+        Where the coefficients live.
+    inputs : mapping of sympy.Symbol to coefficients or Input
+        u and u' with their first coefficients; continued with ``supply``.
+    u, v : sympy.Symbol
+        Which of them are u and u'.
+    fixed : mapping of sympy.Symbol to coefficients, optional
+        The other symbols: given coefficients, then zeros.
+
+    Raises
+    ------
+    InputError
+        For a symbol without coefficients, a function without a recurrence, and a leading coefficient that the ring
+        cannot invert or take a function of.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.series.spaces import space_for
     >>> from ridgeback.symbolic.series.ring import TrigRing
     >>> u, v = sympy.symbols("u v")

@@ -33,11 +33,13 @@ class TrigRing:
         self.space = space
 
     def number(self, value: sympy.Expr) -> Trig:
+        """Return a rational number; InputError for an irrational one, since the derivation is exact."""
         if not value.is_Rational:
             raise InputError(f"{value} is not rational, and the derivation is exact; use a fraction or a decimal")
         return self.rational(int(value.p), int(value.q))
 
     def rational(self, numerator: int, denominator: int = 1) -> Trig:
+        """Return a rational number as a constant of the ring."""
         return constant(self.space, fmpq(numerator, denominator))
 
     def parameter(self, name: str) -> Trig:
@@ -45,12 +47,15 @@ class TrigRing:
         return constant(self.space, self.space.gen(name))
 
     def scale(self, element: Trig, numerator: int, denominator: int) -> Trig:
+        """Multiply by a rational number."""
         return element.scale(fmpq(numerator, denominator))
 
     def absent(self, element: Trig) -> bool:
+        """Whether every part is missing."""
         return element.parts == NOTHING
 
     def dot(self, left: Sequence[Trig], right: Sequence[Trig]) -> Trig:
+        """Return the sum of products, those with a missing factor left out."""
         present = [(x, y) for x, y in zip(left, right, strict=True) if NOTHING not in (x.parts, y.parts)]
         return dot(self.space, [x for x, _ in present], [y for _, y in present])
 
@@ -61,6 +66,7 @@ class TrigRing:
         return Product(self, x, y)
 
     def invert(self, element: Trig) -> Trig:
+        """Return the inverse of a rational constant; InputError for 0 and for what oscillates."""
         value = self._constant(element)
         if value is None:
             raise InputError(
@@ -75,6 +81,7 @@ class TrigRing:
         return constant(self.space, 1 / value)
 
     def function(self, name: str, element: Trig) -> Trig:
+        """Return an elementary function of a constant where its value is rational; InputError elsewhere."""
         value = self._constant(element)
         if value == 0 and name in _AT_ZERO:
             return constant(self.space, fmpq(_AT_ZERO[name]))
@@ -91,6 +98,7 @@ class TrigRing:
         )
 
     def power(self, element: Trig, numerator: int, denominator: int) -> Trig:
+        """Return a rational power of a rational constant; InputError where it is irrational."""
         exponent = sympy.Rational(numerator, denominator)
         value = self._constant(element)
         if isinstance(value, arb) and value.is_exact():

@@ -176,8 +176,20 @@ def is_zero(value: Scalar) -> bool:
 
 @lru_cache(maxsize=64)
 def space_for(names: tuple[str, ...]) -> Space:
-    """Return the exact space for coefficients in the named parameters (none: plain rationals).
+    """Return the exact space for coefficients in the named parameters.
 
+    Parameters
+    ----------
+    names : tuple of str
+        The parameters left symbolic; none for plain rationals.
+
+    Returns
+    -------
+    Space
+        The coefficients' space.
+
+    Examples
+    --------
     >>> space_for(("mu",)).names
     ('mu',)
     """

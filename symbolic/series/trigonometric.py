@@ -110,10 +110,24 @@ class Trig:
 
 
 def dot(space: Space, left: list[Trig], right: list[Trig]) -> Trig:
-    """Return the sum of products, part by part: odd times odd gives a factor y, sine times sine a factor 1 - y.
+    """Return the sum of products of two lists of trigonometric polynomials.
 
-    The factors are applied once to the sums, not to each product.
+    Part by part: odd times odd gives a factor y, sine times sine a factor 1 - y; both are applied once to the sums.
 
+    Parameters
+    ----------
+    space : Space
+        What the coefficients are.
+    left, right : list of Trig
+        Of one length.
+
+    Returns
+    -------
+    Trig
+        The sum.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.series.spaces import space_for
     >>> c, s = cosine(space_for(())), sine(space_for(()))
     >>> dot(c.space, [c, s], [c, s]) == constant(c.space, fmpq(1))
@@ -179,9 +193,21 @@ def sine(space: Space) -> Trig:
 def solve_oscillator(right: Trig) -> tuple[Trig, Scalar, Scalar]:
     r"""Solve ``w'' + w = right`` exactly, apart from the resonant part of ``right``.
 
-    Returns ``(w, p, q)`` where ``w`` has neither x nor S by themselves, and ``p cos tau + q sin tau`` is what remains
-    of the right-hand side: the secular terms that the solvability condition must remove.
+    Parameters
+    ----------
+    right : Trig
+        The right-hand side.
 
+    Returns
+    -------
+    w : Trig
+        A solution with neither x nor S by themselves.
+    p, q : Scalar
+        ``p cos tau + q sin tau`` is what remains of the right-hand side: the secular terms that the solvability
+        condition must remove.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.series.spaces import space_for
     >>> t = space_for(())
     >>> w, p, q = solve_oscillator(cosine(t) * cosine(t))   # cos^2 = 1/2 + cos(2 tau)/2
@@ -225,11 +251,25 @@ def _back_substitute(right: list[Scalar], *, odd: int, shift: int) -> tuple[list
 
 
 def harmonic(p: Trig, multiple: int) -> tuple[Scalar, Scalar]:
-    """Return the coefficients of ``cos(multiple tau)`` and ``sin(multiple tau)`` (the mean for 0).
+    """Return one harmonic of a trigonometric polynomial.
 
     x^m = 2^(1-m) sum_j binom(m, j) cos((m - 2j) tau) (half of it for the mean), and
     S x^m = 2^(-m) sum_j [binom(m, j) - binom(m, j-1)] sin((m + 1 - 2j) tau).
 
+    Parameters
+    ----------
+    p : Trig
+        The polynomial.
+    multiple : int
+        Which harmonic; 0 for the mean.
+
+    Returns
+    -------
+    tuple of two Scalar
+        The coefficients of ``cos(multiple tau)`` and ``sin(multiple tau)``.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.series.spaces import space_for
     >>> x = cosine(space_for(()))
     >>> harmonic(x * x * x, 3)

@@ -195,10 +195,27 @@ def _precision(expansion: Series) -> int:
 
 
 def stripped(expansion: Series) -> tuple[int, list[Any]]:
-    """Return the step of the powers that occur, and the coefficients of x = X^step, rational numbers or balls.
+    """Return the step of the powers that occur, and the coefficients of x = X^step.
 
-    Raises InputError when there is nothing to examine: symbolic coefficients, all zero, or a polynomial.
+    Parameters
+    ----------
+    expansion : Expansion or BallExpansion
+        With rational coefficients or balls.
 
+    Returns
+    -------
+    step : int
+        1 or more.
+    coefficients : list
+        Rational numbers or balls.
+
+    Raises
+    ------
+    InputError
+        When there is nothing to examine: symbolic coefficients, all zero, or a polynomial.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.expansion.energy_integral import energy_integral
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> stripped(energy_integral(find("pendulum"), 4))

@@ -18,11 +18,29 @@ _NUMBER_BITS: Final = 2000
 
 
 def merged(system: str, known: Parameters, given: Mapping[str, Value]) -> Parameters:
-    """The known parameters with the given values in place; None leaves one symbolic.
+    """Return known parameters with given values in place.
 
-    Text and floats become the decimal rational that they print as.  Raises InputError for names that are not known
-    and for values that are not finite numbers.
+    Parameters
+    ----------
+    system : str
+        The oscillator's name, for messages.
+    known : mapping of str to sympy.Rational or None
+        The parameters it has.
+    given : mapping of str to number, str or None
+        New values; text and floats become the decimal rational that they print as, None leaves one symbolic.
 
+    Returns
+    -------
+    mapping of str to sympy.Rational or None
+        All known parameters.
+
+    Raises
+    ------
+    InputError
+        For names that are not known and for values that are not finite numbers.
+
+    Examples
+    --------
     >>> merged("pendulum", {"k": None, "mu": sympy.S.Zero}, {"k": "2.5"})
     {'k': 5/2, 'mu': 0}
     """

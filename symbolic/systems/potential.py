@@ -26,11 +26,23 @@ _ELEMENTARY: Final[dict[type, Callable[[sympy.Expr], sympy.Expr]]] = {
 
 
 def potential_of(restoring: sympy.Expr) -> sympy.Expr | None:
-    """The potential P(u) with P' = restoring and P(0) = 0, or None when a term is in no rule.
+    """Return the potential P(u) with P' = restoring and P(0) = 0.
 
     The rules: powers of u; sin, cos, tan, sinh, cosh, tanh, exp of a*u + b; c * g'(u) * g(u)**r and c * g'(u) * F(g(u))
     with F one of these functions; and p(u) * exp(q(u)) with polynomials p and q, where that is elementary.
 
+    Parameters
+    ----------
+    restoring : sympy.Expr
+        A force in ``U``.
+
+    Returns
+    -------
+    sympy.Expr or None
+        None when a term is in no rule.
+
+    Examples
+    --------
     >>> potential_of(U + sympy.sin(2 * U))
     u**2/2 - cos(2*u)/2 + 1/2
     """

@@ -15,8 +15,20 @@ SQUARED_INVERSE: Final = "1/k^2*"
 
 
 def positive_root(square: sympy.Expr) -> sympy.Expr:
-    """The square root, with symbolic parameters taken as positive: sqrt(k**2) is k.
+    """Return the square root, with symbolic parameters taken as positive: sqrt(k**2) is k.
 
+    Parameters
+    ----------
+    square : sympy.Expr
+        Its square.
+
+    Returns
+    -------
+    sympy.Expr
+        The root.
+
+    Examples
+    --------
     >>> positive_root(sympy.Symbol("k", real=True) ** 2)
     k
     """
@@ -114,11 +126,23 @@ def small_name(force: sympy.Expr) -> str | None:
 
 
 def dissipative_names(force: sympy.Expr) -> tuple[str, ...]:
-    """The parameters that vanish with all of their terms, which are odd in u' and not all odd in u, sorted.
+    """Return the parameters that vanish with all of their terms, which are odd in u' and not all odd in u, sorted.
 
     Terms odd in u', such as damping, spoil the reversal of time, unless they are odd in u as well: u u' takes as much
     on one side of u = 0 as it gives on the other.
 
+    Parameters
+    ----------
+    force : sympy.Expr
+        In ``U``, ``V`` and parameters.
+
+    Returns
+    -------
+    tuple of str
+        The names.
+
+    Examples
+    --------
     >>> c, b = (sympy.Symbol(name, real=True) for name in "cb")
     >>> dissipative_names(c * V**3 + b * U * V + U)
     ('c',)
@@ -137,6 +161,18 @@ def _dissipates(force: sympy.Expr, symbol: sympy.Symbol) -> bool:
 def free_names(force: sympy.Expr) -> tuple[str, ...]:
     """Return the names of the parameters in a force, sorted; u and u' are not among them.
 
+    Parameters
+    ----------
+    force : sympy.Expr
+        In ``U``, ``V`` and parameters.
+
+    Returns
+    -------
+    tuple of str
+        The names.
+
+    Examples
+    --------
     >>> free_names(U + sympy.Symbol("alpha3", real=True) * U**3)
     ('alpha3',)
     """
