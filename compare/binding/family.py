@@ -24,8 +24,25 @@ START = 1.0
 def family_of(oscillator: OscillatorLike, free: Sequence[str]) -> Family:
     """Free the named parameters of an oscillator; their present values are where a fit begins.
 
-    Raises InputError for unknown names, for none or one twice, and for another parameter that has no number.
+    Parameters
+    ----------
+    oscillator
+        An oscillator, or anything that names one.
+    free
+        Parameters to be found, each once; one without a value begins at 1.
 
+    Returns
+    -------
+    Family
+        The force and its exact derivatives by u, u' and the free parameters, as functions of floats.
+
+    Raises
+    ------
+    InputError
+        For unknown names, for none or one twice, and for another parameter that has no number.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> pendulum = family_of(find("pendulum").with_parameters({"k": 2, "mu": "0.1"}), ("k", "mu"))
     >>> pendulum.start.tolist(), pendulum.force(0.0, 1.0, (2.0, 0.1)), pendulum.partials(0.0, 1.0, (2.0, 0.1))

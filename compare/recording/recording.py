@@ -185,6 +185,15 @@ def theory_curve(oscillator: Oscillator, measured: Backbone, *, points: int = 20
     """Exact backbone of an oscillator at the measured fundamental amplitude, along the recording's time.
 
     The exact frequency belongs to the peak amplitude; the first harmonic of the same orbit gives the fundamental one.
+
+    Parameters
+    ----------
+    oscillator
+        Its parameters in the recording's units.
+    measured
+        The backbone of the recording: amplitudes in its unit at times in s.
+    points
+        Orbits between which omega0 is interpolated.
     """
     dynamics = bind(oscillator)
     limit = peak_limit(dynamics)

@@ -51,7 +51,20 @@ def band_of(line: Line, deviation: Array) -> Band:
 
 
 def plot_file(found: Survey, kind: str) -> bytes:
-    """Return the picture of a survey as SVG, PNG or PDF."""
+    """The picture of what was measured: signal and amplitude, frequency, backbone and growth rate.
+
+    Parameters
+    ----------
+    found
+        Measured signals, the first few of which are drawn.
+    kind
+        ``svg``, ``png`` or ``pdf``.
+
+    Returns
+    -------
+    bytes
+        The file; the same survey gives the same bytes.
+    """
     with (
         matplotlib.style.context(["default", dict(DRAWING)]),
         warnings.catch_warnings(),
