@@ -180,6 +180,11 @@ class Identification(ShownIdentification, _Values):
         return self.candidates[0]
 
     @property
+    def criterion_title(self) -> str:
+        """The information criterion as it is printed."""
+        return {"bic": "BIC", "aicc": "AICc"}.get(self.criterion_name, self.criterion_name)
+
+    @property
     def described(self) -> bool:
         """Whether the best candidate leaves less of the signal than ``POOR``."""
         return self.unexplained <= POOR
@@ -188,7 +193,7 @@ class Identification(ShownIdentification, _Values):
     def verdict(self) -> str:
         """The ranking in one or two sentences: which class, how sure, and which others cannot be told apart from it."""
         best, others = self.best, [c for c in self.candidates[1:] if c.name in self.indistinguishable]
-        name = {"bic": "BIC", "aicc": "AICc"}[self.criterion_name]
+        name = self.criterion_title
         text = f"{best.title}, damping {best.damping_law}"
         if not self.described:
             text = "No candidate describes this recording; the nearest is " + text

@@ -16,7 +16,6 @@ from ridgeback.reports.figures.over_time import Clock, traces_of
 from ridgeback.reports.text.tables import Row, Table
 
 CLOCK = Clock("s")
-CRITERIA = {"bic": "BIC", "aicc": "AICc"}
 MOST = 4
 """Candidates drawn: the best, and those that come next."""
 
@@ -181,7 +180,7 @@ def ranking_table(found: Identification) -> Table:
     )
     return Table(
         "candidates",
-        f"Candidates by {CRITERIA.get(found.criterion_name, found.criterion_name)}, counted on "
+        f"Candidates by {found.criterion_title}, counted on "
         f"{number(found.effective_samples, 3)} independent samples; Δ is the distance from the best, weight its share; "
         f"residual: rms of samples less model{_unit(found)}.",
         ("class", "Δ", "weight", "residual"),

@@ -386,7 +386,7 @@ def make_identification() -> Identification:
         rate=1 / 0.033,
         samples=1818,
         effective_samples=420.0,
-        criterion_name="BIC",
+        criterion_name="bic",
         candidates=(best, other),
         data=MeasuredBackbone(a, best.omega[::3] * 1.0005, a * 0 + 0.01, best.growth_rate[::3] + 0.001, a * 0 + 0.002),
         unexplained=0.02,
