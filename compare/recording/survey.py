@@ -54,7 +54,7 @@ class Measurement:
 
     @property
     def usable(self) -> bool:
-        """Whether any value is one that the estimator vouches for."""
+        """Whether any value is one that the estimator calls valid."""
         return not isinstance(self.found, Track) or bool(self.found.valid.any())
 
     def frequency(self) -> Along:
@@ -146,10 +146,26 @@ def of_harmonic(recording: Recording, track: Track, multiple: int, settings: Map
 
 
 def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **settings: object) -> Measurement:
-    """Measure one signal; ``settings`` are those of ``estimate``, ``halves`` takes half cycles.
+    """Measure frequency, amplitude and growth rate of one signal; without a clear amplitude there is no backbone.
 
-    Raises InputError where the frequency cannot be estimated; without a clear amplitude there is no backbone.
+    Parameters
+    ----------
+    recording
+        One signal, evenly sampled.
+    harmonic
+        Which multiple of the fundamental is tracked; above 1 there is an amplitude and no backbone.
+    halves
+        Whether frequency and amplitude are taken half cycle by half cycle.
+    **settings
+        Those of :func:`ridgeback.numeric.estimators.estimate.estimate`.
 
+    Raises
+    ------
+    InputError
+        Where the frequency cannot be estimated.
+
+    Examples
+    --------
     >>> t = np.arange(1280) / 32.0
     >>> x = 2.0 * np.exp(-0.05 * t) * np.cos(2 * np.pi * 1.25 * t)
     >>> found = measure(Recording(t, x, 32.0, "u", "mm", "run.csv", ""), method="pseudo-wigner")
@@ -225,10 +241,26 @@ def measure_recordings(
     progress: Callable[[float, str], None] = lambda _, __: None,
     **settings: object,
 ) -> Survey:
-    """Measure every signal and combine backbones: of the "runs" and stretches of a channel, of "all", or "none".
+    """Measure every signal and combine their backbones.
 
     A stretch that cannot be measured is left out by name when another of its signal can; a whole signal that cannot
-    is in ``failed``.  Raises InputError when nothing can be measured at all.
+    is in ``failed``.
+
+    Parameters
+    ----------
+    recordings
+        Signals: channels, runs, and the stretches between gaps.
+    combine_over
+        Which backbones are combined: of the ``runs`` and stretches of each channel, of ``all``, or ``none``.
+    harmonic, halves, **settings
+        As for :func:`measure`.
+    progress
+        Called with the share of the work that is done, 0 to 1, and the name of the step.
+
+    Raises
+    ------
+    InputError
+        When nothing can be measured at all, and when backbones in different units would be combined.
     """
     if combine_over not in COMBINE:
         raise InputError(f"combine {combine_over!r} is unknown; use one of {', '.join(COMBINE)}")
