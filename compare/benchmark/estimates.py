@@ -1,0 +1,92 @@
+"""The contenders that see the samples alone: each estimator as it is, and corrected by its own track.
+
+A row that bears a method's name owes nothing to another method: its correction is made from its own track
+(``ridgeback.compare.benchmark.own_correction``), and the row says so.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Mapping
+from functools import partial
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.benchmark.expansions import Contender, refused
+from ridgeback.compare.benchmark.own_correction import corrected
+from ridgeback.compare.benchmark.results import Row
+from ridgeback.compare.motion.motion import Motion
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.tracking.track import Track
+
+METHODS = (
+    *("wigner", "pseudo-wigner", "smoothed-pseudo-wigner", "polynomial-wigner", "spectrogram"),
+    *("zero-crossing", "harmonic-least-squares"),
+)
+UNCORRECTED = ("harmonic-least-squares",)
+"""Methods that model the whole signal: their track is the model, and a correction by it would be no other value."""
+OWN_TRACK = "its own track"
+
+Estimator = Callable[[Array], Track]
+"""Samples to a track; a user's own takes part under the name that it is given."""
+
+
+def estimates(motion: Motion, own: Mapping[str, Estimator], step: Callable[[str], None]) -> Iterator[Contender]:
+    """Every estimator on the sampled motion, raw and corrected; one that refuses keeps its reason."""
+    rate = motion.trajectory.rate
+    known = {name: partial(_plain, rate=rate, method=name) for name in METHODS}
+    for name, method in {**known, **own}.items():
+        step(name)
+        yield from _both(motion, name, method, rate)
+
+
+def _plain(x: Array, rate: float, method: str) -> Track:
+    return estimate(x, rate, method=method, bias=False)
+
+
+def _both(motion: Motion, name: str, method: Estimator, rate: float) -> Iterator[Contender]:
+    x = motion.trajectory.u
+    try:
+        began = time.perf_counter()
+        track = method(x)
+        seconds = time.perf_counter() - began
+    except InputError as error:
+        yield refused(name, name, "estimate", str(error))
+        return
+    yield _contender(motion, track, name, name, seconds, None)
+    if name in UNCORRECTED:
+        return
+    began = time.perf_counter()
+    better = corrected(track, method, x, rate)
+    seconds += time.perf_counter() - began
+    yield _contender(motion, better, f"{name}-corrected", f"{name}, bias by its own track removed", seconds, OWN_TRACK)
+
+
+def _contender(motion: Motion, track: Track, name: str, label: str, seconds: float, by: str | None) -> Contender:
+    row = Row(
+        name,
+        label,
+        "estimate",
+        corrected_by=by,
+        time_s_per_track=seconds,
+        time_ns_per_value=seconds / motion.time.size * 1e9,
+    )
+    keep = track.valid & np.isfinite(track.omega)
+    omega = np.full(motion.time.size, np.nan)
+    if keep.sum() > 1:
+        t, w = track.time[keep], track.omega[keep]
+        step = 2.5 * float(np.median(np.diff(track.time)))
+        covered = _within_reach(motion.time, t, step)
+        omega = np.where(covered, PchipInterpolator(t, w, extrapolate=False)(motion.time), np.nan)
+    return Contender(row, omega)
+
+
+def _within_reach(time: Array, known: Array, step: float) -> Array:
+    """Whether each time lies between two known ones no farther apart than ``step``."""
+    right = np.clip(np.searchsorted(known, time), 1, known.size - 1)
+    gap = known[right] - known[right - 1]
+    inside = (time >= known[0]) & (time <= known[-1])
+    return np.asarray(inside & (gap <= step))

@@ -1,0 +1,70 @@
+"""Which way to omega0(t) is best here: a typed judgement, and its sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ridgeback.common.errors import InputError
+from ridgeback.common.numbers import relative
+from ridgeback.compare.benchmark.results import WAYS, Reference, Row, Verdict, Way
+
+
+def judge(rows: Sequence[Row], reference: Reference) -> Verdict:
+    """Return the verdict on ranked rows; corrected estimates take part as estimates."""
+    best = {way: _best([r for r in rows if r.ranked and WAYS[r.kind] == way]) for way in _ways()}
+    known = {way: row for way, row in best.items() if row is not None}
+    if not known:
+        raise InputError("no expansion, series model or estimate could be ranked on this motion")
+    first, *others = sorted(known, key=lambda way: _error(known[way]))
+    rival = others[0] if others else None
+    ratio = (
+        None
+        if rival is None
+        else max(_error(known[rival]), reference.floor) / max(_error(known[first]), reference.floor)
+    )
+    return Verdict(
+        way=first,
+        best=known[first],
+        rival_way=rival,
+        rival=None if rival is None else known[rival],
+        ratio=ratio,
+        decided=ratio is not None and ratio > 1.0 and _error(known[rival or first]) > reference.floor,
+        limit=_limit(known[first]),
+    )
+
+
+def _ways() -> tuple[Way, ...]:
+    return ("expansions", "series model", "estimates")
+
+
+def _error(row: Row) -> float:
+    return float(row.relative_rms_error or 0.0)
+
+
+def _best(rows: Sequence[Row]) -> Row | None:
+    """The row of least error; among equals, the cheaper one."""
+    return min(rows, key=lambda r: (_error(r), r.time_ns_per_value or 0.0), default=None)
+
+
+def _limit(row: Row) -> str:
+    largest = "" if row.largest is None else f"its largest error on the support is {relative(row.largest)}"
+    if row.kind == "slow-flow":
+        return f"it needs no trajectory, only the equation and its start; {largest}"
+    if WAYS[row.kind] == "estimates":
+        return f"it needs the samples, and nothing of the equation; {largest}"
+    return f"it needs the equation and A(t) from the {row.amplitude_from}; {largest}"
+
+
+def sentence(verdict: Verdict, reference: Reference) -> str:
+    """The verdict in words."""
+    head = f"{_named(verdict.best)} errs {relative(_error(verdict.best))} rms"
+    if verdict.rival is None or verdict.ratio is None:
+        return f"{head}; nothing of another way could be ranked"
+    rival = f"{_named(verdict.rival)} ({relative(_error(verdict.rival))})"
+    if not verdict.decided:
+        return f"{head}, and {rival} cannot be told from it: omega0(t) itself is open by {relative(reference.floor)}"
+    return f"{head}, {verdict.ratio:.2g} times less than {rival}"
+
+
+def _named(row: Row) -> str:
+    return row.label[0].upper() + row.label[1:]
