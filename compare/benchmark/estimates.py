@@ -37,7 +37,7 @@ Estimator = Callable[[Array], Track]
 def estimates(motion: Motion, own: Mapping[str, Estimator], step: Callable[[str], None]) -> Iterator[Contender]:
     """Every estimator on the sampled motion, raw and corrected; one that refuses keeps its reason."""
     rate = motion.trajectory.rate
-    known = {name: partial(_plain, rate=rate, method=name) for name in METHODS}
+    known: dict[str, Estimator] = {name: partial(_plain, rate=rate, method=name) for name in METHODS}
     for name, method in {**known, **own}.items():
         step(name)
         yield from _both(motion, name, method, rate)

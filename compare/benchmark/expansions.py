@@ -22,6 +22,7 @@ from ridgeback.compare.binding.generated_code import compiled, python_module
 from ridgeback.compare.motion.model_curves import slow_flow_curve
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.orbits.energy import is_linearly_damped
 from ridgeback.numeric.orbits.paper_model import series_frequency
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -98,7 +99,7 @@ def nanoseconds(function: Callable[[Array], object], x: Array) -> float:
 def arguments(motion: Motion, expansion: Expansion, sources: Mapping[Source, Array]) -> dict[Source | None, Array]:
     """What the expansion is evaluated at: A(t) by source, or eps of a limit cycle, the same at all times."""
     if expansion.variable != "eps":
-        return dict(sources)
+        return {source: x for source, x in sources.items()}  # noqa: C416 - the keys widen to those of a limit cycle
     name = motion.setting.oscillator.small or "eps"
     eps = motion.setting.case().parameters[name]
     return {None: np.full(motion.time.size, float(eps))}
@@ -212,5 +213,9 @@ def yardsticks(motion: Motion, sources: Mapping[Source, Array]) -> Iterator[Cont
     if motion.averaged is not None:
         row = Row("averaged-action", "exact omega0 of the averaged action", "averaged", amplitude_from="action")
         yield Contender(row, motion.averaged.omega)
+        if mu and is_linearly_damped(motion.dynamics, float(motion.averaged.peak[0])):
+            label = "sqrt(omega0^2 - mu^2) of the averaged action"
+            row = Row("averaged-damped", label, "averaged", amplitude_from="action")
+            yield Contender(row, np.sqrt(np.maximum(motion.averaged.omega**2 - mu * mu, 0.0)))
     flat = np.full(motion.time.size, np.sqrt(max(k * k - mu * mu, 0.0)))
     yield Contender(Row("linear", "linear oscillator, eq. (3)", "linear"), flat)

@@ -52,6 +52,8 @@ def _limit(row: Row) -> str:
         return f"it needs no trajectory, only the equation and its start; {largest}"
     if WAYS[row.kind] == "estimates":
         return f"it needs the samples, and nothing of the equation; {largest}"
+    if row.amplitude_from is None:
+        return f"it needs the equation, and holds on the limit cycle alone; {largest}"
     return f"it needs the equation and A(t) from the {row.amplitude_from}; {largest}"
 
 

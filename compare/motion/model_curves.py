@@ -16,6 +16,7 @@ from ridgeback.compare.study.derived import Derived
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.paper_model import series_frequency
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
+from ridgeback.symbolic.flow.reconstruction import Reconstruction
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 
 CLOSED_FORM, AVERAGED_ACTION, LINEAR = "closed-form", "averaged-action", "linear"
@@ -124,12 +125,15 @@ def _limit_cycle_curves(motion: Motion, derived: Derived, orders: Sequence[int])
 def slow_flow_curve(motion: Motion, flow: SlowFlow) -> Curve:
     """Multiple scales: a(t) integrated from the slow flow, then phi'(a, mu).
 
-    The start is the averaged motion's own: the first harmonic of the undamped orbit with its action.
+    The start is the averaged motion's own: the first harmonic of the undamped orbit with its action.  Without a
+    potential it is the amplitude at which the slow flow itself passes the initial state.
+    Raises InputError when the flow of this order does not reach that state.
     """
-    if motion.averaged is None:
-        raise ValueError("the slow flow of a motion without a potential has no starting amplitude")
     small = [float(value) for value in flow.values(motion.setting.oscillator.parameters)]
-    start = float(orbit_harmonics(motion.dynamics, motion.averaged.peak[:1], count=1).cosine[1, 0])
+    if motion.averaged is None:
+        start, _ = Reconstruction(flow).start(*motion.setting.initial, *small)
+    else:
+        start = float(orbit_harmonics(motion.dynamics, motion.averaged.peak[:1], count=1).cosine[1, 0])
     solution = solve_ivp(
         lambda _, a: a * flow.damping_at(a, *small),
         (float(motion.time[0]), float(motion.time[-1])),

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import io
-import re
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import matplotlib.style
 import numpy as np
 from matplotlib.axes import Axes
 
 from ridgeback.compare.recording.survey import Measurement, Survey
 from ridgeback.reports.drawing.canvas import Array, Canvas, Line, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
-from ridgeback.reports.drawing.theme import DRAWING, SERIES, Variant, plain_colours, sentinel
+from ridgeback.reports.drawing.picture import picture
+from ridgeback.reports.drawing.theme import SERIES, Variant, sentinel
 from ridgeback.reports.figures.over_time import Clock
 
-KINDS = ("svg", "png", "pdf")
 CLOCK = Clock("s")
 PAGE = Variant("wide", 9.6, 6.4)
 MOST_POINTS = 4000
@@ -28,12 +24,6 @@ LONGEST_NAME = 28
 """Letters of a channel's name that fit under a panel."""
 TWO_SIDED = 1.96
 """Standard deviations either side that hold 95 % of a normal distribution."""
-RESOLUTION = 160.0
-_NO_DATES = {
-    "svg": dict.fromkeys(("Creator", "Date", "Format", "Type")),
-    "pdf": {"Creator": None, "Producer": None, "CreationDate": None},
-    "png": {"Software": None},
-}
 
 
 @dataclass(frozen=True)
@@ -65,31 +55,12 @@ def plot_file(found: Survey, kind: str) -> bytes:
     bytes
         The file; the same survey gives the same bytes.
     """
-    with (
-        matplotlib.style.context(["default", dict(DRAWING)]),
-        warnings.catch_warnings(),
-        plain_colours(),
-    ):
-        # A unit may hold a letter that the font lacks: it is drawn as a box, which is no reason to fail.
-        warnings.filterwarnings("ignore", message="Glyph .* missing from font", category=UserWarning)
-        canvas = drawn(found)
-        stream = io.BytesIO()
-        dpi = RESOLUTION if kind == "png" else 72.0
-        canvas.figure.savefig(stream, format=kind, metadata=_NO_DATES[kind], dpi=dpi)
-    data = stream.getvalue()
-    return without_classes(data) if kind == "svg" else data
-
-
-def without_classes(data: bytes) -> bytes:
-    """Ids that name classes for a page's style sheet have no meaning in a picture, and are not unique."""
-    return re.sub(rb' id="class:[^"]*"', b"", data)
+    return picture(lambda: drawn(found), kind)
 
 
 def drawn(found: Survey) -> Canvas:
     """Draw the four panels."""
     canvas = Canvas(PAGE)
-    canvas.figure.patch.set_visible(True)
-    canvas.figure.patch.set_facecolor(sentinel("bg"))
     panels = canvas.grid((1.0, 1.0), 2, left=LEFT, gap=GAP)
     shown = found.measured[: len(SERIES)]
     cut = f", {len(shown)} of {len(found.measured)} signals" if len(shown) < len(found.measured) else ""

@@ -26,12 +26,13 @@ def picture_path(text: str) -> OutputPath:
     return output_path(text)
 
 
-def plot_option(command: Decorated) -> Decorated:
-    """``--plot FILE``."""
-    return click.option(
-        "--plot",
-        type=picture_path,
-        default=None,
-        metavar="FILE.svg|png|pdf",
-        help="Draw the signal, frequency, backbone and damping with their bands.",
-    )(command)
+def plot_option(what: str) -> Callable[[Decorated], Decorated]:
+    """``--plot FILE``; ``what`` says what is drawn."""
+
+    def decorate(command: Decorated) -> Decorated:
+        """Add the option."""
+        return click.option(
+            "--plot", type=picture_path, default=None, metavar="FILE.svg|png|pdf", help=f"Draw {what}."
+        )(command)
+
+    return decorate

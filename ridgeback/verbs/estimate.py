@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="Backbones to average: of the runs and stretches of a channel, or of all channels too.",
 )
-@plot_option
+@plot_option("the signal, frequency, backbone and damping with their bands")
 @monte_carlo_options
 @format_option("text", "json", "csv", default="text")
 @output_option
