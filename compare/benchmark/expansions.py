@@ -6,19 +6,18 @@ amplitude is the peak A(t), of the instantaneous energy (21) and of the averaged
 
 from __future__ import annotations
 
-import tempfile
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.results import Kind, Row, Source
-from ridgeback.compare.binding.generated_code import compiled, python_module
+from ridgeback.compare.binding.compiled_code import NotCompiled, compiled
+from ridgeback.compare.binding.generated_code import python_module
 from ridgeback.compare.motion.model_curves import slow_flow_curve
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.numeric.arrays import Array
@@ -28,7 +27,7 @@ from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.ordering import undamped
-from ridgeback.symbolic.resummation.by_name import resummed
+from ridgeback.symbolic.resummation.by_name import resum
 
 ORDERS = (2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 24, 28, 32, 36, 40)
 FLOW_ORDERS = (2, 4, 6, 8)
@@ -36,6 +35,8 @@ TERMS = (3, 5, 11, 21, 41)
 """Terms of (14): the three that the paper prints, and as many coefficients as some orders have."""
 RESUMMATIONS = ("pade", "map", "nome")
 REPEATS = 7
+TIMED = 2**15
+"""Values in a timed call: enough that the call itself costs nothing."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +87,8 @@ def refused(method: str, label: str, kind: Kind, why: str, *, order: int | None 
 
 
 def nanoseconds(function: Callable[[Array], object], x: Array) -> float:
-    """Median wall time of a call over the array, per value; one call is not counted."""
+    """Median wall time of a call over the array, per value, repeated to ``TIMED`` values; one call is not counted."""
+    x = np.resize(x, max(TIMED, x.size))
     function(x)
     laps = []
     for _ in range(REPEATS):
@@ -113,10 +115,9 @@ def series(
     for order in orders:
         part = expansion.truncated(order)
         count = sum(1 for c in part.coefficients if c != 0)
-        with tempfile.TemporaryDirectory(prefix="ridgeback-") as folder, python_module(part) as module:
-            ways: dict[str, Callable[[Array], Array]] = {"python": module.omega0}
-            native = compiled(part, Path(folder))
-            if native is not None:
+        with compiled(part) as native:
+            ways: dict[str, Callable[[Array], Array]] = {"python": python_module(part).omega0}
+            if not isinstance(native, NotCompiled):
                 ways["c"] = native
             for language, function in ways.items():
                 cost = nanoseconds(function, next(iter(at.values())))
@@ -146,7 +147,7 @@ def resummations(motion: Motion, expansion: Expansion, sources: Mapping[Source, 
     for name in RESUMMATIONS:
         for source, x in sources.items():
             try:
-                formula = resummed(oscillator, part, name, up_to=Fraction(float(np.nanmax(x))))
+                formula = resum(oscillator, part, name, up_to=Fraction(float(np.nanmax(x))))
                 omega = np.asarray(formula(x), dtype=float)
             except (InputError, ValueError, ZeroDivisionError) as error:
                 yield refused(f"{name}-{order}", f"{name}, order {order}", "resummation", str(error), order=order)
