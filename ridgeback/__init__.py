@@ -20,12 +20,14 @@ from ridgeback.public import home as _home
 
 if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types; a test holds the two together
     from ridgeback.common.errors import InputError as InputError
+    from ridgeback.compare.benchmark.results import Benchmark as Benchmark
     from ridgeback.compare.binding.bind import bind as bind
     from ridgeback.compare.identification.results import Identification as Identification
     from ridgeback.compare.recording.survey import measure_recordings as measure_recordings
     from ridgeback.compare.report.results import Report as Report
     from ridgeback.compare.study.certified import certified_rows as certified_rows
     from ridgeback.compare.study.results import Study as Study
+    from ridgeback.interface.benchmark import benchmark as benchmark
     from ridgeback.interface.derive import derive as derive
     from ridgeback.interface.derive import generate as generate
     from ridgeback.interface.estimate import backbone as backbone

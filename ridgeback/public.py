@@ -70,6 +70,7 @@ PUBLIC: Final = (
     Public("identify", "interface.identify", _IDENTIFY, "which oscillator made a decay"),
     Public("predict", "interface.identify", _IDENTIFY, "the rest of a decay from its first cycles"),
     Public("study", "interface.report", _COMPARE, "the error of each order at each amplitude"),
+    Public("benchmark", "interface.benchmark", _COMPARE, "error and cost of every way to omega0(t) of a motion"),
     Public("report", "interface.report", _COMPARE, "the whole comparison; its save() writes one HTML page"),
     Public("Expansion", "symbolic.expansion.expansion", _VALUES, "an exact series in one variable"),
     Public("SlowFlow", "symbolic.flow.slow_flow", _VALUES, "the slow flow phi' and a'/a"),
@@ -82,6 +83,7 @@ PUBLIC: Final = (
     Public("ModelFit", "numeric.model_fit.fit", _VALUES, "a fitted oscillator with its covariance"),
     Public("Identification", "compare.identification.results", _VALUES, "ranked candidates and the verdict"),
     Public("Study", "compare.study.results", _VALUES, "errors over order and amplitude"),
+    Public("Benchmark", "compare.benchmark.results", _VALUES, "contenders, crossings and verdict of a benchmark"),
     Public("Report", "compare.report.results", _VALUES, "all that a page shows"),
     Public("InputError", "common.errors", _VALUES, "the one error of unusable input, a ValueError"),
 )

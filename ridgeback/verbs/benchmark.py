@@ -52,12 +52,12 @@ def command(
     ridgeback benchmark van-der-pol --initial 0.5,0 --format json
     ridgeback benchmark --equation "u'' + 2*mu*u' + c3*u'**3 + u + g*u**3 = 0" --set mu=0.01 --set c3=0.02 --set g=0.5
     """
-    from ridgeback.compare.benchmark.benchmark import benchmark
-    from ridgeback.compare.motion.motion import setting
+    from ridgeback.interface.benchmark import benchmark
 
-    chosen = setting(choice.oscillator(), initial=initial, duration=duration, rate=rate)
     with Progress() as progress:
-        found = benchmark(chosen, orders=orders, progress=progress)
+        found = benchmark(
+            choice.oscillator(), initial=initial, duration=duration, rate=rate, orders=orders, progress=progress
+        )
     if plot is not None:
         from ridgeback.reports.figures.benchmark import plot_file
 
