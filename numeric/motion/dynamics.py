@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.recurrences import Fixed, Input, Node, Product, Sum, wave_pair
+from ridgeback.common.recurrences import Combination, Input, Node, Product, powers, wave_pair
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.precise_ring import PRECISE, Jet, Precise, solution_jet
 from ridgeback.numeric.motion.roots import bracketed_newton
@@ -61,16 +61,6 @@ def agm(a: ArrayLike, b: ArrayLike) -> Array:
         if not np.any(np.abs(x - y) > 2e-16 * np.abs(x)):
             break
     return np.asarray(0.5 * (x + y))
-
-
-def _with_damping(rest: Node, v: Node, mu: float) -> Node:
-    """2 mu u' + the rest of the force."""
-    return Sum(PRECISE, [_multiple(2 * mp.mpf(mu), v), rest]) if mu else rest
-
-
-def _multiple(factor: Precise, node: Node) -> Node:
-    """A number times a power series."""
-    return node if factor == 1 else Product(PRECISE, Fixed(PRECISE, mp.mpf(factor)), node)
 
 
 def pendulum_frequency(peak: ArrayLike, *, scale: float = 1.0, rate: float = 1.0) -> Array:
@@ -147,7 +137,7 @@ def pendulum(k: float = 1.0, mu: float = 0.0) -> Dynamics:
 
     def series(u: Input, v: Input) -> Node:
         sine, _ = wave_pair(PRECISE, u)
-        return _with_damping(_multiple(mp.mpf(k) ** 2, sine), v, mu)
+        return _combined([(2 * mp.mpf(mu), v), (mp.mpf(k) ** 2, sine)])
 
     return Dynamics(
         name="pendulum",
@@ -211,6 +201,9 @@ def polynomial(
             value = value * u + x
         return 2 * mu * v + value
 
+    def series(u: Input, v: Input) -> Node:
+        return _combined([(2 * mp.mpf(mu), v), *zip(c, powers(PRECISE, u, len(c))[1:], strict=True)])
+
     def precise_force(u: Precise, v: Precise) -> Precise:
         return 2 * mp.mpf(mu) * v + mp.polyval([mp.mpf(x) for x in horner], u)
 
@@ -223,20 +216,8 @@ def polynomial(
         restoring=lambda u: np.asarray(np.polynomial.polynomial.polyval(np.asarray(u, dtype=float), rising)),
         closed_form=closed_form,
         precise_force=precise_force,
-        jet=solution_jet(lambda u, v: _with_damping(_polynomial(c, u), v, mu)),
+        jet=solution_jet(series),
     )
-
-
-def _polynomial(c: Sequence[float], u: Node) -> Node:
-    """c_1 u + c_2 u^2 + ..., each power the product of two shorter ones."""
-    powers = {1: u}
-
-    def power(n: int) -> Node:
-        if n not in powers:
-            powers[n] = Product(PRECISE, power(n // 2), power(n - n // 2))
-        return powers[n]
-
-    return Sum(PRECISE, [_multiple(x, power(n)) for n, x in enumerate(c, start=1) if x])
 
 
 def van_der_pol(eps: float = 1.0) -> Dynamics:
@@ -249,7 +230,7 @@ def van_der_pol(eps: float = 1.0) -> Dynamics:
 
     def series(u: Input, v: Input) -> Node:
         growth = Product(PRECISE, Product(PRECISE, u, u), v)
-        return Sum(PRECISE, [_multiple(-eps, v), _multiple(eps, growth), u])
+        return _combined([(-eps, v), (eps, growth), (1, u)])
 
     return Dynamics(
         name="van-der-pol",
@@ -272,7 +253,7 @@ def rayleigh(eps: float = 1.0) -> Dynamics:
 
     def series(u: Input, v: Input) -> Node:
         cube = Product(PRECISE, Product(PRECISE, v, v), v)
-        return Sum(PRECISE, [_multiple(-eps, v), _multiple(mp.mpf(eps) / 3, cube), u])
+        return _combined([(-eps, v), (mp.mpf(eps) / 3, cube), (1, u)])
 
     return Dynamics(
         name="rayleigh",
@@ -281,6 +262,12 @@ def rayleigh(eps: float = 1.0) -> Dynamics:
         precise_force=lambda u, v: u - mp.mpf(eps) * (v - v**3 / 3),
         jet=solution_jet(series),
     )
+
+
+def _combined(terms: Sequence[tuple[Precise, Node]]) -> Node:
+    """The sum of power series times numbers; those times 0 are left out."""
+    present = [(mp.mpf(weight), term) for weight, term in terms if weight]
+    return Combination(PRECISE, [weight for weight, _ in present], [term for _, term in present])
 
 
 def _check(*, k: float, **others: float) -> None:

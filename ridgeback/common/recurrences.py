@@ -161,6 +161,22 @@ class Sum(Node):
         return along_u, along_v
 
 
+class Combination(Node):
+    """w_1 x_1 + w_2 x_2 + ... with members w of the ring."""
+
+    def __init__(self, ring: Ring, weights: Sequence[Element], terms: Sequence[Node]) -> None:
+        super().__init__(ring)
+        self.weights, self.terms = weights, terms
+
+    def step(self, n: int) -> Element:
+        return self.ring.dot(self.weights, [term.get(n) for term in self.terms])
+
+    def _derive(self) -> Slopes:
+        slopes = [term.slopes() for term in self.terms]
+        along_u, along_v = ([pair[which] for pair in slopes] for which in (0, 1))
+        return self.ring.dot(self.weights, along_u), self.ring.dot(self.weights, along_v)
+
+
 class Scaled(Node):
     """A rational multiple."""
 
@@ -349,6 +365,30 @@ def wave_pair(ring: Ring, y: Node, *, hyperbolic: bool = False) -> tuple[Node, N
     cosine = Function(ring, second, y, sine, 1 if hyperbolic else -1)
     sine.derivative = cosine
     return sine, cosine
+
+
+def powers(ring: Ring, x: Node, highest: int) -> list[Node]:
+    """Return 1, x, x^2, ..., each the product of two shorter ones.
+
+    Parameters
+    ----------
+    ring
+        Where the coefficients live.
+    x
+        The base.
+    highest
+        The last exponent.
+
+    Examples
+    --------
+    >>> from ridgeback.common.number_ring import FLOATS
+    >>> [node.get(1) for node in powers(FLOATS, Input(FLOATS, [1.0, 1.0]), 3)]
+    [0.0, 1.0, 2.0, 3.0]
+    """
+    found: list[Node] = [Fixed(ring, ring.rational(1)), x]
+    for n in range(2, highest + 1):
+        found.append(ring.product(found[n // 2], found[n - n // 2]))
+    return found[: highest + 1]
 
 
 def solution(force: Node, u: Input, v: Input, degree: int) -> list[Element]:

@@ -25,6 +25,8 @@ from typing import Final, NamedTuple, TypeAlias
 import sympy
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.number_ring import FLOATS
+from ridgeback.common.recurrences import Combination, Input, powers
 from ridgeback.symbolic.arithmetic.rendering import series_latex
 from ridgeback.symbolic.flow.slow_flow import SlowFlow, amplitude_powers, rounded
 from ridgeback.symbolic.flow.term import Term
@@ -271,16 +273,14 @@ def _derivative(coefficients: list[float]) -> list[float]:
 
 def _taylor(state: State, delta: list[float], omega: list[float]) -> tuple[list[float], list[float]]:
     """Taylor coefficients of s = a^2 and phi: (n + 1) s_(n+1) = 2 [s delta(s)]_n, (n + 1) phi_(n+1) = [omega(s)]_n."""
-    square, phase = [state[0]], [state[1]]
-    powers: list[list[float]] = [[] for _ in range(max(len(delta) + 1, len(omega)))]  # of s, from s^0 on
+    square, phase = Input(FLOATS, [state[0]]), [state[1]]
+    of_square = powers(FLOATS, square, max(len(delta), len(omega) - 1, 1))
+    growth = Combination(FLOATS, [2 * c for c in delta], of_square[1 : len(delta) + 1])
+    turning = Combination(FLOATS, omega, of_square[: len(omega)])
     for n in range(TERMS):
-        powers[0].append(1.0 if n == 0 else 0.0)
-        for low, high in pairwise(powers):
-            high.append(sum(square[j] * low[n - j] for j in range(n + 1)))
-        rate = sum(c * power[n] for c, power in zip(delta, powers[1:], strict=False))
-        square.append(2 * rate / (n + 1))
-        phase.append(sum(c * power[n] for c, power in zip(omega, powers, strict=False)) / (n + 1))
-    return square, phase
+        phase.append(turning.get(n) / (n + 1))
+        square.known.append(growth.get(n) / (n + 1))
+    return square.known, phase
 
 
 def _step(square: list[float], phase: list[float], tolerance: float) -> float:
