@@ -22,6 +22,7 @@ reaches a start or an end at a turning point; its error estimate grows according
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -98,12 +99,7 @@ class CycleFrequency:
 
     def at(self, time: ArrayLike) -> Array:
         """Return omega at ``time`` (1-D): from the first reading that covers it; NaN where none does."""
-        t = np.atleast_1d(np.asarray(time, dtype=float))
-        omega = np.full_like(t, np.nan)
-        for reading in reversed(self.readings):
-            inside = reading.covers(t)
-            omega[inside] = reading.omega(t[inside])
-        return omega
+        return self._first_reading(time, lambda reading, t: reading.omega(t))
 
     def uncertainty_at(self, time: ArrayLike) -> Array:
         """Return the error estimate of ``at``: interpolation, plus the spread of the readings; NaN where none reach."""
@@ -111,12 +107,16 @@ class CycleFrequency:
 
     def interpolation_error_at(self, time: ArrayLike) -> Array:
         """Return how well the reading that ``at`` takes is interpolated: the numerical error of the reference."""
+        return self._first_reading(time, lambda reading, t: reading.interpolation_error(t))
+
+    def _first_reading(self, time: ArrayLike, value: Callable[[PhaseReading, Array], Array]) -> Array:
+        """What the first reading that covers each time says; NaN where none does."""
         t = np.atleast_1d(np.asarray(time, dtype=float))
-        error = np.full_like(t, np.nan)
+        found = np.full_like(t, np.nan)
         for reading in reversed(self.readings):
             inside = reading.covers(t)
-            error[inside] = reading.interpolation_error(t[inside])
-        return error
+            found[inside] = value(reading, t[inside])
+        return found
 
     def spread_at(self, time: ArrayLike) -> Array:
         """Return how far the readings differ: how well the omega0(t) of a decay is defined at all.

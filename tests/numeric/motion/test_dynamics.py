@@ -117,3 +117,7 @@ def test_bracketed_newton_inverts_monotone_functions(target, power, sign):
 
     root = bracketed_newton(function, np.array([-3.0]), np.array([2.0]))[0]
     assert root**power + root == pytest.approx(2 * target, abs=1e-14)
+
+
+def test_a_pendulum_that_turns_over_has_no_frequency_however_large_its_amplitude():
+    assert np.isnan(dyn.pendulum(2.0).closed_form([4.0, 10.0, 25.0])).all()  # cos(5) is positive again
