@@ -147,7 +147,7 @@ def slow_flow_form(flow: SlowFlow, request: CodeRequest) -> Form:
 
     Raises InputError when an irrational natural frequency does not scale out.
     """
-    if flow.scale.is_number and any(name in UNITS for name in flow.names):
+    if flow.constants or (flow.scale.is_number and any(name in UNITS for name in flow.names)):
         raise InputError(
             f"'{flow.system}': the natural frequency {flow.scale} does not scale out of the coefficients; give the "
             "parameters in it numbers whose root is rational, or the other coefficients a name each"

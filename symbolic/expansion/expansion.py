@@ -21,6 +21,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
 from ridgeback.symbolic.arithmetic.balls import natural_frequency
 from ridgeback.symbolic.arithmetic.rendering import as_sympy, long_integers, mathml, nearest, series_latex
+from ridgeback.symbolic.arithmetic.tidy import tidy
 from ridgeback.symbolic.expansion.amplitude import (
     check_definition,
     check_velocity,
@@ -91,18 +92,22 @@ class Expansion(ShownExpansion):
     @cached_property
     def frequency(self) -> tuple[sympy.Expr, ...]:
         """Exact coefficients of variable**0 ... variable**order in the oscillator's own units."""
-        return self._in_own_units(self.coefficients, self.scale)
+        return self._in_own_units(self.coefficients, rate=1)
 
     @cached_property
     def amplitude_series(self) -> tuple[sympy.Expr, ...] | None:
         """Exact coefficients of the amplitude of a limit cycle in powers of eps, or None."""
         if self.amplitude_coefficients is None:
             return None
-        return self._in_own_units(self.amplitude_coefficients, sympy.S.One)
+        return self._in_own_units(self.amplitude_coefficients, rate=0)
 
-    def _in_own_units(self, values: tuple[Scalar, ...], factor: sympy.Expr) -> tuple[sympy.Expr, ...]:
-        step = 1 / self.scale if self.scaled_variable else sympy.S.One
-        return tuple(self.exact(c) * factor * step**n for n, c in enumerate(values))
+    def _in_own_units(self, values: tuple[Scalar, ...], *, rate: int) -> tuple[sympy.Expr, ...]:
+        """Coefficients times k to the power ``rate``, and over that of the variable's own k."""
+        exact = [self.exact(c) for c in values]
+        step = int(self.scaled_variable)
+        if not self.constants:
+            return tuple(c * self.scale ** (rate - step * n) for n, c in enumerate(exact))
+        return tuple(tidy(c, self.scale, rate - step * n) for n, c in enumerate(exact))
 
     def exact(self, coefficient: Scalar) -> sympy.Expr:
         """A coefficient in natural units as an expression in the parameters left symbolic, k among them."""
@@ -130,8 +135,8 @@ class Expansion(ShownExpansion):
         for multiple in range(top + 1):
             pairs = [harmonic(p, multiple) for p in self.waveform]
             if any(p != 0 or q != 0 for p, q in pairs):
-                cosine = self._in_own_units(tuple(p for p, _ in pairs), sympy.S.One)
-                sine = self._in_own_units(tuple(q for _, q in pairs), sympy.S.One)
+                cosine = self._in_own_units(tuple(p for p, _ in pairs), rate=0)
+                sine = self._in_own_units(tuple(q for _, q in pairs), rate=0)
                 found.append(Harmonic(multiple, cosine, sine))
         return tuple(found)
 

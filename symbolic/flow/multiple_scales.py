@@ -109,6 +109,7 @@ def multiple_scales(
         weights=natural.weights,
         scale=natural.scale,
         dimensions=natural.dimensions,
+        constants=natural.constants,
         omega=tuple(recursion.omega[: order + 1]),
         delta=tuple(recursion.delta[: order + 1]),
         waveform=tuple(recursion.u),

@@ -19,8 +19,9 @@ from typing import Final
 import sympy
 
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.systems.natural_units import in_natural_units
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
-from ridgeback.symbolic.systems.structure import dissipative_names, divided, free_names, positive_root
+from ridgeback.symbolic.systems.structure import dissipative_names, divided, free_names, positive_root, without_sizes
 
 ROOT: Final = "k*"
 INVERSE: Final = "1/k*"
@@ -44,6 +45,8 @@ class Ordered:
     """Weight of each small parameter against the amplitude, in the order of the variables."""
     dimensions: Mapping[str, int]
     """The power of k in the unit of each parameter left symbolic, the small ones first."""
+    constants: Mapping[str, sympy.Expr]
+    """Values of the symbols that stand for what is not polynomial in the parameters; see ``systems.natural_units``."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -69,9 +72,14 @@ def ordered(oscillator: Oscillator, *, weight: int = 2, weights: Mapping[str, in
     symbolic = [n for n in free_names(force) if n not in chosen and not scale.has(_symbol(n))]
     dimensions = {name: _dimension(force, _symbol(name)) for name in (*chosen, *symbolic)}
     natural = _scaled(force, scale, dimensions)
-    _check(natural, oscillator, tuple(chosen), scale)
+    constants: dict[str, sympy.Expr] = {}
+    if not _scales_out(natural, scale):
+        dimensions = {name: dimensions[name] for name in chosen}
+        natural, constants = _named(force, scale, dimensions)
+        dimensions |= dict.fromkeys((n for n in free_names(natural) if n not in {*chosen, *UNITS}), 0)
+    _check(natural, oscillator, tuple(chosen))
     dimensions.update({name: power for name, power in UNITS.items() if natural.has(_symbol(name))})
-    return Ordered(force=natural, scale=scale, weights=chosen, dimensions=dimensions)
+    return Ordered(force=natural, scale=scale, weights=chosen, dimensions=dimensions, constants=constants)
 
 
 def small_parameters(oscillator: Oscillator) -> tuple[str, ...]:
@@ -97,7 +105,18 @@ def small_parameters(oscillator: Oscillator) -> tuple[str, ...]:
     odd = [name for name in oscillator.parameters if name in lossy]
     known = [name for name in (oscillator.small, oscillator.damping) if name and name not in odd]
     kept = [name for name in odd if not any(_within(force, name, other, odd) for other in odd if other != name)]
-    return tuple(name for name in oscillator.parameters if name in kept or name in known)
+    small = {*kept, *known, *_carrying(force, oscillator, {*odd, *known})}
+    return tuple(name for name in oscillator.parameters if name in small)
+
+
+def _carrying(force: sympy.Expr, oscillator: Oscillator, small: set[str]) -> list[str]:
+    """Parameters that the rest of the linear damping vanishes with, and the stiffness not: that of eps*(u' + u**3)."""
+    left = force.subs({_symbol(name): 0 for name in small})
+    damping, stiffness = (sympy.expand(left.diff(s).subs({U: 0, V: 0})) for s in (V, U))
+    if damping == 0:
+        return []
+    carriers = [name for name in oscillator.parameters if damping.subs(_symbol(name), 0) == 0]
+    return [name for name in carriers if stiffness.subs(_symbol(name), 0) != 0]
 
 
 def check_weight(weight: object, name: str = "") -> int:
@@ -141,7 +160,7 @@ def _within(force: sympy.Expr, name: str, other: str, order: list[str]) -> bool:
 
 def _natural_frequency(force: sympy.Expr, oscillator: Oscillator, small: Mapping[str, int]) -> sympy.Expr:
     slope = force.diff(U).subs({_symbol(name): 0 for name in small}).subs({U: 0, V: 0})
-    stiffness = sympy.expand(slope)
+    stiffness = without_sizes(sympy.expand(slope))
     if stiffness.is_nonpositive or stiffness.has(sympy.zoo, sympy.nan):
         raise InputError(
             f"{oscillator.name} has no positive linear restoring force when {', '.join(small)} vanish; a small "
@@ -174,21 +193,33 @@ def _scaled(force: sympy.Expr, scale: sympy.Expr, dimensions: Mapping[str, int])
     return _with_powers(natural, k, lambda n: _symbol(ROOT) ** n if n > 0 else _symbol(INVERSE) ** -n)
 
 
+def _scales_out(natural: sympy.Expr, scale: sympy.Expr) -> bool:
+    """Whether no root, denominator or irrational number is left, and not both k and 1/k, which no ring would cancel."""
+    free = natural.free_symbols
+    both = {_symbol(name) for name in UNITS} <= free
+    return not (scale.free_symbols & free) and not both and not in_natural_units(natural, sympy.S.One, free).values
+
+
+def _named(
+    force: sympy.Expr, scale: sympy.Expr, dimensions: Mapping[str, int]
+) -> tuple[sympy.Expr, dict[str, sympy.Expr]]:
+    """The same with names for all that is not polynomial; k by its square, but for one power of it."""
+    k, square = _symbol(ROOT), sympy.expand(scale**2)
+    units = {_symbol(name): k**power * _symbol(name) for name, power in dimensions.items() if power}
+    turned = _with_powers(
+        sympy.expand_mul(force.subs({V: k * V, **units})), k, lambda n: square ** (n // 2) * k ** (n % 2)
+    )
+    found = in_natural_units(turned, square, [_symbol(name) for name in dimensions])
+    return found.force, dict(found.values)
+
+
 def _with_powers(expression: sympy.Expr, k: sympy.Symbol, power: Callable[[sympy.Integer], sympy.Expr]) -> sympy.Expr:
     """Replace every whole power of k."""
     marked = expression.replace(lambda e: e.is_Pow and e.base == k and e.exp.is_Integer, lambda e: power(e.exp))
     return marked if power(sympy.S.One) == k else marked.subs(k, power(sympy.S.One))
 
 
-def _check(force: sympy.Expr, oscillator: Oscillator, small: tuple[str, ...], scale: sympy.Expr) -> None:
-    unset = sorted(str(s) for s in scale.free_symbols & force.free_symbols)
-    if {_symbol(name) for name in UNITS} <= force.free_symbols:
-        unset = sorted(str(s) for s in scale.free_symbols)
-    if unset:
-        raise InputError(
-            f"{oscillator.name}: its natural frequency {scale} does not scale out of every term; give "
-            f"{', '.join(unset)} a number, or the other coefficients a name each"
-        )
+def _check(force: sympy.Expr, oscillator: Oscillator, small: tuple[str, ...]) -> None:
     resting = {**{_symbol(name): 0 for name in small}, U: 0, V: 0}
     if sympy.expand(force.diff(V).subs(resting)) != 0:
         raise InputError(

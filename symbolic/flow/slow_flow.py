@@ -8,7 +8,7 @@ see ``ordering``); ``frequency``, ``damping`` and ``harmonics`` are in the oscil
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -18,7 +18,8 @@ from flint import fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.rendering import as_sympy, mathml, nearest, series_latex
-from ridgeback.symbolic.flow.ordering import UNITS
+from ridgeback.symbolic.arithmetic.tidy import tidy
+from ridgeback.symbolic.flow.ordering import ROOT, UNITS
 from ridgeback.symbolic.flow.shown import ShownSlowFlow
 from ridgeback.symbolic.flow.term import Term
 from ridgeback.symbolic.series.spaces import Scalar
@@ -61,13 +62,15 @@ class SlowFlow(ShownSlowFlow):
     complete: int | None
     """Of one small parameter: the highest power of which no term is left out; None when its terms never end."""
     residual_of: Callable[[SlowFlow], list[int]]
+    constants: Mapping[str, sympy.Expr] = field(default_factory=dict)
+    """Values of the symbols in ``dimensions`` that stand for what is not polynomial in the parameters."""
     method: str = "multiple-scales"
     amplitude: str = "fundamental"
     highest: int | None = None
     """Terms with a higher power of the one small parameter than this are left out; None keeps all; see ``entire``."""
 
     def __post_init__(self) -> None:
-        for name in ("weights", "dimensions"):
+        for name in ("weights", "dimensions", "constants"):
             object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
 
     @property
@@ -126,8 +129,26 @@ class SlowFlow(ShownSlowFlow):
                 part = as_sympy(value) * _monomial(self.names[count:], others) * self.unit(powers, rate=rate)
                 by_power[small] = by_power.get(small, sympy.S.Zero) + part
             kept = [small for small in sorted(by_power) if self.highest is None or small[0] <= self.highest]
-            found += [Term((n - self._degree(small), *small), by_power[small]) for small in kept]
+            valued = [(small, self._inserted(by_power[small])) for small in kept]
+            found += [Term((n - self._degree(small), *small), value) for small, value in valued if value != 0]
         return tuple(found)
+
+    def _inserted(self, coefficient: sympy.Expr) -> sympy.Expr:
+        """A coefficient with the values of the constants, and k as often as it is in it, in its shortest form."""
+        if not self.constants:
+            return coefficient
+        values = {sympy.Symbol(name, real=True): value for name, value in self.constants.items()}
+        return sympy.Add(*(tidy(part, self.scale, power) for power, part in self._by_scale(coefficient.subs(values))))
+
+    def _by_scale(self, coefficient: sympy.Expr) -> list[tuple[int, sympy.Expr]]:
+        """The even and the odd part in k of a coefficient."""
+        k = sympy.Symbol(ROOT, real=True)
+        turned = sympy.expand(coefficient.subs(self.scale, k) if self.scale != 1 else coefficient)
+        square, parts = sympy.expand(self.scale**2), {0: sympy.S.Zero, 1: sympy.S.Zero}
+        for term in sympy.Add.make_args(turned):
+            rest, power = term.as_coeff_exponent(k)
+            parts[power % 2] += rest * square ** (power // 2)
+        return [(power, part) for power, part in parts.items() if part != 0]
 
     def entire(self) -> SlowFlow:
         """The flow without the powers of the small parameter that lack terms; the flow itself where none ever ends.

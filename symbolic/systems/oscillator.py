@@ -18,18 +18,18 @@ from ridgeback.common.errors import InputError
 from ridgeback.symbolic.grammar.at_origin import brief, sign_at_origin, value_at_origin
 from ridgeback.symbolic.grammar.parse import Equation, U, V, W, names, parse_equation, parse_expression, to_sympy
 from ridgeback.symbolic.systems.equation_latex import equation_latex
-from ridgeback.symbolic.systems.irrational import named
-from ridgeback.symbolic.systems.parameters import Parameters, Value, merged
+from ridgeback.symbolic.systems.losses import by_reciprocals, with_named_losses
+from ridgeback.symbolic.systems.natural_units import in_natural_units
+from ridgeback.symbolic.systems.parameters import Parameters, Value, merged, reciprocal
 from ridgeback.symbolic.systems.potential import checked_potential, potential_of
 from ridgeback.symbolic.systems.structure import (
-    SQUARED_INVERSE,
     damping_name,
     dissipative_names,
     divided,
-    in_natural_units,
     positive_root,
     small_name,
     solved_for_acceleration,
+    without_sizes,
 )
 
 __all__ = ["Kind", "Normalised", "Oscillator", "U", "V", "Value", "W"]
@@ -66,7 +66,7 @@ class Normalised:
     potential: sympy.Expr | None
     """Potential of the restoring force in natural units, V(u)/k**2."""
     rational: sympy.Expr
-    """``bound`` with symbols for irrational numbers and for 1/k**2 where a symbolic k does not scale out."""
+    """``bound`` with symbols for what is not polynomial over the rationals; see ``natural_units``."""
     constants: Mapping[str, sympy.Expr]
     """The values of those symbols by their names, which no parameter can have."""
 
@@ -132,7 +132,9 @@ class Oscillator:
         ----------
         text : str
             The equation.  The second derivative may carry a factor, which is divided out; ``mu`` of a term 2*mu*u' and
-            the ``eps`` of a limit cycle are recognised under any name.
+            the ``eps`` of a limit cycle are recognised under any name.  A
+            linear loss written as a number, or through a reciprocal, gets a parameter (see ``losses``), and the
+            equation is then rewritten with it.
         name : str, optional
             What to call it.
         parameters : mapping of str to number or str, optional
@@ -174,16 +176,17 @@ class Oscillator:
         values = merged(name, dict.fromkeys(names(equation.left)), parameters or {})
         left = to_sympy(equation.left)
         value_at_origin(left, values)  # before SymPy is asked for any value there, which it may never finish
-        force = solved_for_acceleration(left)
+        lossy = with_named_losses(solved_for_acceleration(left), values)
+        force = lossy.force
         integral, note = _potential(force, potential, equation.unknown)
         about.setdefault("title", name)
         about.setdefault("symbol", sympy.latex(sympy.Symbol(equation.unknown)))
         return cls(
             name=name,
-            equation=equation.text,
+            equation=equation.text if lossy.parameters == values else _rewritten(force, equation.unknown),
             force=force,
-            parameters=values,
-            defaults=values,
+            parameters=lossy.parameters,
+            defaults=lossy.parameters,
             potential=integral,
             potential_note=note,
             small=small_name(force),
@@ -216,7 +219,11 @@ class Oscillator:
         >>> find("pendulum").with_parameters({"k": "12.5", "mu": 0.01}).parameters["mu"]
         1/100
         """
-        return replace(self, parameters=merged(self.name, self.parameters, values))
+        turned = by_reciprocals(values, self.parameters)
+        direct = merged(self.name, dict.fromkeys(turned), {name: values[name] for name in turned})
+        inverted = {turned[name]: None if value is None else reciprocal(name, value) for name, value in direct.items()}
+        rest = {name: value for name, value in values.items() if name not in turned}
+        return replace(self, parameters=merged(self.name, self.parameters, {**rest, **inverted}))
 
     @cached_property
     def substituted_force(self) -> sympy.Expr:
@@ -264,7 +271,7 @@ class Oscillator:
     @cached_property
     def stiffness(self) -> sympy.Expr:
         """The linear restoring coefficient f_u(0, 0) = k**2, parameters inserted."""
-        return sympy.expand(self._inserted(self.force.diff(U)).subs({U: 0, V: 0}))
+        return without_sizes(sympy.expand(self._inserted(self.force.diff(U)).subs({U: 0, V: 0})))
 
     @cached_property
     def natural_frequency(self) -> sympy.Expr:
@@ -315,8 +322,7 @@ class Oscillator:
         values = {name: self._inserted(symbol) / k for name, symbol in symbols.items()}
         potential = self.substituted_potential
         bound = force.subs({symbols[name]: value for name, value in values.items()})
-        rational = named(in_natural_units(bound, self.stiffness))
-        constants = {**rational.values, SQUARED_INVERSE: 1 / self.stiffness}
+        rational = in_natural_units(bound, self.stiffness)
         return Normalised(
             force=divided(force, self.stiffness),
             bound=divided(bound, self.stiffness),
@@ -325,7 +331,7 @@ class Oscillator:
             small=values.get(self.small or ""),
             potential=None if potential is None else divided(potential, self.stiffness),
             rational=rational.force,
-            constants={name: constants[name] for name in sorted(constants) if rational.force.has(_symbol(name))},
+            constants={n: value for n, value in sorted(rational.values.items()) if rational.force.has(_symbol(n))},
         )
 
     def _inserted(self, expression: sympy.Expr, keep: list[str] | None = None) -> sympy.Expr:
@@ -339,6 +345,12 @@ class Oscillator:
 
 def _symbol(name: str) -> sympy.Symbol:
     return sympy.Symbol(name, real=True)
+
+
+def _rewritten(force: sympy.Expr, unknown: str) -> str:
+    """The equation that a force belongs to, as text."""
+    turned = force.xreplace({U: _symbol(unknown), V: _symbol(unknown + "'")})
+    return f"{unknown}'' + {sympy.sstr(turned, order='rev-lex')} = 0".replace("+ -", "- ")
 
 
 def _rebuilt(cls: type[Oscillator], values: dict[str, Any]) -> Oscillator:

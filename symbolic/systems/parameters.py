@@ -59,6 +59,17 @@ def unknown_parameter(system: str, name: str, known: Parameters) -> str:
     return f"{system} has no parameter {name[:60]!r}; its parameters: {', '.join(known) or 'none'}"
 
 
+def reciprocal(name: str, value: sympy.Rational) -> sympy.Rational:
+    """One over the value of a parameter; InputError for 0.
+
+    >>> reciprocal("Q", sympy.Rational(40))
+    1/40
+    """
+    if value == 0:
+        raise InputError(f"parameter {name} = 0 is divided by; give a number other than 0")
+    return 1 / value
+
+
 def _exact(name: str, value: Value) -> sympy.Rational | None:
     """The rational that a value stands for; a float is what it prints as."""
     if value is None:

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Final
-
 import sympy
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.grammar.at_origin import brief
 from ridgeback.symbolic.grammar.parse import U, V, W
-
-SQUARED_INVERSE: Final = "1/k^2*"
-"""Stands for 1/k^2 where a symbolic k does not scale out, as in u'' + k**2*u + b*u**3.  No parameter has this name."""
 
 
 def positive_root(square: sympy.Expr) -> sympy.Expr:
@@ -32,7 +27,16 @@ def positive_root(square: sympy.Expr) -> sympy.Expr:
     >>> positive_root(sympy.Symbol("k", real=True) ** 2)
     k
     """
-    return sympy.sqrt(square).replace(sympy.Abs, lambda inner: inner)
+    return without_sizes(sympy.sqrt(square))
+
+
+def without_sizes(expression: sympy.Expr) -> sympy.Expr:
+    """The expression with symbolic parameters taken as positive, so that the root of a square is the parameter itself.
+
+    >>> without_sizes(sympy.sqrt(sympy.Symbol("l", real=True) ** 2))
+    l
+    """
+    return expression.replace(sympy.Abs, lambda inner: inner)
 
 
 def solved_for_acceleration(left: sympy.Expr) -> sympy.Expr:
@@ -68,31 +72,6 @@ def divided(expression: sympy.Expr, divisor: sympy.Expr) -> sympy.Expr:
     if divisor == 1:
         return expression
     return sympy.Add(*(term / divisor for term in sympy.Add.make_args(sympy.expand_mul(expression))))
-
-
-def in_natural_units(force: sympy.Expr, stiffness: sympy.Expr) -> sympy.Expr:
-    """f / k^2 with k^2 the stiffness; what a symbolic k^2 does not cancel from is multiplied by a symbol for 1/k^2.
-
-    The part of this force that is linear in u is u itself, whatever the value of that symbol.
-
-    >>> k, b = sympy.symbols("k b", real=True)
-    >>> in_natural_units(k**2 * sympy.sin(U), k**2)
-    sin(u)
-    >>> in_natural_units(k**2 * U + b * U**3, k**2) == U + b * sympy.Symbol(SQUARED_INVERSE, real=True) * U**3
-    True
-    """
-    below = stiffness.free_symbols
-    if not below:
-        return divided(force, stiffness)
-    terms = sympy.Add.make_args(sympy.expand_mul(force))
-    unscaled = [term for term in terms if below & sympy.fraction(term / stiffness)[1].free_symbols]
-    clean = sympy.Add(*(term / stiffness for term in terms if term not in unscaled))
-    if not unscaled:
-        return clean
-    kept = sympy.expand_mul(sympy.Add(*unscaled))
-    slope, linear = (sympy.expand(part.diff(U).subs({U: 0, V: 0})) for part in (kept, clean))
-    nonlinear = sympy.expand_mul(kept - sympy.expand_mul(slope * U))
-    return clean + (1 - linear) * U + sympy.Symbol(SQUARED_INVERSE, real=True) * nonlinear
 
 
 def damping_name(force: sympy.Expr) -> str | None:
