@@ -259,10 +259,7 @@ def test_json_of_one_small_parameter_keeps_its_keys() -> None:
         ("u'' + c*u' + u", {"weights": {"c": 1.5}}, "weight 1.5 of c"),
         ("u'' + c*u' + u", {"weight": 0}, "weight 0"),
         ("u'' + c*u' + u", {"weights": {"c": 0}}, "linear damping that does not vanish"),
-        ("u'' + u'/10 + u", {}, "linear damping that does not vanish"),
         ("u'' + s*u + u**3", {"weights": {"s": 1}}, "weight 0"),
-        ("u'' + w**2*u + u**3 + e*(u'**3 - u')", {}, "give w a number"),
-        ("u'' + w*u + u**3", {}, "give w a number"),
     ],
 )
 def test_bad_orderings_are_refused(equation: str, options: dict[str, object], words: str) -> None:
