@@ -19,7 +19,6 @@ from ridgeback.symbolic.codegen.request import CodeRequest
 from ridgeback.symbolic.expansion.amplitude import MEANINGS
 from ridgeback.symbolic.flow.ordering import UNITS
 from ridgeback.symbolic.flow.slow_flow import rows
-from ridgeback.symbolic.systems.structure import SQUARED_INVERSE
 
 if TYPE_CHECKING:
     from ridgeback.symbolic.expansion.expansion import Expansion
@@ -79,23 +78,37 @@ class _Series:
 
     def _inner(self, name: str) -> str:
         """The name in the code of a symbol of the coefficients: an argument's, or of a value computed from k."""
-        if name not in self.expansion.constants:
+        constants = self.expansion.constants
+        if name not in constants:
             return self.called[name]
-        return "k_squared_inverse" if name == SQUARED_INVERSE else f"root_{self._roots().index(name) + 1}"
+        roots = [each for each, value in constants.items() if value.is_number]
+        return f"root_{roots.index(name) + 1}" if name in roots else self._by_frequency(constants[name])
 
-    def _roots(self) -> list[str]:
-        return [name for name in self.expansion.constants if name != SQUARED_INVERSE]
+    def _by_frequency(self, value: Expr) -> str:
+        """The name of 1/k or 1/k^2, which the natural frequency gives; InputError for what it does not."""
+        k = self.expansion.scale
+        found = {1 / k: "k_inverse", 1 / k**2: "k_squared_inverse"}.get(value)
+        if found is None:
+            held = ", ".join(sorted(str(s) for s in value.free_symbols))
+            raise InputError(
+                f"'{self.expansion.system}': the coefficients hold {value}, which neither the parameters left symbolic "
+                f"nor the natural frequency give; give {held} a number"
+            )
+        return found
 
     def prepared(self) -> Steps:
         """The values of the symbols that are no arguments: 1/k^2, and irrational numbers."""
         steps = Steps(self.real)
         for name in self.expansion.names:
-            if name == SQUARED_INVERSE:
-                steps.divide("k_squared_inverse", steps.number(1), steps.square(K))
-            elif name in self.expansion.constants:
-                value = Number(self.expansion.constants[name], self.real)
-                steps.multiply(self._inner(name), value, steps.number(1))
+            if name in self.expansion.constants:
+                self._prepare(steps, self._inner(name), self.expansion.constants[name])
         return steps
+
+    def _prepare(self, steps: Steps, inner: str, value: Expr) -> None:
+        if value.is_number:
+            steps.multiply(inner, Number(value, self.real), steps.number(1))
+        else:
+            steps.divide(inner, steps.number(1), K if inner == "k_inverse" else steps.square(K))
 
     def terms(self, values: Sequence[Any], *, rate: int) -> Terms:
         """Coefficients by the powers of variable and symbols; in the oscillator's own time where k is fixed."""

@@ -22,7 +22,7 @@ CONSERVATIVE = (
     "theta'' + g/L*sin(theta) = 0",
     "u'' + sin(u) + w0**2*u = 0",
     "u'' + alpha*u/(beta + u) = 0",
-    "u'' + k*u*(2 - l0/sqrt(l**2 + u**2)) = 0",
+    "u'' + k*u*(9 - l0/sqrt(l**2 + u**2)) = 0",
     "u'' + exp(alpha*u) - 1 = 0",
     "theta'' + sin(theta) - w**2*sin(theta)*cos(theta) = 0",
 )
