@@ -37,6 +37,16 @@ def frozen_mask(values: ArrayLike) -> Mask:
     return copy
 
 
+def as_rows(columns: Mapping[str, Array]) -> list[dict[str, float]]:
+    """One row per value of columns of one length.
+
+    >>> as_rows({"a": np.array([1.0, 2.0]), "b": np.array([3.0, 4.0])})
+    [{'a': 1.0, 'b': 3.0}, {'a': 2.0, 'b': 4.0}]
+    """
+    values = [np.asarray(column, dtype=float).tolist() for column in columns.values()]
+    return [dict(zip(columns, row, strict=True)) for row in zip(*values, strict=True)]
+
+
 def freeze(value: Any) -> None:
     """Make the arrays and mappings of a frozen dataclass read-only copies; for its ``__post_init__``.
 

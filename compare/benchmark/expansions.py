@@ -181,7 +181,7 @@ def slow_flows(motion: Motion) -> Iterator[Contender]:
             label,
             "slow-flow",
             order=order,
-            coefficients=len(flow.frequency) + len(flow.damping),
+            coefficients=len(flow.frequency) + len(flow.growth_rate),
             time_s_per_track=seconds,
             time_ns_per_value=seconds / motion.time.size * 1e9,
         )

@@ -231,7 +231,7 @@ def _van_der_pol() -> tuple[Terms, Terms, tuple[tuple[int, str, Terms], ...]]:
         if h.multiple > 1
         for kind, terms in (("cosine", h.cosine), ("sine", h.sine))
     ]
-    return _kept(flow.frequency), _kept(flow.damping), tuple(h for h in harmonics if h[2])
+    return _kept(flow.frequency), _kept(flow.growth_rate), tuple(h for h in harmonics if h[2])
 
 
 def _kept(terms: tuple[Term, ...]) -> Terms:

@@ -138,7 +138,7 @@ def backbone_cost(model: Model, data: Data, shape: Shape) -> tuple[float, Array]
         return np.inf, theta
     scale = float(np.sum(weight * b.omega * omega) / np.sum(weight * omega**2))
     cost = float(np.sum(weight * (b.omega - scale * omega) ** 2))
-    cost += float(np.sum((b.damping - growth) ** 2 / (b.damping_sd**2 + (0.02 * b.omega) ** 2)))
+    cost += float(np.sum((b.growth_rate - growth) ** 2 / (b.growth_rate_sd**2 + (0.02 * b.omega) ** 2)))
     theta[0] *= scale
     theta[-2] = data.anchor_phase[0]
     return cost, theta
@@ -155,17 +155,17 @@ def bends(model: Model, data: Data) -> Shape:
 
 
 def first_rates(model: Model, data: Data) -> list[float]:
-    """Loss rates from the measured damping: its weighted mean, or a line in a or a^2."""
+    """Loss rates from the measured growth rate: its weighted mean, or a line in a or a^2."""
     if not model.rates:
         return []
     b = data.measured
-    a, loss = b.amplitude / data.length, -2 * b.damping
+    a, loss = b.amplitude / data.length, -2 * b.growth_rate
     columns = [np.ones_like(a)]
     if model.law == DampingLaw.QUADRATIC:
         columns.append(8 / (3 * np.pi) * a)
     elif model.law == DampingLaw.CUBIC:
         columns.append(0.75 * a**2)
-    weight = 1 / np.maximum(b.damping_sd, 1e-3 * np.abs(loss).max() + 1e-12)
+    weight = 1 / np.maximum(b.growth_rate_sd, 1e-3 * np.abs(loss).max() + 1e-12)
     matrix = np.array(columns).T * weight[:, None]
     solution, *_ = np.linalg.lstsq(matrix, loss * weight, rcond=None)
     return [float(x) for x in solution]

@@ -126,8 +126,7 @@ def measured_rest(recording: Recording, track: Track, phase: Array, until: float
     """Amplitude, frequency and phase where the window of the measurement lies after the cut."""
     start = float(recording.time[0])
     found = backbone(track, recording.values, recording.rate, start=start)
-    window = found.settings["window_seconds"]
-    margin = 0.5 * float(window) if isinstance(window, (int, float)) else 0.0
+    margin = 0.5 * (found.window_seconds or 0.0)
     later = found.time - start >= until + margin
     if np.count_nonzero(later) < 4:
         raise InputError(f"{recording.source}: nothing clear of noise is left to predict; fit fewer cycles")

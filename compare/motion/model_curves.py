@@ -135,7 +135,7 @@ def slow_flow_curve(motion: Motion, flow: SlowFlow) -> Curve:
     else:
         start = float(orbit_harmonics(motion.dynamics, motion.averaged.peak[:1], count=1).cosine[1, 0])
     solution = solve_ivp(
-        lambda _, a: a * flow.damping_at(a, *small),
+        lambda _, a: a * flow.growth_rate_at(a, *small),
         (float(motion.time[0]), float(motion.time[-1])),
         [start],
         t_eval=motion.time,

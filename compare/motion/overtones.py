@@ -92,8 +92,7 @@ def _overtone(motion: Motion, base: Track, multiple: int) -> Overtone:
 
 def _raw(motion: Motion, base: Track, multiple: int) -> Curve:
     raw = raw_harmonic_peak(motion.trajectory.u, motion.trajectory.rate, base, multiple=multiple)
-    note = str(raw.settings.get("why", ""))
-    return _curve(raw, f"harmonic-{multiple}-raw", f"harmonic {multiple}, raw Wigner peak", note)
+    return _curve(raw, f"harmonic-{multiple}-raw", f"harmonic {multiple}, raw Wigner peak", raw.used.why)
 
 
 def _curve(track: Track, name: str, label: str, note: str = "") -> Curve:

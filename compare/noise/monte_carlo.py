@@ -21,11 +21,11 @@ from ridgeback.compare.binding.family import family_of
 from ridgeback.compare.noise.results import NoiseCell, NoiseStudy, Trial, Window, cell_of
 from ridgeback.compare.noise.truth import STRAIGHT, Truth, paper_truth, recording_truth
 from ridgeback.numeric.arrays import Array, Mask
-from ridgeback.numeric.estimators.auto import SCOPES
 from ridgeback.numeric.estimators.estimate import METHODS as ESTIMATORS
 from ridgeback.numeric.estimators.estimate import MODEL_FIT, estimate
 from ridgeback.numeric.model_fit.family import Family
 from ridgeback.numeric.recording.recording import Recording
+from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.track import Track
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -186,8 +186,8 @@ def truth_of(
 def _check(methods: Sequence[str], snr_db: Sequence[float], trials: int) -> None:
     for method in methods:
         name, slash, scope = method.partition("/")
-        if name not in (*ESTIMATORS, MODEL_FIT) or (slash and (name != SCOPED or scope not in SCOPES)):
-            known = (*ESTIMATORS, MODEL_FIT, *(f"{SCOPED}/{scope}" for scope in SCOPES))
+        if name not in (*ESTIMATORS, MODEL_FIT) or (slash and (name != SCOPED or scope not in tuple(Scope))):
+            known = (*ESTIMATORS, MODEL_FIT, *(f"{SCOPED}/{scope}" for scope in tuple(Scope)))
             raise InputError(f"method {method!r} is unknown; use one of {', '.join(known)}")
     for name, values in (("method", methods), ("ratio", snr_db)):
         if len(values) == 0 or len(set(values)) < len(values):
@@ -263,22 +263,22 @@ def judged(truth: Truth, track: Track | InputError) -> Trial:
     covered = None
     if track.interval is not None:
         covered = float(np.mean((track.interval.low[keep] <= expected) & (expected <= track.interval.high[keep])))
-    lag, degree = track.settings.get("lag_seconds"), track.settings.get("phase_degree")
+    lag, degree = track.used.lag_seconds, track.used.phase_degree
     return Trial(
         float(np.mean(error**2)),
         float(error.mean()),
         covered,
-        truth.half(float(lag) if isinstance(lag, (int, float)) else None),
-        degree if isinstance(degree, int) else STRAIGHT,
+        truth.half(lag),
+        STRAIGHT if degree is None else degree,
         own_bound(track, keep, expected),
     )
 
 
 def own_bound(track: Track, keep: Mask, expected: Array) -> float | None:
     """Relative bound for unit noise of a model of the whole record, from the deviations of its fit; None elsewhere."""
-    noise = track.settings.get("noise")
-    whole = track.method == MODEL_FIT or track.settings.get("scope") == "global"
-    if not whole or track.standard_deviation is None or not isinstance(noise, float) or not noise > 0.0:
+    noise = track.used.noise
+    whole = track.method == MODEL_FIT or track.used.scope is Scope.GLOBAL
+    if not whole or track.standard_deviation is None or noise is None or not noise > 0.0:
         return None
     return float(np.sqrt(np.mean((track.standard_deviation[keep] / expected) ** 2))) / noise
 

@@ -1,4 +1,4 @@
-"""What ``ridgeback estimate`` measures of recordings: omega0(t), a(t), backbone and damping of each signal, and of all.
+"""What ``ridgeback estimate`` measures of recordings: omega0(t), a(t), backbone and growth rate of each signal.
 
 The signals of a recording are its channels, runs and the stretches between its gaps.  Each is measured by itself; the
 backbones of the runs and stretches of one channel are then combined, since they are of one oscillator.
@@ -17,10 +17,10 @@ from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.backbone.combined import CombinedBackbone, combine
 from ridgeback.numeric.backbone.half_cycles import HalfCycles, half_cycles
-from ridgeback.numeric.estimators.amplitude import estimate_amplitude
-from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.estimators.amplitude import amplitude_of, estimate_amplitude
+from ridgeback.numeric.estimators.estimate import Estimation, estimation
 from ridgeback.numeric.recording.recording import Recording
-from ridgeback.numeric.signal.decimation import every, every_flag
+from ridgeback.numeric.signal.decimation import Samples, every, every_flag
 from ridgeback.numeric.tracking.track import NORMAL_95, AmplitudeTrack, Track
 
 COMBINE = ("runs", "all", "none")
@@ -48,6 +48,11 @@ class Measurement:
     """The amplitude of a higher harmonic."""
 
     @property
+    def track(self) -> Track | None:
+        """Its track; None where half cycles were counted."""
+        return self.found if isinstance(self.found, Track) else None
+
+    @property
     def method(self) -> str:
         """How the frequency was estimated."""
         return self.found.method if isinstance(self.found, Track) else "half-cycles"
@@ -71,7 +76,7 @@ class Measurement:
         return Along(found.time, values, values - NORMAL_95 * deviation, values + NORMAL_95 * deviation)
 
     def rows(self) -> list[Row]:
-        """One row per time: frequency, amplitude and damping with their standard deviations, NaN where unknown."""
+        """One row per time: frequency, amplitude and growth rate with their standard deviations, NaN where unknown."""
         if isinstance(self.found, HalfCycles):
             return [dict(row) for row in self.found.rows()]
         rows: list[Row] = [dict(row) for row in self.found.rows()]
@@ -105,7 +110,7 @@ class Survey:
 
 
 def amplitude_columns(curve: Backbone, time: Array) -> Mapping[str, Array]:
-    """Amplitude and damping along ``time``, linear between the backbone's points, NaN away from them."""
+    """Amplitude and growth rate along ``time``, linear between the backbone's points, NaN away from them."""
     spacing = float(np.median(np.diff(curve.time)))
     after = np.clip(np.searchsorted(curve.time, time), 1, curve.time.size - 1)
     inside = (time >= curve.time[0]) & (time <= curve.time[-1])
@@ -117,8 +122,8 @@ def amplitude_columns(curve: Backbone, time: Array) -> Mapping[str, Array]:
     return {
         "amplitude": along(curve.amplitude),
         "amplitude_standard_deviation": along(curve.amplitude_sd),
-        "damping_per_s": along(curve.damping),
-        "damping_standard_deviation_per_s": along(curve.damping_sd),
+        "growth_rate_per_s": along(curve.growth_rate),
+        "growth_rate_standard_deviation_per_s": along(curve.growth_rate_sd),
     }
 
 
@@ -132,17 +137,19 @@ def size_columns(size: AmplitudeTrack, time: Array) -> Mapping[str, Array]:
     return {name: np.interp(time, size.time, values) for name, values in columns.items()}
 
 
-def of_harmonic(recording: Recording, track: Track, multiple: int, settings: Mapping[str, object]) -> Measurement:
+def of_harmonic(
+    recording: Recording, found: Estimation, multiple: int, band: tuple[float, float] | None
+) -> Measurement:
     """A harmonic with its track, phase-locked to the fundamental's, and its amplitude where the data show it."""
-    notes, size = recording.notes, None
+    notes, size, used = recording.notes, None, found.samples
     try:
-        band: Any = settings.get("band")
-        used = as_tracked(recording, track)
-        start = float(used.time[0])
-        size = estimate_amplitude(used.values, used.rate, harmonic=multiple, band=band, start=start)
+        if found.request is not None:
+            size = amplitude_of(found.request, multiple)
+        else:
+            size = estimate_amplitude(used.x, used.rate, harmonic=multiple, band=band, start=used.start)
     except InputError as error:
         notes = (*notes, f"No amplitude: {error}.")
-    return Measurement(recording, track, None, notes, size)
+    return Measurement(recording, found.track, None, notes, size)
 
 
 def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **settings: object) -> Measurement:
@@ -170,39 +177,44 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
     >>> x = 2.0 * np.exp(-0.05 * t) * np.cos(2 * np.pi * 1.25 * t)
     >>> found = measure(Recording(t, x, 32.0, "u", "mm", "run.csv", ""), method="pseudo-wigner")
     >>> row = found.rows()[640]
-    >>> bool(abs(row["frequency_hz"] - 1.25) < 1e-3), round(row["amplitude"], 3), round(row["damping_per_s"], 4)
+    >>> bool(abs(row["frequency_hz"] - 1.25) < 1e-3), round(row["amplitude"], 3), round(row["growth_rate_per_s"], 4)
     (True, 0.736, -0.05)
     """
     if halves:
         return of_half_cycles(recording, settings)
     start = float(recording.time[0])
-    track = estimate(recording.values, recording.rate, start=start, harmonic=harmonic, **settings)  # type: ignore[arg-type]
+    words: Any = settings
+    found = estimation(recording.values, recording.rate, start=start, harmonic=harmonic, **words)
+    track = found.track
     if harmonic > 1:
-        return of_harmonic(recording, track, harmonic, settings)
+        return of_harmonic(recording, found, harmonic, words.get("band"))
     try:
-        used = as_tracked(recording, track)
+        used = as_tracked(recording, found.samples)
         curve = backbone(track, used.values, used.rate, start=float(used.time[0]), exclude=marked(used))
     except InputError as error:
         return Measurement(recording, track, None, (*recording.notes, f"No amplitude: {error}."))
     return Measurement(recording, track, curve, (*recording.notes, *curve.notes))
 
 
-def as_tracked(recording: Recording, track: Track) -> Recording:
-    """The recording, decimated as the track's estimator did: the fundamental needs no more samples.
+def samples_behind(track: Track, recording: Recording) -> Samples:
+    """The samples that a track is of: all of the recording's, or those that its estimator decimated it to."""
+    whole = Samples(recording.values, recording.rate, float(recording.time[0]))
+    return whole if track.used.decimated_by < 2 else every(whole, track.used.decimated_by)
+
+
+def as_tracked(recording: Recording, samples: Samples) -> Recording:
+    """The recording at the samples that its track is of: the fundamental needs no more of them.
 
     >>> t = np.arange(20_000) / 1000.0
     >>> run = Recording(t, np.cos(30.0 * t), 1000.0, "u", "mm", "run.csv", "")
-    >>> few = as_tracked(run, estimate(run.values, run.rate))
+    >>> few = as_tracked(run, estimation(run.values, run.rate).samples)
     >>> few.rate < 60.0, bool(np.allclose(few.values, np.cos(30.0 * few.time), atol=1e-3))
     (True, True)
     """
-    factor = track.settings.get("decimated_by")
-    if not isinstance(factor, int) or factor < 2:
+    if samples.factor < 2:
         return recording
-    few = every(recording.values, recording.rate, factor, start=float(recording.time[0]))
-    time = few.start + np.arange(few.x.size) / few.rate
-    clipped, filled = (every_flag(flags, factor) for flags in (recording.clipped, recording.filled))
-    return replace(recording, time=time, values=few.x, rate=few.rate, clipped=clipped, filled=filled)
+    clipped, filled = (every_flag(flags, samples.factor) for flags in (recording.clipped, recording.filled))
+    return replace(recording, time=samples.time, values=samples.x, rate=samples.rate, clipped=clipped, filled=filled)
 
 
 def of_half_cycles(recording: Recording, settings: Mapping[str, object]) -> Measurement:

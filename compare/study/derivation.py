@@ -148,7 +148,7 @@ def _flow_formulas(flow: SlowFlow) -> Iterator[Formula]:
     k = "" if flow.scale == 1 else r"/k"
     for title, left, terms in (
         ("Slow flow: phase", rf"\dot{{\varphi}}{k}", flow.frequency),
-        ("Slow flow: amplitude", rf"\frac{{\dot{{a}}}}{{a}}{k}", flow.damping),
+        ("Slow flow: amplitude", rf"\frac{{\dot{{a}}}}{{a}}{k}", flow.growth_rate),
     ):
         yield Formula(title, left, latex_terms(_in_natural_units(flow, terms)), note)
 

@@ -1,4 +1,4 @@
-"""Frequency and damping against amplitude: from tracks, from half cycles, from several runs.
+"""Frequency and growth rate against amplitude: from tracks, from half cycles, from several runs.
 
 Knows recordings' signals, tracks and estimators.
 """

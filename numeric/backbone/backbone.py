@@ -1,4 +1,4 @@
-"""The backbone of a recording: fundamental frequency and damping against fundamental amplitude, with uncertainty."""
+"""The backbone of a recording: frequency and growth rate against amplitude, with uncertainty."""
 
 from __future__ import annotations
 
@@ -31,18 +31,43 @@ def backbone(
     window_seconds: float | None = None,
     exclude: Mask | None = None,
 ) -> Backbone:
-    """Measure amplitude and damping along a frequency track and set omega0 against amplitude.
+    """Measure amplitude and growth rate along a frequency track, and set omega0 against amplitude.
 
-    The amplitude and its logarithmic slope come from local harmonic least squares over ``window_seconds`` (default
-    four cycles), started from the track; omega comes from the track itself.  ``start`` is the time of the first sample
-    (default: as the track noted it).  Points whose window holds a sample of ``exclude`` (clipped ones) are left out.
-    Raises InputError when fewer than four points are clear of the noise.
+    Amplitude and its logarithmic slope come from local harmonic least squares, started from the track; omega comes from
+    the track itself.
 
+    Parameters
+    ----------
+    track : Track
+        The fundamental's frequency.
+    x : array of float, shape (N,)
+        The real samples that it is of.
+    rate : float
+        Samples per time unit.
+    start : float, optional
+        Time of the first sample; by default as the track noted it.
+    window_seconds : float, optional
+        Width of the local fits, in time units; four cycles by default.
+    exclude : array of bool, shape (N,), optional
+        Samples that are not to be used (clipped ones): points whose window holds one are left out.
+
+    Returns
+    -------
+    Backbone
+        Along time and in bins of amplitude.
+
+    Raises
+    ------
+    InputError
+        When fewer than four points are clear of the noise.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.estimators.estimate import estimate
     >>> t = np.arange(1280) / 32.0
     >>> x = 2.0 * np.exp(-0.05 * t) * np.cos(2 * np.pi * 1.25 * t) + 0.7
     >>> curve = backbone(estimate(x, 32.0), x, 32.0)
-    >>> bool(np.abs(curve.curve_damping + 0.05).max() < 1e-4), bool(np.abs(curve.omega - 2.5 * np.pi).max() < 1e-3)
+    >>> bool(np.abs(curve.curve_growth_rate + 0.05).max() < 1e-4), bool(np.abs(curve.omega - 2.5 * np.pi).max() < 1e-3)
     (True, True)
     """
     samples, rate = checked_real_samples(x, what="backbone", at_least=16), checked_rate(rate)
@@ -56,7 +81,7 @@ def backbone(
     shape = Shape(choose_multiples(real, rate, base.omega, half=half))
     centres = np.arange(0, samples.size, max(1, round(cycle * rate / POINTS_PER_CYCLE)))
     fit = harmonic_fit(real, rate, base.omega, half=half, shape=shape, start_time=first, centres=centres)
-    seen = fit.settled if track.settings.get("one_sided_borders") else fit.valid & base.valid[centres]
+    seen = fit.settled if track.used.one_sided_borders else fit.valid & base.valid[centres]
     clean = ~touched(samples.size, centres, half, exclude)
     usable = seen & clean & (fit.amplitude > CLEAR * fit.amplitude_sd)
     check_enough(usable, clean)
@@ -67,9 +92,11 @@ def backbone(
     spacing = float(np.median(np.diff(fit.time)))
     window = max(1.0, fit.window_seconds / spacing)
     crowding = Crowding(amplitude=window, omega=max(window, resolution(track, cycle) / spacing))
-    settings = {"track": track.method, "window_seconds": fit.window_seconds, "harmonics": (1, *shape.multiples)}
+    settings = {"track": track.method, "harmonics": (1, *shape.multiples)}
     notes = [f"The mean of the samples, {offset:.4g}, was removed.", *left_out_notes(usable, clean)]
-    return assemble(points, crowding=crowding, offset=offset, settings=settings, notes=notes)
+    return assemble(
+        points, crowding=crowding, offset=offset, settings=settings, notes=notes, window_seconds=fit.window_seconds
+    )
 
 
 def check_enough(usable: Mask, clean: Mask) -> None:
@@ -83,9 +110,7 @@ def check_enough(usable: Mask, clean: Mask) -> None:
 
 def resolution(track: Track, cycle: float) -> float:
     """The time over which the values of a track share their error: its window, or a knot's reach of a global model."""
-    known = track.settings.get("lag_seconds"), track.settings.get("cycles_per_knot")
-    window, knots = (float(value) if isinstance(value, (int, float)) else 0.0 for value in known)
-    return max(window, knots * cycle)
+    return max(track.used.lag_seconds or 0.0, (track.used.cycles_per_knot or 0.0) * cycle)
 
 
 def total_deviation(track: Track) -> Array | None:
@@ -100,8 +125,7 @@ def total_deviation(track: Track) -> Array | None:
     """
     if track.standard_deviation is None:
         return None
-    removed = bool(track.settings.get("bias_removed"))
-    left = np.zeros_like(track.omega) if track.bias is None or removed else track.bias
+    left = np.zeros_like(track.omega) if track.bias is None or track.bias_removed else track.bias
     unsure = np.zeros_like(track.omega) if track.bias_deviation is None else track.bias_deviation
     return np.asarray(np.sqrt(track.standard_deviation**2 + left**2 + unsure**2))
 

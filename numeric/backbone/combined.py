@@ -17,32 +17,46 @@ from dataclasses import dataclass
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import Array, freeze
+from ridgeback.numeric.arrays import Array, as_rows, freeze
 from ridgeback.numeric.backbone.curve import MOST_BINS, Backbone
 from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.tracking.choices import Definition
 
 
 @dataclass(frozen=True, repr=False)
 class CombinedBackbone(ShownBackbone):
-    """The common curve: amplitude, omega and a'/a with the standard deviations of the means.
+    """The common curve of several backbones.
 
-    ``omega_between`` and ``damping_between`` are the standard deviations between the runs beyond their own errors, NaN
-    where a single run reaches; ``runs`` counts those that do.
+    Parameters
+    ----------
+    amplitude : array of float, shape (B,)
+        A grid of amplitudes.
+    omega, omega_sd : array of float, shape (B,)
+        Mean frequency, rad per time unit, and the standard deviation of the mean.
+    omega_between : array of float, shape (B,)
+        Standard deviation between the runs beyond their own errors; NaN where a single run reaches.
+    growth_rate, growth_rate_sd, growth_rate_between : array of float, shape (B,)
+        The same for a'/a, per time unit.
+    runs : array of float, shape (B,)
+        How many runs reach each amplitude.
+    labels : tuple of str
+        Their names.
+    definition : Definition
+        Which amplitude.
     """
 
     amplitude: Array
     omega: Array
     omega_sd: Array
     omega_between: Array
-    damping: Array
-    damping_sd: Array
-    damping_between: Array
+    growth_rate: Array
+    growth_rate_sd: Array
+    growth_rate_between: Array
     runs: Array
     labels: tuple[str, ...]
-    definition: str
+    definition: Definition
     units: str = ""
-    """Unit of the signal, where it is known."""
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -59,19 +73,40 @@ class CombinedBackbone(ShownBackbone):
             "frequency_hz": self.omega / TWO_PI,
             "omega_standard_deviation_rad_s": self.omega_sd,
             "omega_between_runs_rad_s": self.omega_between,
-            "damping_per_s": self.damping,
-            "damping_standard_deviation_per_s": self.damping_sd,
-            "damping_between_runs_per_s": self.damping_between,
+            "growth_rate_per_s": self.growth_rate,
+            "growth_rate_standard_deviation_per_s": self.growth_rate_sd,
+            "growth_rate_between_runs_per_s": self.growth_rate_between,
             "runs": self.runs,
         }
-        return [{name: float(column[i]) for name, column in columns.items()} for i in range(self.amplitude.size)]
+        return as_rows(columns)
 
 
 def combine(curves: Sequence[Backbone], labels: Sequence[str]) -> CombinedBackbone:
     """Average the curves of several backbones on a common grid of amplitudes.
 
-    Raises InputError for none, or for amplitudes of different definitions.
+    Parameters
+    ----------
+    curves : sequence of Backbone
+        With amplitudes of one definition and unit.
+    labels : sequence of str
+        Their names.
 
+    Returns
+    -------
+    CombinedBackbone
+        At each amplitude the mean of the curves that reach it, weighted by precision and by the scatter between them.
+
+    Raises
+    ------
+    InputError
+        For none, or for amplitudes of different definitions.
+
+    References
+    ----------
+    DerSimonian and Laird, Controlled Clinical Trials 7 (1986) 177.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.backbone.half_cycles import half_cycles
     >>> t = np.arange(1280) / 32.0
     >>> runs = [a * np.exp(-0.05 * t) * np.cos(8.0 * t) for a in (1.0, 2.0)]
@@ -88,17 +123,17 @@ def combine(curves: Sequence[Backbone], labels: Sequence[str]) -> CombinedBackbo
     points = min(MOST_BINS, max(curve.curve_amplitude.size for curve in curves))
     grid = np.linspace(low, high, points)
     omega, omega_sd = (along(curves, grid, name) for name in ("curve_omega", "curve_omega_sd"))
-    damping, damping_sd = (along(curves, grid, name) for name in ("curve_damping", "curve_damping_sd"))
+    growth_rate, growth_rate_sd = (along(curves, grid, name) for name in ("curve_growth_rate", "curve_growth_rate_sd"))
     covered = np.isfinite(omega).any(axis=0)
-    frequency, decay = random_effects(omega, omega_sd), random_effects(damping, damping_sd)
+    frequency, decay = random_effects(omega, omega_sd), random_effects(growth_rate, growth_rate_sd)
     return CombinedBackbone(
         amplitude=grid[covered],
         omega=frequency[0][covered],
         omega_sd=frequency[1][covered],
         omega_between=frequency[2][covered],
-        damping=decay[0][covered],
-        damping_sd=decay[1][covered],
-        damping_between=decay[2][covered],
+        growth_rate=decay[0][covered],
+        growth_rate_sd=decay[1][covered],
+        growth_rate_between=decay[2][covered],
         runs=np.isfinite(omega).sum(axis=0)[covered].astype(float),
         labels=tuple(labels),
         definition=definitions[0],

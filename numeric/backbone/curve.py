@@ -1,4 +1,4 @@
-"""The curve of a backbone: frequency and damping in bins of amplitude, each mean with its standard deviation."""
+"""The curve of a backbone: frequency and growth rate in bins of amplitude, each mean with its standard deviation."""
 
 from __future__ import annotations
 
@@ -9,23 +9,43 @@ import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
-from ridgeback.numeric.arrays import Array, Mask, freeze
+from ridgeback.numeric.arrays import Array, Mask, as_rows, freeze
 from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.tracking.choices import Definition
 
 MOST_BINS = 24
 
 
 @dataclass(frozen=True, repr=False)
 class Backbone(ShownBackbone):
-    """omega0 and a'/a against the amplitude a; ``definition`` says which amplitude, "fundamental" or "peak".
+    """Frequency and growth rate against amplitude.
 
-    Along time: ``time, amplitude, omega, damping`` (a'/a per time unit, negative in a decay) with one-sigma ``_sd``,
-    that of omega with the track's bias in it.
-    The curve: ``curve_amplitude`` rising, ``curve_omega``, ``curve_damping`` with ``_sd``: means over bins of
-    amplitude, all weighted by the precision of omega, with the deviation that the estimates state, that of the scatter
-    in the bin where it is larger, and the amplitude's own.  ``offset`` is the mean that was removed; amplitudes are in
-    the signal's unit.
+    Parameters
+    ----------
+    time : array of float, shape (M,)
+        Where it was measured.
+    amplitude, amplitude_sd : array of float, shape (M,)
+        In the signal's unit.
+    omega, omega_sd : array of float, shape (M,)
+        Frequency in rad per time unit; the deviation holds the track's bias too.
+    growth_rate, growth_rate_sd : array of float, shape (M,)
+        a'/a per time unit, negative in a decay.
+    curve_amplitude : array of float, shape (B,)
+        The curve: mean amplitude in each bin, rising.
+    curve_omega, curve_omega_sd, curve_growth_rate, curve_growth_rate_sd : array of float, shape (B,)
+        Means over the bins, all weighted by the precision of omega; the deviation that the estimates state, that of the
+        scatter in the bin where it is larger, and the amplitude's own.
+    offset : float
+        The mean that was taken off the samples.
+    definition : Definition
+        Which amplitude.
+    settings : mapping
+        How it was measured, for display.
+    notes : tuple of str
+        What was left out, and why.
+    window_seconds : float, optional
+        Width of the fits whose amplitude this is; None where half cycles were counted.
     """
 
     time: Array
@@ -33,19 +53,20 @@ class Backbone(ShownBackbone):
     amplitude_sd: Array
     omega: Array
     omega_sd: Array
-    damping: Array
-    damping_sd: Array
+    growth_rate: Array
+    growth_rate_sd: Array
     curve_amplitude: Array
     curve_omega: Array
     curve_omega_sd: Array
-    curve_damping: Array
-    curve_damping_sd: Array
+    curve_growth_rate: Array
+    curve_growth_rate_sd: Array
     offset: float
-    definition: str = "fundamental"
+    definition: Definition = Definition.FUNDAMENTAL
     settings: Mapping[str, object] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    window_seconds: float | None = None
+    """Of the fit whose amplitude this is; None where half cycles were counted."""
     units: str = ""
-    """Unit of the signal, where it is known."""
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -55,29 +76,29 @@ class Backbone(ShownBackbone):
         return Curve(self.curve_amplitude, self.curve_omega, self.curve_omega_sd)
 
     def rows(self) -> list[dict[str, float]]:
-        """One row per point of the curve: amplitude, omega, frequency and damping with their standard deviations."""
+        """One row per point of the curve: amplitude, omega, frequency, growth rate, with standard deviations."""
         columns = {
             "amplitude": self.curve_amplitude,
             "omega_rad_s": self.curve_omega,
             "frequency_hz": self.curve_omega / TWO_PI,
             "omega_standard_deviation_rad_s": self.curve_omega_sd,
-            "damping_per_s": self.curve_damping,
-            "damping_standard_deviation_per_s": self.curve_damping_sd,
+            "growth_rate_per_s": self.curve_growth_rate,
+            "growth_rate_standard_deviation_per_s": self.curve_growth_rate_sd,
         }
-        return [{name: float(column[i]) for name, column in columns.items()} for i in range(self.curve_omega.size)]
+        return as_rows(columns)
 
 
 @dataclass(frozen=True)
 class Points:
-    """Amplitude, frequency and damping along time with their standard deviations, before they are binned."""
+    """Amplitude, frequency and growth rate along time with their standard deviations, before they are binned."""
 
     time: Array
     amplitude: Array
     amplitude_sd: Array
     omega: Array
     omega_sd: Array
-    damping: Array
-    damping_sd: Array
+    growth_rate: Array
+    growth_rate_sd: Array
 
     def at(self, keep: Mask) -> Points:
         """Some of the points."""
@@ -86,16 +107,16 @@ class Points:
 
 @dataclass(frozen=True)
 class Crowding:
-    """How many neighbouring points share one window, of the amplitude (and damping) and of the frequency.
+    """How many neighbouring points share one window, of the amplitude (and growth rate) and of the frequency.
 
-    ``omega_ends`` and ``damping_ends`` above 0 say that errors of neighbours cancel in a mean of n, to this number of
+    ``omega_ends`` and ``growth_ends`` above 0 say that errors of neighbours cancel in a mean of n, to this number of
     n independent ones.
     """
 
     amplitude: float
     omega: float
     omega_ends: float = 0.0
-    damping_ends: float = 0.0
+    growth_ends: float = 0.0
 
 
 def assemble(
@@ -105,8 +126,9 @@ def assemble(
     offset: float,
     settings: Mapping[str, object],
     notes: Sequence[str],
-    definition: str = "fundamental",
+    definition: Definition = Definition.FUNDAMENTAL,
     fewest: int = 1,
+    window_seconds: float | None = None,
 ) -> Backbone:
     """Put points into a Backbone and bin them over amplitude, at least ``fewest`` in a bin.
 
@@ -122,20 +144,23 @@ def assemble(
 
     centre, unsure = means(a, points.amplitude_sd, crowding.amplitude)
     omega, omega_sd = means(w, s, crowding.omega, crowding.omega_ends)
-    damping, damping_sd = means(points.damping, points.damping_sd, crowding.amplitude, crowding.damping_ends)
+    growth_rate, growth_rate_sd = means(
+        points.growth_rate, points.growth_rate_sd, crowding.amplitude, crowding.growth_ends
+    )
     omega_sd = np.hypot(omega_sd, unsure * slope_at(centre, a, w, s))
-    damping_sd = np.hypot(damping_sd, unsure * slope_at(centre, a, points.damping, points.damping_sd))
+    growth_rate_sd = np.hypot(growth_rate_sd, unsure * slope_at(centre, a, points.growth_rate, points.growth_rate_sd))
     return Backbone(
         **{item.name: getattr(points, item.name) for item in fields(points)},
         curve_amplitude=centre,
         curve_omega=omega,
         curve_omega_sd=omega_sd,
-        curve_damping=damping,
-        curve_damping_sd=damping_sd,
+        curve_growth_rate=growth_rate,
+        curve_growth_rate_sd=growth_rate_sd,
         offset=offset,
         definition=definition,
         settings=settings,
         notes=tuple(notes),
+        window_seconds=window_seconds,
     )
 
 

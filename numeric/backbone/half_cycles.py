@@ -1,13 +1,13 @@
-"""Frequency, amplitude and damping half cycle by half cycle, from zero crossings and turning points alone.
+"""Frequency, amplitude and growth rate half cycle by half cycle, from zero crossings and turning points alone.
 
 With crossings t_i and the turning points p_i between them, at s_i,
 
     omega_i = pi / (t_(i+1) - t_i),     a_i = |p_i|,     a'/a = ln(|p_(i+1)| / |p_(i-1)|) / (s_(i+1) - s_(i-1)),
 
-the peak finding and fitting of free decays (Jin, Chen, Brake and Song, J. Vib. Acoust. 142 (2020) 051111).  The damping
-compares turning points on the same side, so that an asymmetry cancels; the frequency of a single half cycle does not
-cancel it, and alternates.  A turning point is that of a quartic fitted to the middle of its lobe.  Zero is the local
-mean that harmonic least squares finds: the mean of all samples would be off, by the first cycles of a decay, and
+the peak finding and fitting of free decays (Jin, Chen, Brake and Song, J. Vib. Acoust. 142 (2020) 051111).  The growth
+rate compares turning points on the same side, so that an asymmetry cancels; the frequency of a single half cycle does
+not cancel it, and alternates.  A turning point is that of a quartic fitted to the middle of its lobe.  Zero is the
+local mean that harmonic least squares finds: the mean of all samples would be off, by the first cycles of a decay, and
 crossings and turning points are all the more wrong the smaller the oscillation has become.
 """
 
@@ -22,14 +22,16 @@ from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import Array, Mask, freeze
+from ridgeback.numeric.arrays import Array, Mask, as_rows, freeze
 from ridgeback.numeric.backbone.backbone import CLEAR
 from ridgeback.numeric.backbone.curve import Backbone, Crowding, Points, assemble
 from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
-from ridgeback.numeric.estimators.zero_crossing import crossing_samples, interpolate
+from ridgeback.numeric.estimators.zero_crossing import crossing_samples, dead_zone, interpolate
 from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
+from ridgeback.numeric.signal.decimation import checked
 from ridgeback.numeric.signal.samples import TWO_PI
-from ridgeback.numeric.tracking.request import Request, prepared
+from ridgeback.numeric.tracking.choices import Definition
+from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, Request, prepared
 
 MIDDLE = 0.6
 """Share of a half cycle to which the quartic is fitted: cos lies within 1e-4 of one there."""
@@ -39,9 +41,28 @@ FEWEST = 6
 
 @dataclass(frozen=True, repr=False)
 class HalfCycles(ShownBackbone):
-    """One value per half cycle, at the middle between its crossings; ``side`` is 1 above zero, -1 below.
+    """One value per half cycle, at the middle between its two zero crossings.
 
-    ``amplitude`` has the definition ``peak``; ``damping`` is a'/a, NaN in the first and the last half cycle.
+    Parameters
+    ----------
+    time : array of float, shape (M,)
+        Middle of each half cycle.
+    omega, omega_sd : array of float, shape (M,)
+        Frequency in rad per time unit, and its standard deviation.
+    amplitude, amplitude_sd : array of float, shape (M,)
+        Size of the turning point, in the signal's unit: the definition ``peak``.
+    growth_rate, growth_rate_sd : array of float, shape (M,)
+        a'/a per time unit, negative in a decay; NaN in the first and the last half cycle.
+    side : array of float, shape (M,)
+        1 above zero, -1 below.
+    offset : float
+        The mean that was taken off.
+    noise : float
+        Standard deviation of the noise, in the signal's unit.
+    settings : mapping
+        How they were found, for display.
+    definition : Definition
+        Of the amplitude.
     """
 
     time: Array
@@ -49,15 +70,14 @@ class HalfCycles(ShownBackbone):
     omega_sd: Array
     amplitude: Array
     amplitude_sd: Array
-    damping: Array
-    damping_sd: Array
+    growth_rate: Array
+    growth_rate_sd: Array
     side: Array
     offset: float
     noise: float
     settings: Mapping[str, object] = field(default_factory=dict)
-    definition: str = "peak"
+    definition: Definition = Definition.PEAK
     units: str = ""
-    """Unit of the signal, where it is known."""
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -79,18 +99,18 @@ class HalfCycles(ShownBackbone):
             "omega_standard_deviation_rad_s": self.omega_sd,
             "amplitude": self.amplitude,
             "amplitude_standard_deviation": self.amplitude_sd,
-            "damping_per_s": self.damping,
-            "damping_standard_deviation_per_s": self.damping_sd,
+            "growth_rate_per_s": self.growth_rate,
+            "growth_rate_standard_deviation_per_s": self.growth_rate_sd,
             "side": self.side,
         }
-        return [{name: float(column[i]) for name, column in columns.items()} for i in range(self.time.size)]
+        return as_rows(columns)
 
     def backbone(self, exclude: Mask | None = None) -> Backbone:
-        """Frequency and damping against peak amplitude, binned; ``exclude`` marks half cycles to leave out.
+        """Frequency and growth rate against peak amplitude, binned; ``exclude`` marks half cycles to leave out.
 
         Raises InputError when fewer than four half cycles are clear of the noise.
         """
-        usable = np.isfinite(self.damping) & (self.amplitude > CLEAR * self.amplitude_sd)
+        usable = np.isfinite(self.growth_rate) & (self.amplitude > CLEAR * self.amplitude_sd)
         usable &= np.ones_like(usable) if exclude is None else ~exclude
         if np.count_nonzero(usable) < 4:
             raise InputError(
@@ -103,8 +123,8 @@ class HalfCycles(ShownBackbone):
             self.amplitude_sd,
             self.omega,
             self.omega_sd,
-            self.damping,
-            self.damping_sd,
+            self.growth_rate,
+            self.growth_rate_sd,
         ).at(usable)
         notes = [
             f"The mean of the samples, {self.offset:.4g}, was removed.",
@@ -115,7 +135,7 @@ class HalfCycles(ShownBackbone):
         return assemble(
             points,
             # Neighbours share a crossing, whose error cancels in their mean; so do turning points, two at either end.
-            crowding=Crowding(amplitude=1.0, omega=1.0, omega_ends=1.0, damping_ends=2.0),
+            crowding=Crowding(amplitude=1.0, omega=1.0, omega_ends=1.0, growth_ends=2.0),
             offset=self.offset,
             settings=settings,
             notes=notes,
@@ -127,24 +147,47 @@ class HalfCycles(ShownBackbone):
 def half_cycles(
     x: ArrayLike, rate: float, *, start: float = 0.0, band: tuple[float, float] | None = None
 ) -> HalfCycles:
-    """Frequency, amplitude and damping of each half cycle of a real signal; its mean is removed.
+    """Measure frequency, amplitude and growth rate of each half cycle.
 
-    Standard deviations are those that white noise of the measured level causes.  Raises InputError with fewer than
-    four crossings, and as :func:`ridgeback.numeric.estimators.estimate.estimate` does for signals that cannot be used.
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        Real samples, evenly spaced.  Their local mean is taken off.
+    rate : float
+        Samples per time unit.
+    start : float
+        Time of the first sample.
+    band : (float, float), optional
+        Where the fundamental is looked for, rad per time unit.
 
+    Returns
+    -------
+    HalfCycles
+        With the standard deviations that white noise of the measured level causes.
+
+    Raises
+    ------
+    InputError
+        With fewer than four zero crossings, and as ``estimate`` does for signals that cannot be used.
+
+    References
+    ----------
+    Jin, Chen, Brake and Song, J. Vib. Acoust. 142 (2020) 051111.
+
+    Examples
+    --------
     >>> t = np.arange(1280) / 32.0
     >>> found = half_cycles(np.exp(-0.05 * t) * np.cos(2 * np.pi * 1.25 * t), 32.0)
     >>> inner = slice(1, -1)
-    >>> bool(np.abs(found.damping[inner] + 0.05).max() < 1e-4), bool(np.abs(found.omega / np.pi - 2.5).max() < 2e-3)
+    >>> bool(np.abs(found.growth_rate[inner] + 0.05).max() < 1e-4), bool(np.abs(found.omega / np.pi - 2.5).max() < 2e-3)
     (True, True)
     """
-    request = prepared(
-        x, rate, band=band, start=start, lag_seconds=None, smoothing_seconds=None, lag_window="blackman",
-        harmonics=None, order=6, bias=False,
-    )  # fmt: skip
+    samples = checked(x, rate, start=start, what="half_cycles", at_least=FEWEST_SAMPLES)
+    request = prepared(samples, Options(band=band, bias=False))
+    rate = samples.rate
     level = local_level(request)
-    x, noise = request.x - level.offset, level.noise
-    hysteresis = dead_zone(level)
+    x, noise = request.signal.x - level.offset, level.noise
+    hysteresis = dead_zone(noise, level.smallest)
     crossings = interpolate(x, crossing_samples(x, hysteresis))
     if crossings.at.size < 4:
         raise InputError(f"signal has {crossings.at.size} zero crossings; half cycles need 4 (give a longer record)")
@@ -153,19 +196,19 @@ def half_cycles(
     omega = np.pi / period
     found = np.array([turning_point(x, first, last) for first, last in pairwise(crossings.at.tolist())])
     at, peak, spread = found[:, 0] / rate, found[:, 1], noise * found[:, 2]
-    damping, damping_sd = decrements(at, peak, spread)
+    growth_rate, growth_rate_sd = decrements(at, peak, spread)
     return HalfCycles(
-        time=request.start + 0.5 * (crossings.at[:-1] + crossings.at[1:]) / rate,
+        time=request.signal.start + 0.5 * (crossings.at[:-1] + crossings.at[1:]) / rate,
         omega=omega,
         omega_sd=omega / period * np.hypot(error[:-1], error[1:]),
         amplitude=np.abs(peak),
         amplitude_sd=spread,
-        damping=damping,
-        damping_sd=damping_sd,
+        growth_rate=growth_rate,
+        growth_rate_sd=growth_rate_sd,
         side=np.where(crossings.rising[:-1], 1.0, -1.0),
-        offset=request.offset,
+        offset=request.signal.offset,
         noise=noise,
-        settings=request.settings(noise=noise, hysteresis=hysteresis),
+        settings={"start": samples.start, **request.details(noise=noise, hysteresis=hysteresis)},
     )
 
 
@@ -179,19 +222,14 @@ class LocalLevel:
 
 
 def local_level(request: Request) -> LocalLevel:
-    """Fit half-overlapping windows along the corridor's guide."""
-    half, guide = request.half, request.corridor.guide
-    shape = Shape(choose_multiples(request.x, request.rate, guide, half=half))
-    centres = np.arange(half, request.x.size - half, max(1, half))
-    fit = harmonic_fit(request.x, request.rate, guide, half=half, shape=shape, centres=centres)
+    """Fit half-overlapping windows along the search band's guide."""
+    half, guide = request.half, request.signal.search.guide
+    shape = Shape(choose_multiples(request.signal.x, request.signal.rate, guide, half=half))
+    centres = np.arange(half, request.signal.x.size - half, max(1, half))
+    fit = harmonic_fit(request.signal.x, request.signal.rate, guide, half=half, shape=shape, centres=centres)
     good = fit.settled if fit.settled.any() else np.ones_like(fit.settled)
-    offset = np.interp(np.arange(request.x.size) / request.rate, fit.time[good], fit.offset[good])
+    offset = np.interp(np.arange(request.signal.x.size) / request.signal.rate, fit.time[good], fit.offset[good])
     return LocalLevel(offset, float(np.abs(fit.amplitude[good]).min()), float(np.median(fit.noise[good])))
-
-
-def dead_zone(level: LocalLevel) -> float:
-    """Half width of the zone round zero in which noise crosses more than once."""
-    return min(max(3.0 * level.noise, 0.02 * level.smallest), 0.5 * level.smallest)
 
 
 def turning_point(x: Array, first: float, last: float) -> tuple[float, float, float]:
@@ -220,9 +258,9 @@ def decrements(at: Array, peak: Array, deviation: Array) -> tuple[Array, Array]:
 
     NaN where noise alone leaves no turning point, or two of them at one time.
     """
-    damping, spread = np.full(peak.size, np.nan), np.full(peak.size, np.nan)
+    growth_rate, spread = np.full(peak.size, np.nan), np.full(peak.size, np.nan)
     size = np.where(np.abs(peak) > np.finfo(float).tiny, np.abs(peak), np.nan)
     between = np.where(at[2:] > at[:-2], at[2:] - at[:-2], np.nan)
-    damping[1:-1] = np.log(size[2:] / size[:-2]) / between
+    growth_rate[1:-1] = np.log(size[2:] / size[:-2]) / between
     spread[1:-1] = np.hypot(deviation[2:] / size[2:], deviation[:-2] / size[:-2]) / between
-    return damping, spread
+    return growth_rate, spread

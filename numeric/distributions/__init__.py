@@ -1,4 +1,4 @@
-"""Time-frequency distributions: Wigner and its kin, spectrogram, reassigned and synchrosqueezed, and their ridge.
+"""Time-frequency distributions: the Wigner family, spectrogram, reassigned and synchrosqueezed, and their ridge.
 
 Knows signals; one lag kernel serves the whole Wigner family.
 """

@@ -93,6 +93,6 @@ def ridge(distribution: Distribution, *, band: tuple[float, float] | None = None
     three = np.stack([size[middle + step, column] for step in (-1, 0, 1)])
     inside = (at == middle) & (three[1] > 0.0)
     omega = distribution.omega[at] + distribution.spacing * np.where(inside, vertex(three), 0.0)
-    settings = {"bin_spacing": distribution.spacing, "border": distribution.border}
+    details = {"bin_spacing": distribution.spacing, "border": distribution.border}
     valid = inside & away_from_border(distribution)
-    return Track(distribution.time, omega, valid, f"ridge of {distribution.name}", settings=settings)
+    return Track(distribution.time, omega, valid, f"ridge of {distribution.name}", details=details)

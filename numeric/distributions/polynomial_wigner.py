@@ -91,17 +91,16 @@ def half_lags(lag_seconds: float, rate: float, order: int, size: int) -> int:
 
 
 def polynomial_kernel(
-    x: ArrayLike,
+    z: ComplexArray,
     rate: float,
     *,
     lag_seconds: float,
     order: int = 6,
     lag_window: str = "hann",
     n_fft: int | None = None,
-    remove_mean: bool = True,
     memory: int = MEMORY_BUDGET,
 ) -> PolynomialKernel:
-    """Build the polynomial lag kernel of real (made analytic) or complex ``x`` over ``lag_seconds`` of signal.
+    """Build the polynomial lag kernel of complex samples, which have been checked, over ``lag_seconds`` of signal.
 
     Raises InputError for an order other than 2, 4, 6, a window longer than the signal, or products over ``memory``.
 
@@ -111,7 +110,6 @@ def polynomial_kernel(
     >>> round(float(kernel.omega[spectra[64].argmax()] / (2 * np.pi)), 1)
     3.0
     """
-    z, rate = as_analytic(x, remove_mean=remove_mean), checked_rate(rate)
     M = half_lags(lag_seconds, rate, order, z.size)
     bins = fft.next_fast_len(2 * (2 * M + 1), real=True) if n_fft is None else int(n_fft)
     if bins < 2 * M + 1:
@@ -187,13 +185,12 @@ def polynomial_wigner(
     3.0
     """
     kernel = polynomial_kernel(
-        x,
-        rate,
+        as_analytic(x, remove_mean=remove_mean),
+        checked_rate(rate),
         lag_seconds=lag_seconds,
         order=order,
         lag_window=lag_window,
         n_fft=n_fft,
-        remove_mean=remove_mean,
         memory=memory,
     )
     size, M = kernel.products.shape[0], kernel.products.shape[1] - 1

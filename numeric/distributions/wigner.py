@@ -48,15 +48,54 @@ def wigner_kernel(
     band: tuple[float, float] | None = None,
     single: bool = False,
 ) -> LagKernel:
+    """Build the lag kernel of a member of the family from samples that have not been checked: see :func:`kernel_of`."""
+    return kernel_of(
+        as_analytic(x, remove_mean=remove_mean),
+        checked_rate(rate),
+        lag_seconds=lag_seconds,
+        lag_window=lag_window,
+        smoothing_seconds=smoothing_seconds,
+        smoothing_window=smoothing_window,
+        n_fft=n_fft,
+        band=band,
+        single=single,
+    )
+
+
+def kernel_of(
+    z: ComplexArray,
+    rate: float,
+    *,
+    lag_seconds: float | None = None,
+    lag_window: str = "hann",
+    smoothing_seconds: float | None = None,
+    smoothing_window: str = "hann",
+    n_fft: int | None = None,
+    band: tuple[float, float] | None = None,
+    single: bool = False,
+) -> LagKernel:
     """Build the lag kernel of a member of the family; None leaves the lag window or the smoothing out.
 
-    ``lag_seconds`` is the stretch of signal that a column sees: z from t - lag_seconds/2 to t + lag_seconds/2
-    (rounded to whole samples on each side), so that tau runs over -lag_seconds .. lag_seconds.
-    ``smoothing_seconds`` is the full width of the time smoothing window, whose samples sum to 1.
-    ``band`` (low, high) in rad per time unit limits the signal to that band and decimates its lags.
-    ``single`` works in complex64: half the memory, seven digits.
+    Parameters
+    ----------
+    z : array of complex, shape (N,)
+        The analytic signal, checked.
+    rate : float
+        Samples per time unit, checked.
+    lag_seconds : float, optional
+        The stretch of signal that a column sees: z from t - lag_seconds/2 to t + lag_seconds/2 (rounded to whole
+        samples on each side), so that tau runs over -lag_seconds .. lag_seconds.
+    lag_window, smoothing_window : str
+        Windows over the lags and along time.
+    smoothing_seconds : float, optional
+        The full width of the time smoothing window, whose samples sum to 1.
+    n_fft : int, optional
+        Bins of a plane.
+    band : (float, float), optional
+        In rad per time unit: limits the signal to that band and decimates its lags.
+    single : bool
+        Work in complex64: half the memory, seven digits.
     """
-    z, rate = as_analytic(x, remove_mean=remove_mean), checked_rate(rate)
     limited = BandLimited(z, 0.0, 1) if band is None else band_limited(z, rate, *band)
     step = limited.decimation
     half = (z.size - 1) // 2 if lag_seconds is None else half_width(lag_seconds, rate, longest=z.size)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -14,10 +15,10 @@ from ridgeback.numeric.harmonics.local_fit import Shape
 from ridgeback.numeric.harmonics.noise import Level, peak_deviation
 from ridgeback.numeric.harmonics.spline_fit import SplineModel
 from ridgeback.numeric.signal.windows import window
+from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.curvature_bias import curvature_bias
 from ridgeback.numeric.tracking.request import Request
 
-SCOPES = ("local", "global")
 AS_GOOD = 0.25
 """Expected errors that differ by less than this share count as equal; the first of the candidates is taken then."""
 NOTHING = 1e-9
@@ -34,20 +35,20 @@ class Candidate:
     words: str
 
 
-def for_least_squares(request: Request, scope: str | None) -> Request:
+def for_least_squares(request: Request) -> Request:
     """Settle the scope of harmonic least squares, and the window and the degree where it is local.
 
     Without a scope: local where a window was asked for, else global, else local again where no global model settles.
     """
-    if scope not in (None, *SCOPES):
-        raise InputError(f"scope {scope!r} is unknown; use one of {', '.join(SCOPES)}")
-    if scope == "global" or (scope is None and not request.lag_given):
+    scope = request.options.scope
+    if scope is Scope.GLOBAL or (scope is None and not request.lag_given):
         try:
-            return replace(request, scope="global", known_models=request.models)
+            return with_plan(request, scope=Scope.GLOBAL)
         except InputError as error:
-            if scope == "global":
+            if scope is Scope.GLOBAL:
                 raise
-            return replace(request, why=f"local, over {request.lag_seconds:.4g}: {error}")
+            why = f"local, over {request.plan.lag_seconds:.4g}: {error}"
+            return replace(request, plan=replace(request.plan, why=why))
     return request if request.lag_given else in_best_window(request)
 
 
@@ -57,14 +58,18 @@ def in_best_window(request: Request) -> Request:
         models = request.models
     except InputError:
         return request
-    found = best_window(models.best, request.cycle, models.best.multiples, request.margin)
-    return request if found is None else over(request, found)
+    found = best_window(models.best, request.signal.cycle, models.best.multiples, request.margin)
+    return request if found is None else with_window(request, found)
 
 
-def over(request: Request, found: Window) -> Request:
+def with_window(request: Request, found: Window) -> Request:
     """The request with a window and a degree of the phase in it."""
-    seconds = 2.0 * found.half / request.rate
-    return replace(request, lag_seconds=seconds, phase_degree=found.degree, known_models=request.models)
+    return with_plan(request, lag_seconds=2.0 * found.half / request.signal.rate, phase_degree=found.degree)
+
+
+def with_plan(request: Request, **changes: Any) -> Request:
+    """The request with another plan, and with the models that belong to the plan so far."""
+    return replace(request, plan=replace(request.plan, **changes), known_models=request.models)
 
 
 def for_auto(request: Request) -> tuple[str, Request]:
@@ -72,12 +77,13 @@ def for_auto(request: Request) -> tuple[str, Request]:
     try:
         candidates = list(candidates_of(request))
     except InputError as error:
-        return "pseudo-wigner", replace(request, why=f"pseudo-Wigner, because harmonic least squares cannot: {error}")
+        why = f"pseudo-Wigner, because harmonic least squares cannot: {error}"
+        return "pseudo-wigner", replace(request, plan=replace(request.plan, why=why))
     least = min(candidate.expected for candidate in candidates)
     best = next(candidate for candidate in candidates if candidate.expected <= (1.0 + AS_GOOD) * least + NOTHING)
     listed = ", ".join(f"{c.words} {c.expected:.2g}" for c in candidates)
     why = f"{best.words}: relative rms errors expected on a model of the signal: {listed}"
-    return best.method, replace(best.request, why=why)
+    return best.method, with_plan(best.request, why=why)
 
 
 def candidates_of(request: Request) -> Iterator[Candidate]:
@@ -85,33 +91,33 @@ def candidates_of(request: Request) -> Iterator[Candidate]:
     models = request.models
     known = replace(request, known_models=models)
     if not request.lag_given:
-        whole = replace(known, scope="global")
+        whole = with_plan(known, scope=Scope.GLOBAL)
         yield Candidate(
             "harmonic-least-squares", whole, spline_error(known), "harmonic least squares of the whole record"
         )
-    halves = [request.half] if request.lag_given else list(lengths(models.best, request.cycle))
+    halves = [request.half] if request.lag_given else list(lengths(models.best, request.signal.cycle))
     shape = Shape(models.best.multiples)
     if request.lag_given and 2 * request.half + 1 >= 1.5 * shape.size:
         expected = expected_error(models.best, request.half, shape.phase_degree, request.margin)
         yield Candidate(
-            "harmonic-least-squares", known, expected, f"harmonic least squares over {request.lag_seconds:.3g}"
+            "harmonic-least-squares", known, expected, f"harmonic least squares over {request.plan.lag_seconds:.3g}"
         )
-    elif (local := best_window(models.best, request.cycle, models.best.multiples, request.margin)) is not None:
-        words = f"harmonic least squares over {2 * local.half / request.rate:.3g}"
-        yield Candidate("harmonic-least-squares", over(known, local), local.expected, words)
+    elif (local := best_window(models.best, request.signal.cycle, models.best.multiples, request.margin)) is not None:
+        words = f"harmonic least squares over {2 * local.half / request.signal.rate:.3g}"
+        yield Candidate("harmonic-least-squares", with_window(known, local), local.expected, words)
     if halves:
         half = min(halves, key=lambda half: peak_error(models.best, request, half))
-        peak = replace(known, lag_seconds=2.0 * half / request.rate)
-        words = f"pseudo-Wigner over {peak.lag_seconds:.3g}"
+        peak = with_plan(known, lag_seconds=2.0 * half / request.signal.rate)
+        words = f"pseudo-Wigner over {peak.plan.lag_seconds:.3g}"
         yield Candidate("pseudo-wigner", peak, peak_error(models.best, request, half), words)
 
 
 def peak_error(model: SplineModel, request: Request, half: int) -> float:
     """Relative rms error that a pseudo-Wigner peak should have: its curvature bias and its noise."""
     omega, amplitude = model.tone(1)
-    h = window(request.lag_window, half)[half:]
-    bias = curvature_bias(model.time, omega, np.linspace(0.0, 2.0 * half / request.rate, half + 1), h)
+    h = window(request.options.lag_window, half)[half:]
+    bias = curvature_bias(model.time, omega, np.linspace(0.0, 2.0 * half / request.signal.rate, half + 1), h)
     level = Level(np.maximum(np.abs(amplitude), 1e-3 * np.abs(amplitude).max()), model.noise)
-    noise = peak_deviation(level, request.rate, h)
+    noise = peak_deviation(level, request.signal.rate, h)
     inner = slice(request.margin, omega.size - request.margin)
     return float(np.sqrt(np.mean(((bias**2 + noise**2) / omega**2)[inner])))

@@ -7,24 +7,27 @@ from dataclasses import replace
 import numpy as np
 
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.request import Request
 from ridgeback.numeric.tracking.track import Track
-from ridgeback.numeric.tracking.uncertainty import definition, moving_mean
+from ridgeback.numeric.tracking.uncertainty import moving_mean, room_of_definition
 
 
 def by_harmonic_splines(request: Request) -> Track:
     """The best model's frequency, at all samples: a spline fit is one-sided at the borders by itself."""
     model = request.models.best
-    settings = request.settings(
-        scope="global",
+    used = replace(
+        request.used,
+        scope=Scope.GLOBAL,
         noise=model.noise,
         harmonics=(1, *model.multiples),
         cycles_per_knot=model.cycles,
-        parameters=model.parameters,
         one_sided_borders=True,
     )
-    everywhere = np.ones(request.x.size, dtype=np.bool_)
-    return Track(request.time, model.omega, everywhere, "harmonic-least-squares", model.omega_deviation, None, settings)
+    everywhere = np.ones(request.signal.x.size, dtype=np.bool_)
+    details = request.details(parameters=model.parameters)
+    sigma = model.omega_deviation
+    return Track(request.signal.time, model.omega, everywhere, "harmonic-least-squares", sigma, None, used, details)
 
 
 def surplus(difference: Array, wider: Array, narrower: Array, request: Request) -> Array:
@@ -33,7 +36,7 @@ def surplus(difference: Array, wider: Array, narrower: Array, request: Request) 
     For nested least-squares models var(fine - coarse) = var(fine) - var(coarse).
     """
     noise = np.maximum(wider**2 - narrower**2, 0.0)
-    return moving_mean(difference**2 - noise, max(1, round(request.lag_seconds * request.rate)))
+    return moving_mean(difference**2 - noise, max(1, round(request.plan.lag_seconds * request.signal.rate)))
 
 
 def with_spline_interval(track: Track, request: Request) -> Track:
@@ -42,14 +45,14 @@ def with_spline_interval(track: Track, request: Request) -> Track:
     best, fine, coarse = models.best, models.fine, models.coarse
     correction = np.maximum(fine.omega_deviation**2 - best.omega_deviation**2, 0.0)
     left = surplus(coarse.omega - fine.omega, fine.omega_deviation, coarse.omega_deviation, request)
-    ambiguous, room = definition(fine.omega, fine.time, best)
+    ambiguous, room = room_of_definition(fine.omega, fine.time, best)
     how = {"bias_by": "a model with more knots", "deviation_by": "Fisher information"}
     return replace(
         track,
         bias=best.omega - fine.omega,
         bias_deviation=np.sqrt(correction + models.remainder**2 * left + room**2),
         ambiguous=ambiguous,
-        settings={**track.settings, **how},
+        details={**track.details, **how},
     )
 
 

@@ -25,6 +25,7 @@ from ridgeback.numeric.harmonics.noise import Level, measure_level, peak_deviati
 from ridgeback.numeric.signal.local_line import local_line
 from ridgeback.numeric.signal.samples import TWO_PI, checked_rate, checked_real_samples
 from ridgeback.numeric.signal.windows import half_width, window
+from ridgeback.numeric.tracking.choices import Choices
 from ridgeback.numeric.tracking.request import Request
 from ridgeback.numeric.tracking.track import Track
 from ridgeback.numeric.tracking.uncertainty import Trial, with_interval
@@ -54,7 +55,7 @@ def carrier(fundamental: Track, size: int, rate: float, start: float) -> Carrier
     inside = fundamental.inside()
     if inside.time.size < 8:
         raise InputError(f"track {fundamental.method} has {inside.time.size} valid values; a carrier needs 8 or more")
-    used = fundamental if fundamental.settings.get("one_sided_borders") else inside
+    used = fundamental if fundamental.used.one_sided_borders else inside
     time = start + np.arange(size) / rate
     spline = make_interp_spline(used.time, used.omega, k=3)
     omega = spline(np.clip(time, used.time[0], used.time[-1]))
@@ -106,13 +107,37 @@ def harmonic_track(
     start: float | None = None,
     filter_seconds: float | None = None,
 ) -> Track:
-    """Track harmonic ``multiple`` of the real signal ``x`` (omega of the harmonic itself), phase-locked to a track.
+    """Track a harmonic of a signal, phase-locked to the track of its fundamental.
 
-    ``start`` is the time of the first sample (default: as the track noted it).  ``filter_seconds`` is the full width
-    of the low-pass (default: four cycles of the slowest fundamental); it is the resolution, and half of it is the
-    border zone.  Nor is a value valid where the harmonic is not clear of the noise.
-    Raises InputError when the harmonic lies beyond the Nyquist frequency.
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        Real samples, evenly spaced.
+    rate : float
+        Samples per time unit.
+    fundamental : Track
+        Track of the fundamental with eight valid values or more.
+    multiple : int
+        Which harmonic.
+    start : float, optional
+        Time of the first sample; by default as the track noted it.
+    filter_seconds : float, optional
+        Full width of the low-pass, in time units: four cycles of the slowest fundamental by default.  It is the
+        resolution, and half of it is the border zone.
 
+    Returns
+    -------
+    Track
+        Frequency of the harmonic itself, rad per time unit, at every sample.  A value is not valid where the harmonic
+        is not clear of the noise.  No bias and no interval.
+
+    Raises
+    ------
+    InputError
+        When the harmonic lies beyond the Nyquist frequency, or the fundamental has too few valid values.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.estimators.estimate import estimate
     >>> t = np.arange(640) / 64.0
     >>> phase = 2 * np.pi * (1.0 * t + 0.02 * t**2)
@@ -122,39 +147,49 @@ def harmonic_track(
     True
     """
     samples, rate = checked_real_samples(x, what="harmonic_track"), checked_rate(rate)
+    real = samples - samples.mean()
+    return locked_track(real, rate, fundamental, multiple=multiple, start=start, filter_seconds=filter_seconds)
+
+
+def locked_track(
+    real: Array,
+    rate: float,
+    fundamental: Track,
+    *,
+    multiple: int,
+    start: float | None = None,
+    filter_seconds: float | None = None,
+) -> Track:
+    """:func:`harmonic_track` of checked samples without their mean."""
     first = fundamental.start if start is None else start
-    base = carrier(fundamental, samples.size, rate, first)
+    base = carrier(fundamental, real.size, rate, first)
     checked_multiple(multiple, base.omega, rate)
     seconds = FILTER_CYCLES * TWO_PI / float(base.omega.min()) if filter_seconds is None else filter_seconds
-    half = half_width(seconds, rate, name="filter_seconds", longest=samples.size)
+    half = half_width(seconds, rate, name="filter_seconds", longest=real.size)
     w = window("blackman", half)
-    real = samples - samples.mean()
     omega, amplitude = locked(real, rate, base, w, multiple)
-    index = np.arange(samples.size)
-    valid = base.valid & (index >= half) & (index < samples.size - half)
+    index = np.arange(real.size)
+    valid = base.valid & (index >= half) & (index < real.size - half)
     noise = measure_level(real, rate, base.omega, half=half).noise
     valid &= amplitude > CLEAR * noise * math.sqrt(2.0 * float((w**2).sum())) / float(w.sum())
     deviation = peak_deviation(Level(amplitude, noise), rate, w[half:])
-    settings = {
-        "start": first,
-        "multiple": multiple,
-        "filter_seconds": 2.0 * half / rate,
+    used = Choices(start=first, multiple=multiple, filter_seconds=2.0 * half / rate, noise=noise)
+    details = {
         "fundamental": fundamental.method,
-        "noise": noise,
         "amplitude_median": float(np.median(amplitude[valid])) if valid.any() else float(np.median(amplitude)),
     }
     time = first + index / rate
-    return Track(time, omega, valid, "phase-locked", deviation, None, settings)
+    return Track(time, omega, valid, "phase-locked", deviation, None, used, details)
 
 
-def vouched_harmonic(track: Track, request: Request, fundamental: Track) -> Track:
+def harmonic_with_interval(track: Track, request: Request, fundamental: Track) -> Track:
     """The harmonic's track with its bias and its interval; without, and with the reason, where no model holds it.
 
     The fundamental stays as it is in the trials: what is wrong with it the phase-locked filter finds again.
     """
-    multiple, rate = int(str(track.settings["multiple"])), request.rate
-    base = carrier(fundamental, request.x.size, rate, request.start)
-    w = window("blackman", half_width(float(str(track.settings["filter_seconds"])), rate))
+    multiple, rate, seconds = track.used.multiple, request.signal.rate, track.used.filter_seconds
+    base = carrier(fundamental, request.signal.x.size, rate, request.signal.start)
+    w = window("blackman", half_width(0.0 if seconds is None else seconds, rate))
 
     def run(x: Array) -> Array:
         return locked(x - x.mean(), rate, base, w, multiple)[0]
@@ -164,8 +199,8 @@ def vouched_harmonic(track: Track, request: Request, fundamental: Track) -> Trac
         models.fine.tone(multiple)
         models.coarse.tone(multiple)
     except InputError as error:
-        return replace(track, settings={**track.settings, "no_interval": str(error)})
-    return with_interval(track, request, Trial(track.time - request.start, run, multiple), models)
+        return replace(track, no_interval=str(error))
+    return with_interval(track, request, Trial(track.time - request.signal.start, run, multiple), models)
 
 
 def raw_harmonic_peak(
@@ -184,10 +219,6 @@ def raw_harmonic_peak(
     expected = multiple * base.omega
     ridge = follow(wigner_kernel(samples, rate), (1.0 - reach) * expected, (1.0 + reach) * expected)
     time = first + np.arange(samples.size) / rate
-    settings = {
-        "start": first,
-        "multiple": multiple,
-        "reach": reach,
-        "why": f"cross terms of components m and n with m + n = {2 * multiple} fall on harmonic {multiple}",
-    }
-    return Track(time, ridge.omega, ridge.inside & base.valid, "raw-wigner-peak", None, None, settings)
+    why = f"cross terms of components m and n with m + n = {2 * multiple} fall on harmonic {multiple}"
+    used = Choices(start=first, multiple=multiple, why=why)
+    return Track(time, ridge.omega, ridge.inside & base.valid, "raw-wigner-peak", None, None, used, {"reach": reach})

@@ -11,8 +11,8 @@ from ridgeback.numeric.distributions.polynomial_wigner import (
     polynomial_deviation,
     polynomial_kernel,
 )
-from ridgeback.numeric.estimators.peak import following, peak_estimate
-from ridgeback.numeric.signal.analytic import as_analytic
+from ridgeback.numeric.estimators.peak import following, peak_estimate, windowed
+from ridgeback.numeric.signal.analytic import analytic_of
 from ridgeback.numeric.signal.windows import window
 from ridgeback.numeric.tracking.request import Request
 from ridgeback.numeric.tracking.track import Track
@@ -25,24 +25,27 @@ def by_polynomial_wigner(request: Request) -> Track:
     the model of the whole signal has them.
     """
     model = request.models.fine
-    alone = request.x - model.samples(keep=lambda h: h != 1)
-    M = half_lags(request.lag_seconds, request.rate, request.order, request.x.size)
-    h = window(request.lag_window, M)[M:]
+    alone = request.signal.x - model.samples(keep=lambda h: h != 1)
+    M = half_lags(request.plan.lag_seconds, request.signal.rate, request.options.order, request.signal.x.size)
+    h = window(request.options.lag_window, M)[M:]
 
     def make(z: ComplexArray) -> PolynomialKernel:
         return polynomial_kernel(
-            z, request.rate, lag_seconds=request.lag_seconds, order=request.order, lag_window=request.lag_window
+            z,
+            request.signal.rate,
+            lag_seconds=request.plan.lag_seconds,
+            order=request.options.order,
+            lag_window=request.options.lag_window,
         )
 
     return peak_estimate(
-        replace(request, z=as_analytic(alone)),
+        replace(request, signal=replace(request.signal, z=analytic_of(alone))),
         "polynomial-wigner",
         following(request, make),
         bins=4 * M + 2,
-        border=0.5 * request.lag_seconds,
-        deviation=lambda level: polynomial_deviation(level, request.rate, h, request.order),
-        lag_seconds=2.0 * request.half / request.rate,
-        lag_window=request.lag_window,
-        order=request.order,
+        border=0.5 * request.plan.lag_seconds,
+        deviation=lambda level: polynomial_deviation(level, request.signal.rate, h, request.options.order),
+        used=replace(windowed(request), order=request.options.order),
+        lag_window=request.options.lag_window,
         harmonics_removed=model.multiples,
     )

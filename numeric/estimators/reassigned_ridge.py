@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,11 +12,14 @@ from ridgeback.numeric.distributions.reassigned_spectrogram import blocks, gathe
 from ridgeback.numeric.distributions.reassignment import WindowFamily, first_order, window_family
 from ridgeback.numeric.distributions.ridge import Ridge, follow
 from ridgeback.numeric.distributions.short_time import ShortTimeKernel
-from ridgeback.numeric.estimators.peak import peak_estimate
+from ridgeback.numeric.estimators.peak import peak_estimate, windowed
 from ridgeback.numeric.harmonics.noise import Level, phase_noise
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.request import Request
 from ridgeback.numeric.tracking.track import Track
+
+RidgeOf = Callable[[ComplexArray, WindowFamily, float, Array, Array], Ridge]
+DeviationOf = Callable[[Level], Array]
 
 LOBE = 3.0
 """Half width of a window's main lobe, in bins of its own length: Blackman's, the widest here."""
@@ -73,19 +78,33 @@ def reassigned_ridge(z: ComplexArray, family: WindowFamily, rate: float, low: Ar
     return Ridge(np.asarray(omega, dtype=np.float64), ridge.height, ridge.inside)
 
 
-def by_reassigned_spectrogram(request: Request) -> Track:
-    """Ridge of the reassigned spectrogram of the analytic signal."""
-    family = window_family(request.lag_window, request.half, request.rate)
-    low, high = request.corridor.low, request.corridor.high
+def by_reassignment(
+    request: Request, method: str, ridge_of: RidgeOf, family: WindowFamily, *, windows: int, deviation: DeviationOf
+) -> Track:
+    """The ridge of a spectrum whose energy is moved, which takes the work of so many ``windows``."""
+    signal, search = request.signal, request.signal.search
     return peak_estimate(
         request,
+        method,
+        lambda z: ridge_of(z, family, signal.rate, search.low, search.high),
+        bins=windows * (2 * request.half + 1),
+        border=0.5 * request.plan.lag_seconds,
+        deviation=deviation,
+        used=windowed(request),
+        lag_window=request.options.lag_window,
+    )
+
+
+def by_reassigned_spectrogram(request: Request) -> Track:
+    """Ridge of the reassigned spectrogram of the analytic signal."""
+    family = window_family(request.options.lag_window, request.half, request.signal.rate)
+    return by_reassignment(
+        request,
         "reassigned-spectrogram",
-        lambda z: reassigned_ridge(z, family, request.rate, low, high),
-        bins=6 * request.half + 3,
-        border=0.5 * request.lag_seconds,
+        reassigned_ridge,
+        family,
+        windows=3,
         deviation=lambda level: slope_deviation(level, family),
-        lag_seconds=2.0 * request.half / request.rate,
-        lag_window=request.lag_window,
     )
 
 
@@ -121,15 +140,12 @@ def squeezed_ridge(z: ComplexArray, family: WindowFamily, rate: float, low: Arra
 
 def by_synchrosqueezing(request: Request) -> Track:
     """Ridge of the second-order synchrosqueezed spectrogram of the analytic signal."""
-    family = window_family(request.lag_window, request.half, request.rate)
-    low, high = request.corridor.low, request.corridor.high
-    return peak_estimate(
+    family = window_family(request.options.lag_window, request.half, request.signal.rate)
+    return by_reassignment(
         request,
         "synchrosqueezed",
-        lambda z: squeezed_ridge(z, family, request.rate, low, high),
-        bins=18 * request.half + 9,
-        border=0.5 * request.lag_seconds,
-        deviation=lambda level: squeezed_deviation(level, family, request.rate),
-        lag_seconds=2.0 * request.half / request.rate,
-        lag_window=request.lag_window,
+        squeezed_ridge,
+        family,
+        windows=9,
+        deviation=lambda level: squeezed_deviation(level, family, request.signal.rate),
     )

@@ -1,4 +1,4 @@
-"""The length and the order of a local fit, chosen with the bias in view: where the expected squared error is least.
+"""The length and the order of a local fit, best_model with the bias in view: where the expected squared error is least.
 
 The derivative at the centre of a polynomial fitted to the phase in a window is a Savitzky-Golay filter.  Run over the
 phase of a model of the whole signal it shows the bias of every window length and degree; the sum of its squared
@@ -38,10 +38,10 @@ def expected_error(model: SplineModel, half: int, degree: int, margin: int) -> f
 
     The mean is over all but ``margin`` samples at each end, so that windows of different lengths compare.
 
-    >>> from ridgeback.numeric.harmonics.spline_fit import chosen, harmonic_splines
+    >>> from ridgeback.numeric.harmonics.spline_fit import best_model, harmonic_splines
     >>> t = np.arange(640) / 32.0
     >>> x = np.cos(2 * np.pi * (1.2 * t + 0.02 * t**2)) + 0.1 * np.random.default_rng(1).normal(size=640)
-    >>> model = chosen(harmonic_splines(x, 32.0, np.full(640, 8.0)))
+    >>> model = best_model(harmonic_splines(x, 32.0, np.full(640, 8.0)))
     >>> expected_error(model, 80, 3, 64) < expected_error(model, 40, 3, 64) < expected_error(model, 40, 5, 64)
     True
     """

@@ -61,6 +61,17 @@ def interpolate(x: Array, index: NDArray[np.intp]) -> Crossings:
     return Crossings(usable + at, sign > 0.0, np.abs(slope))
 
 
+def dead_zone(noise: float, smallest: float) -> float:
+    """Half width of the zone around zero in which noise crosses more than once, for a smallest amplitude.
+
+    Three times the noise, but at least a fiftieth and at most a half of that amplitude.
+
+    >>> dead_zone(0.1, 1.0), dead_zone(0.0, 1.0), dead_zone(1.0, 1.0)
+    (0.30000000000000004, 0.02, 0.5)
+    """
+    return min(max(3.0 * noise, 0.02 * smallest), 0.5 * smallest)
+
+
 def full_cycles(x: Array, rate: float, *, hysteresis: float, noise: float) -> tuple[Array, Array, Array]:
     """Return (time, omega, standard deviation) of full cycles, rising to rising and falling to falling.
 

@@ -68,12 +68,38 @@ def local_bound(
     order: Order,
     centres: NDArray[np.intp] | None = None,
 ) -> Array:
-    """Least standard deviation of omega at each of ``centres`` from the window of ``2 half + 1`` samples round it.
+    """Least standard deviation of omega from a window around each centre: the Cramer-Rao bound of a local model.
 
-    ``noise`` is the standard deviation of the white noise.  Near the ends the window stops and omega is read
-    off-centre, as the estimator does.  Raises InputError for a window that is longer than the record, holds fewer
-    samples than parameters, or does not determine them, and for work over the budget.
+    Parameters
+    ----------
+    signal : HarmonicSignal
+        The true signal.
+    noise : float
+        Standard deviation of the white noise, in the signal's unit.
+    half : int
+        Samples on each side of a window.
+    order : Order
+        The model.
+    centres : array of int, optional
+        All samples by default.
 
+    Returns
+    -------
+    array of float, shape (centres,)
+        Rad per time unit.  Near the ends the window stops and omega is read off-centre, as the estimator does.
+
+    Raises
+    ------
+    InputError
+        For a window that is longer than the record, holds fewer samples than parameters, or does not determine them,
+        and for work over the budget.
+
+    References
+    ----------
+    Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993, ch. 3.
+
+    Examples
+    --------
     >>> tone = HarmonicSignal(1.0, 0.7 * np.arange(401.0), np.full(401, 0.7), (1,), np.ones((1, 401)),
     ...     np.zeros((1, 401)), np.zeros(401))
     >>> bound = local_bound(tone, 0.1, half=200, order=Order(phase_degree=1, amplitude_degree=0, drift_degree=0))
@@ -155,11 +181,33 @@ def global_bound(
     multiples: tuple[int, ...] = (),
     degree: int = SPLINE_DEGREE,
 ) -> Array:
-    """Least standard deviation of omega at every sample when phase and amplitudes are splines over the whole record.
+    """Least standard deviation of omega when phase and amplitudes are splines over the whole record.
 
-    Knots are clamped, in time units from the first sample (``uniform_knots``); the offset
-    is a straight line.  Raises InputError for work over the budget and for splines that the samples do not determine.
+    Parameters
+    ----------
+    signal : HarmonicSignal
+        The true signal.
+    noise : float
+        Standard deviation of the white noise, in the signal's unit.
+    phase_knots, amplitude_knots : array of float
+        Clamped knots in time units from the first sample (``uniform_knots``); the offset is a straight line.
+    multiples : tuple of int
+        Harmonics that are fitted beside the fundamental.
+    degree : int
+        Of the splines.
 
+    Returns
+    -------
+    array of float, shape (N,)
+        Rad per time unit, at every sample.
+
+    Raises
+    ------
+    InputError
+        For work over the budget, and for splines that the samples do not determine.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.harmonics.harmonic_signal import uniform_knots
     >>> tone = HarmonicSignal(1.0, 0.7 * np.arange(401.0), np.full(401, 0.7), (1,), np.ones((1, 401)),
     ...     np.zeros((1, 401)), np.zeros(401))

@@ -26,9 +26,24 @@ FEWEST_CYCLES = 3.0
 
 @dataclass(frozen=True)
 class HarmonicSignal:
-    """Harmonics ``multiples`` (1 first) of one phase: ``cosine`` and ``sine`` are ``[harmonic, sample]``.
+    """Harmonics of one phase, with amplitudes that vary slowly.
 
-    ``omega`` is the derivative of ``phase``, rad per time unit; samples stand at ``start + n / rate``.
+    Parameters
+    ----------
+    rate : float
+        Samples per time unit.
+    phase, omega : array of float, shape (N,)
+        Phase of the fundamental in rad, and its derivative in rad per time unit.
+    multiples : tuple of int
+        Which harmonics, 1 first.
+    cosine, sine : array of float, shape (H, N)
+        Their coefficients, ``[harmonic, sample]``.
+    offset : array of float, shape (N,)
+        The slow part beside them.
+    start : float
+        Time of the first sample.
+    parameters : int
+        Spline coefficients that were fitted, 0 for a signal that was not.
     """
 
     rate: float
@@ -95,11 +110,35 @@ def decompose(
     spacing: float | None = None,
     start: float = 0.0,
 ) -> HarmonicSignal:
-    """Fit slowly varying harmonics to the samples ``x``, shape ``(N,)``, along the frequency ``omega``, shape ``(N,)``.
+    """Fit slowly varying harmonics to samples along a frequency.
 
-    ``spacing`` of the knots is in time units, by default KNOT_CYCLES of the lowest frequency.  Raises InputError when
-    ``multiples`` do not begin with 1, or the record is shorter than FEWEST_CYCLES cycles.
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        The samples.
+    omega : array of float, shape (N,)
+        Frequency of the fundamental, rad per time unit.
+    rate : float
+        Samples per time unit.
+    multiples : tuple of int
+        Which harmonics, 1 first.
+    spacing : float, optional
+        Distance of the splines' knots, in time units; KNOT_CYCLES of the lowest frequency by default.
+    start : float
+        Time of the first sample.
 
+    Returns
+    -------
+    HarmonicSignal
+        The fit, with the frequency corrected.
+
+    Raises
+    ------
+    InputError
+        When ``multiples`` do not begin with 1, or the record is shorter than FEWEST_CYCLES cycles.
+
+    Examples
+    --------
     >>> t = np.arange(400) / 20.0
     >>> signal = decompose(np.cos(2 * np.pi * 1.5 * t) + 0.25, np.full(400, 9.4), 20.0)
     >>> bool(np.abs(signal.omega - 3 * np.pi).max() < 1e-3), bool(np.abs(signal.cosine[0] - 1).max() < 1e-4)

@@ -182,11 +182,38 @@ def harmonic_fit(
     start_time: float = 0.0,
     centres: NDArray[np.intp] | None = None,
 ) -> HarmonicFit:
-    """Fit a window of ``2 half + 1`` samples round each of ``centres`` (default: all), from ``guide`` (N frequencies).
+    """Fit phase, amplitudes and offset as polynomials in a window around each centre.
 
-    Raises InputError when the record is shorter than one window, the window holds too few samples for the model, or
-    the work is over the budget.
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        The samples, without their mean.
+    rate : float
+        Samples per time unit.
+    guide : array of float, shape (N,)
+        Frequencies to start from, rad per time unit.
+    half : int
+        Samples on each side of a window.
+    shape : Shape
+        Degrees and harmonics.
+    start_time : float
+        Time of the first sample.
+    centres : array of int, optional
+        All samples by default.
 
+    Returns
+    -------
+    HarmonicFit
+        Frequency, amplitude, growth rate, offset and noise at the centres, with deviations.
+
+    Raises
+    ------
+    InputError
+        When the record is shorter than one window, the window holds too few samples for the model, or the work is over
+        the budget.
+
+    Examples
+    --------
     >>> t = np.arange(320) / 32.0
     >>> x = 2.0 * np.cos(2 * np.pi * (1.0 * t + 0.02 * t**2)) + 0.3
     >>> fit = harmonic_fit(x, 32.0, np.full(320, 2 * np.pi * 1.2), half=48, shape=Shape())
@@ -249,10 +276,26 @@ def read_off(
 
 
 def choose_multiples(x: Array, rate: float, guide: Array, *, half: int) -> tuple[int, ...]:
-    """Which harmonics to fit: each multiple in turn, kept when it lowers the Bayesian information criterion.
+    """Choose the harmonics to fit: each multiple in turn, kept when it lowers the Bayesian information criterion.
 
     The criterion is summed over windows that tile the record.  Multiples stay below nine tenths of the Nyquist
     frequency, and the model below a third of the window's samples.
+
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        The samples, without their mean.
+    rate : float
+        Samples per time unit.
+    guide : array of float, shape (N,)
+        Frequency of the fundamental, rad per time unit.
+    half : int
+        Samples on each side of a window.
+
+    Returns
+    -------
+    tuple of int
+        Multiples beside the fundamental, rising.
     """
     length = 2 * half + 1
     begins = np.unique(np.linspace(0, x.size - length, min(12, max(1, x.size // length))).astype(int))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics.local_fit import choose_multiples
 from ridgeback.numeric.harmonics.spline_basis import DEGREE
-from ridgeback.numeric.harmonics.spline_fit import SplineModel, chosen, harmonic_splines
+from ridgeback.numeric.harmonics.spline_fit import SplineModel, best_model, harmonic_splines
 from ridgeback.numeric.signal.samples import TWO_PI
 
 WINDOW_CYCLES = 4.0
@@ -67,7 +67,7 @@ def signal_models(
         wide = max(half, math.ceil(0.5 * WINDOW_CYCLES * cycle * rate), min(WINDOW_HALF, x.size // 8))
         multiples = choose_multiples(x, rate, guide, half=min((x.size - 1) // 2, wide))
     models = harmonic_splines(x, rate, guide, multiples=multiples)
-    least = chosen(models)
+    least = best_model(models)
     at, last = next(i for i, model in enumerate(models) if model is least), len(models) - 1
     best, fine = models[min(at + STEPS_BEYOND, last)], models[min(at + STEPS_FINER, last)]
     return SignalModels(best, fine, least if fine is not least else models[max(at - 1, 0)])

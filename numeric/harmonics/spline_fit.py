@@ -124,7 +124,7 @@ class SplineModel:
         part = np.where(kept, self.coefficients, 0.0)
         return np.asarray(((self.basis.values @ part) * self.equations.weights).sum(axis=1), dtype=np.float64)
 
-    def answer(self, noise: Array) -> tuple[Array, Array]:
+    def response(self, noise: Array) -> tuple[Array, Array]:
         """What small noise in the samples does to the coefficients, and the part of the noise that the fit takes up."""
         change = self.equations.solve(noise)
         return change, self.equations.model(change)
@@ -203,7 +203,7 @@ def numbers_of_intervals(cycles: float, size: int, families: int) -> list[int]:
     return found
 
 
-def ladder(
+def on_more_knots(
     x: Array, time: Array, phase: Array, amplitude: Array, density: Array, multiples: tuple[int, ...]
 ) -> Iterator[SplineModel]:
     """Models on more and more knots, spread as ``density`` grows, from the first that can follow the phase."""
@@ -222,7 +222,7 @@ def follows(time: Array, breaks: Array, phase: Array, amplitude: Array) -> bool:
     return bool((off**2).mean() < 0.25 * (weight**2).mean())
 
 
-def climbed(models: Iterator[SplineModel]) -> list[SplineModel]:
+def until_no_better(models: Iterator[SplineModel]) -> list[SplineModel]:
     """The models that settled, in order, until the criterion has failed to improve twice."""
     found: list[SplineModel] = []
     for model in models:
@@ -243,7 +243,7 @@ def harmonic_splines(x: Array, rate: float, guide: Array, *, multiples: tuple[in
 
     >>> t = np.arange(640) / 32.0
     >>> x = np.cos(2 * np.pi * (1.2 * t + 0.02 * t**2)) + 0.1 * np.random.default_rng(1).normal(size=640)
-    >>> best = chosen(harmonic_splines(x, 32.0, np.full(640, 2 * np.pi * 1.6)))
+    >>> best = best_model(harmonic_splines(x, 32.0, np.full(640, 2 * np.pi * 1.6)))
     >>> best.settled, round(best.noise, 2)
     (True, 0.1)
     """
@@ -257,8 +257,8 @@ def harmonic_splines(x: Array, rate: float, guide: Array, *, multiples: tuple[in
             f"more than {FINEST_CYCLES:g} cycles and {3 * families * (DEGREE + 1)} samples"
         )
     time = np.arange(x.size) / rate
-    first = chosen(climbed(ladder(x, time, phase, amplitude, phase, multiples)))
-    return climbed(ladder(x, time, first.phase, first.amplitude, adapted(first), multiples))
+    first = best_model(until_no_better(on_more_knots(x, time, phase, amplitude, phase, multiples)))
+    return until_no_better(on_more_knots(x, time, first.phase, first.amplitude, adapted(first), multiples))
 
 
 def adapted(model: SplineModel) -> Array:
@@ -270,6 +270,6 @@ def adapted(model: SplineModel) -> Array:
     return np.asarray(np.interp(model.time, model.breaks, level), dtype=np.float64)
 
 
-def chosen(models: list[SplineModel]) -> SplineModel:
+def best_model(models: list[SplineModel]) -> SplineModel:
     """The model with the lowest criterion."""
     return min(models, key=lambda model: model.criterion)

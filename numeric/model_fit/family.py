@@ -15,10 +15,29 @@ Scalars = Sequence[float]
 
 @dataclass(frozen=True)
 class Family:
-    """``names`` are the free parameters, ``start`` their values to begin with; everything else has its number.
+    """An oscillator with free parameters.
 
-    ``force(u, v, p)`` is f on floats; ``forces`` the same over arrays of u and v; ``partials(u, v, p)`` gives
-    f_u, f_v and then the derivative of f by each parameter; ``dynamics(p)`` binds the parameters.
+    Parameters
+    ----------
+    name : str
+        For messages.
+    names : tuple of str
+        The free parameters; everything else has its number.
+    start : array of float, shape (P,)
+        Their values to begin with.
+    force : callable
+        ``force(u, v, p)`` is f on floats.
+    forces : callable
+        The same over arrays of u and v.
+    partials : callable
+        ``partials(u, v, p)`` gives f_u, f_v and then the derivative of f by each parameter.
+    dynamics : callable
+        ``dynamics(p)`` binds the parameters.
+
+    Raises
+    ------
+    InputError
+        Where the starting values do not go with the names, or are not finite.
     """
 
     name: str

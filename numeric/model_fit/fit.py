@@ -30,10 +30,11 @@ from ridgeback.numeric.model_fit.sensitivity import steps_needed
 from ridgeback.numeric.model_fit.start import matched
 from ridgeback.numeric.model_fit.whiteness import Whiteness, whiteness
 from ridgeback.numeric.motion.dynamics import Dynamics
-from ridgeback.numeric.signal.samples import TWO_PI, checked_rate, checked_real_samples, checked_swing, checked_work
-from ridgeback.numeric.signal.search_band import find_corridor
+from ridgeback.numeric.signal.decimation import Samples, checked
+from ridgeback.numeric.signal.samples import TWO_PI, checked_work
+from ridgeback.numeric.signal.search_band import find_search_band
 from ridgeback.numeric.signal.windows import half_width
-from ridgeback.numeric.tracking.request import LAG_CYCLES
+from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, LAG_CYCLES
 
 SPAN = 4.0
 """Cycles that a fit begins with when the whole record at once ends in a false minimum."""
@@ -54,9 +55,26 @@ MISFIT = 0.01
 
 @dataclass(frozen=True, repr=False)
 class ModelFit(Displayed):
-    """An oscillator fitted to samples; ``theta`` holds u0, v0, d and the parameters, in this order.
+    """An oscillator fitted to samples.
 
-    ``covariance`` belongs to ``theta``; row and column of the offset are 0 where it was not fitted.
+    Parameters
+    ----------
+    family : Family
+        What was fitted.
+    theta : array of float, shape (3 + P,)
+        u0, v0, the offset and the parameters, in this order.
+    covariance : array of float, shape (3 + P, 3 + P)
+        That of ``theta``; row and column of the offset are 0 where it was not fitted.
+    noise : float
+        Standard deviation of the residual, parameters accounted for.
+    residual, fitted : array of float, shape (N,)
+        What the fit leaves of the samples, and the fit.
+    white : Whiteness, optional
+        The test of the residual; None where it is nothing but rounding.
+    steps : int
+        Integration steps per sample.
+    rate, start : float
+        Samples per time unit, and the time of the first.
     """
 
     family: Family
@@ -142,12 +160,36 @@ def model_fit(
     free_offset: bool = True,
     band: tuple[float, float] | None = None,
 ) -> ModelFit:
-    """Fit a family of oscillators to the real samples ``x``, shape ``(N,)``, in the oscillator's own unit.
+    """Fit a family of oscillators to samples: initial state, free parameters, offset and noise level.
 
-    ``free_offset=False`` holds the offset at 0; ``band`` limits the search for the oscillation, as in
-    ``estimate``.  Raises InputError where no oscillation is found, where the samples do not
-    determine the parameters, and where no fit locks on to the signal.
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        Real samples in the oscillator's own unit, evenly spaced.
+    rate : float
+        Samples per time unit.
+    family : Family
+        The oscillator and its free parameters, with values to start from.
+    start : float
+        Time of the first sample.
+    free_offset : bool
+        Whether the offset is fitted; False holds it at 0.
+    band : (float, float), optional
+        Where the oscillation is looked for, rad per time unit.
 
+    Returns
+    -------
+    ModelFit
+        Fitted values with their covariance, the residual, and the test of whether it is white.
+
+    Raises
+    ------
+    InputError
+        Where no oscillation is found, where the samples do not determine the parameters, and where no fit locks on to
+        the signal.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> family = Family("linear", ("k",), np.array([5.0]), lambda u, v, p: p[0] ** 2 * u,
     ...     lambda u, v, p: p[0] ** 2 * u, lambda u, v, p: (p[0] ** 2, 0.0, 2 * p[0] * u), lambda p: linear(p[0]))
@@ -156,8 +198,16 @@ def model_fit(
     >>> round(fit.parameters["k"], 6), round(fit.offset, 6)
     (7.0, 0.5)
     """
-    samples, rate = checked_real_samples(x, what="the fit of an oscillator", at_least=16), checked_rate(rate)
-    signal = smooth_model(checked_swing(samples), rate, band=band)
+    samples = checked(x, rate, start=start, what="the fit of an oscillator", at_least=FEWEST_SAMPLES)
+    return fitted(samples, family, free_offset=free_offset, band=band)
+
+
+def fitted(
+    given: Samples, family: Family, *, free_offset: bool = True, band: tuple[float, float] | None = None
+) -> ModelFit:
+    """:func:`model_fit` of checked samples."""
+    samples, rate = given.x, given.rate
+    signal = smooth_model(samples, rate, band=band)
     floor = free_noise(samples, signal)
     begin, limits = matched(family, signal, free_offset=free_offset)
     problem = Problem(samples, rate, family, free_offset, 4.0 * float(np.ptp(samples)), 1, limits)
@@ -169,7 +219,7 @@ def model_fit(
             f"{family.name}: no fit of {', '.join(family.names)} locks on to the signal ({left / power:.0%} of its "
             "power is left over); start nearer to the parameters, free others, or try another oscillator"
         )
-    return finished(problem, theta, start)
+    return finished(problem, theta, given.start)
 
 
 def best_fit(problem: Problem, begin: Array, goal: Polar, floor: float, power: float) -> tuple[Array, float]:
@@ -229,9 +279,9 @@ def smooth_model(x: Array, rate: float, *, band: tuple[float, float] | None = No
     if not np.ptp(x) > 0.0:
         raise InputError(f"signal is constant at {x[0]:g}; there is no oscillation to fit")
     real = x - x.mean()
-    corridor = find_corridor(real, rate, band=band)
-    lag = min(LAG_CYCLES * TWO_PI / float(np.median(corridor.guide)), 0.999 * (x.size - 1) / rate)
-    omega = np.clip(decompose(x, corridor.guide, rate).omega, corridor.low, corridor.high)
+    search = find_search_band(real, rate, band=band)
+    lag = min(LAG_CYCLES * TWO_PI / float(np.median(search.guide)), 0.999 * (x.size - 1) / rate)
+    omega = np.clip(decompose(x, search.guide, rate).omega, search.low, search.high)
     multiples = choose_multiples(real, rate, omega, half=half_width(lag, rate, longest=x.size))
     return decompose(x, omega, rate, multiples=(1, *multiples))
 

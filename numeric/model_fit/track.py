@@ -23,18 +23,34 @@ from ridgeback.numeric.model_fit.sensitivity import respond
 from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
 from ridgeback.numeric.motion.trajectory import CrossingEvents, Trajectory, TurningEvents, integrate
 from ridgeback.numeric.signal.samples import TWO_PI
-from ridgeback.numeric.tracking.track import Track
+from ridgeback.numeric.tracking.choices import Choices
+from ridgeback.numeric.tracking.track import Misfit, Track
 
 SHIFT = 1e-5
 """Share of a cycle by which events are moved to differentiate omega by their times."""
 
 
 def model_track(fit: ModelFit) -> Track:
-    """Return the frequency of the fitted solution at the samples, its deviation, and the fit in the settings.
+    """Return the frequency of the fitted solution at the samples.
 
-    A fit that is called a misfit claims no bias and no interval.  Raises InputError where the fitted motion leaves the
-    potential well or has too few cycles.
+    Parameters
+    ----------
+    fit : ModelFit
+        The fit.
 
+    Returns
+    -------
+    Track
+        Frequency in rad per time unit with the deviation that the fit's covariance gives it.  A fit that is called a
+        misfit claims no bias and no interval.
+
+    Raises
+    ------
+    InputError
+        Where the fitted motion leaves the potential well or has too few cycles.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> from ridgeback.numeric.model_fit.family import Family
     >>> from ridgeback.numeric.model_fit.fit import model_fit
@@ -65,11 +81,13 @@ def model_track(fit: ModelFit) -> Track:
         standard_deviation=np.sqrt(np.maximum(variance, 0.0)),
         bias=None if fit.misfit else np.zeros(size),
         bias_deviation=None if fit.misfit else continued(time, cycle.uncertainty_at(time)),
-        settings=settings_of(fit),
+        used=Choices(start=fit.start, noise=fit.noise),
+        details=details_of(fit),
+        misfit=misfit_of(fit),
     )
 
 
-def settings_of(fit: ModelFit) -> dict[str, object]:
+def details_of(fit: ModelFit) -> dict[str, object]:
     """What the track reports of its fit."""
     fitted = {str(row["parameter"]): row["value"] for row in fit.rows()}
     deviations = {f"{row['parameter']}_sd": row["standard_deviation"] for row in fit.rows()}
@@ -77,12 +95,15 @@ def settings_of(fit: ModelFit) -> dict[str, object]:
         "oscillator": fit.family.name,
         **fitted,
         **deviations,
-        "noise": fit.noise,
         "residual_white": "unknown" if fit.white is None else not fit.misfit,
         "residual_probability": None if fit.white is None else fit.white.probability,
         "rate": fit.rate,
-        "start": fit.start,
     }
+
+
+def misfit_of(fit: ModelFit) -> Misfit | None:
+    """That the equation did not make the samples, where the residual says so."""
+    return Misfit(fit.family.name, fit.white.probability) if fit.misfit and fit.white is not None else None
 
 
 def omega_slopes(fit: ModelFit, run: Trajectory, time: Array) -> Array:

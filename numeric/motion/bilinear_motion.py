@@ -94,11 +94,33 @@ class Piece:
 
 
 def bilinear_motion(oscillator: Bilinear, initial: tuple[float, float], *, duration: float, rate: float) -> Trajectory:
-    """Return the motion from ``initial = (u, u')`` over ``0..duration``, sampled at ``rate``, with its events.
+    """Return the motion of a bilinear oscillator, with its events.
 
     Every value is a closed form between located switches, so the error is rounding that grows with their number.
-    Raises InputError for a start at rest at 0, values that are not finite, and work beyond the budget.
 
+    Parameters
+    ----------
+    oscillator : Bilinear
+        The oscillator.
+    initial : (float, float)
+        u and u' at t = 0.
+    duration : float
+        How long, in time units.
+    rate : float
+        Samples per time unit.
+
+    Returns
+    -------
+    Trajectory
+        Samples over 0 .. ``duration``, with located zero crossings and turning points.
+
+    Raises
+    ------
+    InputError
+        For a start at rest at 0, values that are not finite, and work beyond the budget.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.bilinear import Bilinear
     >>> run = bilinear_motion(Bilinear(1.0, 2.0), (1.0, 0.0), duration=5.0, rate=1.0)  # a period of 1.5 pi
     >>> [round(float(t), 12) for t in run.turnings.time]

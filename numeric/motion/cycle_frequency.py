@@ -24,6 +24,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -80,6 +81,13 @@ class PhaseReading:
         return bracketed_newton(lambda i: (self.spline(i) - t, slope(i)), low, high, guess=guess, rising=True)
 
 
+class Events(StrEnum):
+    """Whose times are read: crossings, pi apart (symmetric oscillators), or centres between them, 2 pi apart."""
+
+    CROSSINGS = "crossings"
+    CENTRES = "centres"
+
+
 @dataclass(frozen=True)
 class CycleFrequency:
     """Cycle averages in order of time, and the instantaneous frequency between the events.
@@ -91,8 +99,7 @@ class CycleFrequency:
     time: Array
     omega: Array
     uncertainty: Array
-    kind: str
-    """``crossings``, pi apart (symmetric oscillators), or ``centres`` between crossings, 2 pi apart."""
+    kind: Events
     span: tuple[float, float]
     """First and last time at which ``at`` gives a value."""
     readings: tuple[PhaseReading, ...]
@@ -134,9 +141,26 @@ class CycleFrequency:
 def cycle_frequency(trajectory: Trajectory, *, dynamics: Dynamics | None = None) -> CycleFrequency:
     """Return the frequency of a trajectory from its located events.
 
-    With ``dynamics`` the oscillator is asked whether it is symmetric, f(-u, -u') = -f(u, u'); without, the
-    centres between crossings are used, which is right for both.  Raises InputError with fewer than 4 events.
+    Parameters
+    ----------
+    trajectory : Trajectory
+        The motion.
+    dynamics : Dynamics, optional
+        The oscillator, which is asked whether it is symmetric, f(-u, -u') = -f(u, u'); without, the centres between
+        crossings are used, which is right for both.
 
+    Returns
+    -------
+    CycleFrequency
+        Averages over cycles, and the instantaneous frequency between the events, rad per time unit.
+
+    Raises
+    ------
+    InputError
+        With fewer than 4 events.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> from ridgeback.numeric.motion.trajectory import integrate
     >>> oscillator = linear(k=3.0)
@@ -156,12 +180,13 @@ def cycle_frequency(trajectory: Trajectory, *, dynamics: Dynamics | None = None)
     time, omega = _averages(trajectory, symmetric)
     start, stop = min(r.span[0] for r in readings), max(r.span[1] for r in readings)
     span = (max(start, 0.0), min(stop, trajectory.duration))
-    draft = CycleFrequency(time, omega, np.zeros_like(omega), "", span, readings)
+    kind = Events.CROSSINGS if symmetric else Events.CENTRES
+    draft = CycleFrequency(time, omega, np.zeros_like(omega), kind, span, readings)
     return CycleFrequency(
         time=frozen(time),
         omega=frozen(omega),
         uncertainty=frozen(np.abs(draft.at(time) - omega)),
-        kind="crossings" if symmetric else "centres",
+        kind=kind,
         span=span,
         readings=readings,
     )

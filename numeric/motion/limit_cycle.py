@@ -59,11 +59,28 @@ class _Return:
 
 
 def periodic_orbit(dynamics: Dynamics, *, start: float = 1.0) -> PeriodicOrbit:
-    """Find the limit cycle that the motion from rest at u = ``start`` approaches.
+    """Find the limit cycle that a motion from rest approaches.
 
-    Raises InputError when the motion dies out, does not return to a peak, or is periodic at every amplitude
-    (a conservative oscillator: use ``period.exact_frequency``).
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator with numbers.
+    start : float
+        Where it starts from rest, in the unit of u.
 
+    Returns
+    -------
+    PeriodicOrbit
+        Period, turning points and multiplier.
+
+    Raises
+    ------
+    InputError
+        When the motion dies out, does not return to a peak, or is periodic at every amplitude (a conservative
+        oscillator: use ``exact_frequency``).
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import van_der_pol
     >>> orbit = periodic_orbit(van_der_pol(1.0))
     >>> round(orbit.period, 9), round(orbit.peak, 9)
@@ -153,8 +170,29 @@ def _next_peak(run: Trajectory) -> _Return | None:
 
 
 def precise_orbit(dynamics: Dynamics, orbit: PeriodicOrbit, *, digits: int = 30) -> PreciseOrbit:
-    """Refine a limit cycle to about ``digits`` digits: the secant method on the return map, by Taylor series.
+    """Refine a limit cycle to many digits: the secant method on the return map, by Taylor series.
 
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator with numbers; it must give its Taylor coefficients (``jet``).
+    orbit : PeriodicOrbit
+        The cycle to start from.
+    digits : int
+        Digits wanted.
+
+    Returns
+    -------
+    PreciseOrbit
+        Period and peak in multiple precision.
+
+    Raises
+    ------
+    InputError
+        Where the iteration does not settle to so many digits.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import van_der_pol
     >>> oscillator = van_der_pol(1.0)
     >>> with mp.workdps(20):

@@ -47,9 +47,30 @@ class TurningEvents:
 
 @dataclass(frozen=True, repr=False)
 class Trajectory(ShownTrajectory):
-    """A solution sampled at ``rate`` from t = 0, with its events; arrays are 1-D, read-only, of one length.
+    """A solution sampled from t = 0, with its events.
 
-    ``steps`` are the integrator's own times, between which ``at`` is smooth.
+    Parameters
+    ----------
+    name : str
+        The oscillator's.
+    time, u, velocity : array of float, shape (N,)
+        Sample times, and u and u' there.
+    rate, duration : float
+        Samples per time unit, and how long it was asked for.
+    crossings : CrossingEvents
+        Zero crossings of u.
+    turnings : TurningEvents
+        Turning points, u' = 0.
+    method : str
+        The solver.
+    rtol : float
+        Its relative tolerance.
+    evaluations : int
+        How often the force was evaluated.
+    steps : array of float
+        The integrator's own times, between which ``at`` is smooth.
+    interpolant : callable
+        u and u' at any times between.
     """
 
     name: str
@@ -89,12 +110,38 @@ def integrate(
     rtol: float = 1e-12,
     atol: float | None = None,
 ) -> Trajectory:
-    """Solve ``u'' + f(u, u') = 0`` from ``initial = (u, u')`` over ``0..duration``, sampled at ``rate``.
+    """Solve ``u'' + f(u, u') = 0`` from an initial state.
 
-    ``atol`` is the absolute tolerance on u, by default rtol times the size of the initial state; that on u'
-    is k times it.  Raises InputError for a start at rest in an equilibrium, a motion that leaves the
-    potential well (rotation, escape) or grows without bound, and for work beyond the budget.
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator with numbers.
+    initial : (float, float)
+        u and u' at t = 0.
+    duration : float
+        How long, in the oscillator's time unit.
+    rate : float
+        Samples per time unit.
+    method : str
+        One of METHODS; ``"Radau"`` for stiff equations.
+    rtol : float
+        Relative tolerance of the solver.
+    atol : float, optional
+        Absolute tolerance on u, by default ``rtol`` times the size of the initial state; that on u' is k times it.
 
+    Returns
+    -------
+    Trajectory
+        Samples over 0 .. ``duration``, with located zero crossings and turning points.
+
+    Raises
+    ------
+    InputError
+        For a start at rest in an equilibrium, a motion that leaves the potential well (rotation, escape) or grows
+        without bound, and for work beyond the budget.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> run = integrate(linear(), (1.0, 0.0), duration=7.0, rate=10.0)
     >>> bool(abs(run.crossings.time[0] - np.pi / 2) < 1e-12), run.time.size
@@ -194,7 +241,7 @@ class _Integration:
 
     def run(self, state: tuple[float, float], duration: float, rate: float) -> Trajectory:
         with np.errstate(all="ignore"):
-            steps, states, dense = self.march(np.array(state), duration)
+            steps, states, dense = self.solve(np.array(state), duration)
             crossings, turnings = self.events(steps, states, dense)
         time = np.minimum(sample_times(duration, rate), duration)
         u, velocity = dense(time)
@@ -214,7 +261,7 @@ class _Integration:
             interpolant=dense,
         )
 
-    def march(self, state: Array, duration: float) -> tuple[Array, Array, Interpolant]:
+    def solve(self, state: Array, duration: float) -> tuple[Array, Array, Interpolant]:
         """All steps from t = 0 to the end: their times, their states ``[step, 2]`` and the dense output."""
         solver = _SOLVERS[self.method](self.slope, 0.0, state, duration, rtol=self.rtol, atol=self.atol)
         times, states, pieces = [0.0], [state], []

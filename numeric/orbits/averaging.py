@@ -61,11 +61,32 @@ class AveragedDecay:
 def averaged_decay(
     dynamics: Dynamics, initial: tuple[float, float], time: ArrayLike, *, correct_start: bool = True
 ) -> AveragedDecay:
-    """Return J, A and omega0 at ``time`` after the state ``initial = (u, u')`` at t = 0.
+    """Return action, amplitude and frequency along a decay by averaging, without integration of the motion.
 
-    ``correct_start=False`` takes the action of the initial energy as it is.  Raises InputError without a
-    potential, for velocity terms that are not odd in u', outside the well, and for times that are not finite.
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator with numbers, which has a potential.
+    initial : (float, float)
+        u and u' at t = 0.
+    time : array of float, shape (N,)
+        Where they are wanted.
+    correct_start : bool
+        Whether the action at the start is corrected for the phase; False takes that of the initial energy as it is.
 
+    Returns
+    -------
+    AveragedDecay
+        J, A and omega0 at ``time``.
+
+    Raises
+    ------
+    InputError
+        Without a potential, for velocity terms that are not odd in u', outside the well, and for times that are not
+        finite.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> decay = averaged_decay(linear(k=2.0, mu=0.1), (1.0, 0.0), [0.0, 10.0])
     >>> decay.peak.round(12).tolist(), decay.omega.round(12).tolist()

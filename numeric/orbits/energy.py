@@ -62,8 +62,22 @@ def is_linearly_damped(dynamics: Dynamics, size: float) -> bool:
 
 
 def energy_terms(dynamics: Dynamics, trajectory: Trajectory) -> EnergyTerms:
-    """Return the terms (15)-(19) at the samples of a trajectory of this oscillator.
+    """Return the terms (15)-(19) of the energy balance at the samples of a trajectory.
 
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator that the trajectory is of.
+    trajectory : Trajectory
+        The motion.
+
+    Returns
+    -------
+    EnergyTerms
+        Kinetic, potential, dissipated and mechanical energy, and what the balance misses, each of shape (N,).
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> from ridgeback.numeric.motion.trajectory import integrate
     >>> oscillator = linear(k=1.0, mu=0.1)
@@ -104,8 +118,22 @@ def _dissipated(dynamics: Dynamics, trajectory: Trajectory) -> Array:
 
 
 def energy_of(dynamics: Dynamics, u: ArrayLike, velocity: ArrayLike) -> Array:
-    """Return E = u'^2 / 2 + V(u), counted from the bottom of the well (u and velocity 1-D).
+    """Return the mechanical energy E = u'^2 / 2 + V(u), counted from the bottom of the well.
 
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator with numbers, which has a potential.
+    u, velocity : array of float, shape (N,)
+        States.
+
+    Returns
+    -------
+    array of float, shape (N,)
+        Per unit of mass.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> energy_of(linear(k=2.0), [1.0], [2.0])
     array([4.])
@@ -115,10 +143,27 @@ def energy_of(dynamics: Dynamics, u: ArrayLike, velocity: ArrayLike) -> Array:
 
 
 def amplitude_from_energy(dynamics: Dynamics, energy: ArrayLike) -> Amplitude:
-    """Return both turning points of the undamped motion with this energy, eq. (20): V(A) = E, in any potential.
+    """Return both turning points of the undamped motion with an energy, eq. (20): V(A) = E, in any potential.
 
-    ``energy`` counts from the bottom of the well.  Raises InputError at or above the separatrix.
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator with numbers, which has a potential.
+    energy : array of float, shape (M,)
+        Counted from the bottom of the well.
 
+    Returns
+    -------
+    Amplitude
+        ``peak`` above and ``trough`` below zero, each of shape (M,).
+
+    Raises
+    ------
+    InputError
+        At or above the separatrix.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import pendulum
     >>> round(float(amplitude_from_energy(pendulum(), [1.0 - np.cos(2.0)]).peak[0]), 14)
     2.0

@@ -43,10 +43,31 @@ class OrbitTable:
 
 
 def orbit_table(dynamics: Dynamics, peak: ArrayLike, *, harmonics: int = HARMONICS, nodes: int = NODES) -> OrbitTable:
-    """Tabulate the orbits of a smooth potential at positive peak amplitudes inside its well.
+    """Tabulate the orbits of a smooth potential.
 
-    Raises InputError without a potential and where an amplitude does not turn back.
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator with numbers, which has a potential.
+    peak : array of float, shape (M,)
+        Positive peak amplitudes inside the well.
+    harmonics : int
+        The highest multiple.
+    nodes : int
+        Points of the quadrature.
 
+    Returns
+    -------
+    OrbitTable
+        Frequency, action, harmonics and mean powers of u' by peak.
+
+    Raises
+    ------
+    InputError
+        Without a potential, and where an amplitude does not turn back.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import pendulum
     >>> table = orbit_table(pendulum(), [1.0])
     >>> bool(abs(table.omega[0] - pendulum().closed_form(1.0)) < 1e-13)
@@ -81,7 +102,7 @@ def orbit_table(dynamics: Dynamics, peak: ArrayLike, *, harmonics: int = HARMONI
 
 def _troughs(dynamics: Dynamics, A: Array, energy: Array) -> Array:
     """The negative turning points: Newton on sqrt(2 V), which is nearly linear in u."""
-    assert dynamics.potential is not None  # noqa: S101 - checked at the door
+    assert dynamics.potential is not None  # noqa: S101 - checked before
     assert dynamics.restoring is not None  # noqa: S101
     if np.allclose(dynamics.potential(-A), energy, rtol=1e-15, atol=0.0):
         return -A

@@ -7,7 +7,6 @@ the paper's k-th harmonic omega_k, eq. (24), has m = k + 1.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import comb
@@ -18,11 +17,10 @@ from scipy.interpolate import make_interp_spline
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, frozen
-from ridgeback.numeric.motion.dynamics import Dynamics, agm, pendulum_frequency
+from ridgeback.numeric.motion.dynamics import Dynamics, agm
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
 
 MAX_TERMS = 100_000
-_GAUSS_POINTS = 8
 
 
 def series_coefficients(terms: int) -> tuple[Fraction, ...]:
@@ -75,57 +73,53 @@ def series_period(peak: ArrayLike, *, k: float, terms: int) -> Array:
 
 
 def series_frequency(peak: ArrayLike, *, k: float, terms: int) -> Array:
-    """Return omega0 = 2 pi / T(z) by eq. (14) with ``terms`` terms.
+    """Return the pendulum's omega0 = 2 pi / T(z) by eq. (14), cut after some terms.
 
-    >>> bool(abs(series_frequency([1.0], k=1.0, terms=30) - closed_frequency([1.0], k=1.0))[0] < 1e-15)
+    Parameters
+    ----------
+    peak : array of float, shape (M,)
+        Peak amplitudes in rad, below pi.
+    k : float
+        Natural frequency, rad per time unit.
+    terms : int
+        Terms of the series that are kept.
+
+    Returns
+    -------
+    array of float, shape (M,)
+        Rad per time unit.
+
+    Examples
+    --------
+    >>> from ridgeback.numeric.motion.dynamics import pendulum_frequency
+    >>> bool(abs(series_frequency([1.0], k=1.0, terms=30) - pendulum_frequency([1.0]))[0] < 1e-15)
     True
     """
     return frozen(2 * np.pi / series_period(peak, k=k, terms=terms))
 
 
-def closed_frequency(peak: ArrayLike, *, k: float) -> Array:
-    """Return the sum of all terms of (14): omega0 = pi k / (2 K(z)) = k agm(1, cos(A/2)) (Gauss).
-
-    >>> closed_frequency([0.0], k=3.0).tolist()
-    [3.0]
-    """
-    modulus(peak)
-    return frozen(pendulum_frequency(np.atleast_1d(np.asarray(peak, dtype=float)), scale=k))
-
-
-def phase_of(omega: Callable[[Array], Array], time: ArrayLike, *, tolerance: float = 1e-11) -> Array:
-    """Return phi0(t), the integral of omega(t) from ``time[0]``, eq. (23), for increasing times.
-
-    Gauss-Legendre between the times, each interval halved until no phase changes by more than ``tolerance``.
-    Raises InputError when 64 pieces per interval do not suffice.
-
-    >>> phase_of(lambda t: 1.0 + t, [0.0, 1.0, 2.0]).round(12).tolist()
-    [0.0, 1.5, 4.0]
-    """
-    t = np.atleast_1d(np.asarray(time, dtype=float))
-    if not (np.all(np.isfinite(t)) and np.all(np.diff(t) > 0)):
-        raise InputError("times must be finite and increase")
-    phase = _phase_in_pieces(omega, t, 1)
-    for pieces in (2, 4, 8, 16, 32, 64):
-        finer = _phase_in_pieces(omega, t, pieces)
-        if np.abs(finer - phase).max(initial=0.0) <= tolerance:
-            return frozen(finer)
-        phase = finer
-    raise InputError(f"omega(t) varies too fast between the times for a phase to {tolerance:g}; use more times")
-
-
-def _phase_in_pieces(omega: Callable[[Array], Array], time: Array, pieces: int) -> Array:
-    x, w = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
-    edges = np.append((time[:-1, None] + np.diff(time)[:, None] * np.arange(pieces) / pieces).ravel(), time[-1:])
-    width = np.diff(edges)
-    points = edges[:-1, None] + 0.5 * (1 + x) * width[:, None]
-    sums = 0.5 * width * (np.asarray(omega(points.ravel())).reshape(points.shape) @ w)
-    return np.concatenate(([0.0], np.cumsum(sums)))[::pieces]
-
-
 def phase_of_samples(time: ArrayLike, omega: ArrayLike) -> Array:
-    """Return phi0 by eq. (23) from samples of omega0 at increasing times: the integral of their quintic spline.
+    """Return the phase phi0 by eq. (23) from samples of omega0: the integral of their quintic spline.
 
+    Parameters
+    ----------
+    time : array of float, shape (N,)
+        Increasing; six or more.
+    omega : array of float, shape (N,)
+        Rad per time unit.
+
+    Returns
+    -------
+    array of float, shape (N,)
+        Rad, 0 at the first time.
+
+    Raises
+    ------
+    InputError
+        For fewer than six times, or values that are not finite.
+
+    Examples
+    --------
     >>> t = np.linspace(0.0, 1.0, 50)
     >>> bool(abs(phase_of_samples(t, np.cos(t)) - np.sin(t)).max() < 1e-11)
     True
@@ -167,10 +161,22 @@ class SimpleModel:
 
 
 def simple_model(time: ArrayLike, amplitude: ArrayLike, omega: ArrayLike, phase: ArrayLike) -> SimpleModel:
-    """Return the one-component model (22) from A(t), omega0(t) and phi0(t), all at ``time``.
+    """Return the one-component model (22) from A(t), omega0(t) and phi0(t).
 
-    ``phase`` is zero at a peak; add the phase of the initial state when the motion does not start at one.
+    Parameters
+    ----------
+    time, amplitude, omega : array of float, shape (N,)
+        Times, peak amplitude and frequency there.
+    phase : array of float, shape (N,)
+        Zero at a peak; add the phase of the initial state when the motion does not start at one.
 
+    Returns
+    -------
+    SimpleModel
+        The signal and its component.
+
+    Examples
+    --------
     >>> simple_model([0.0, 1.0], [2.0, 1.0], [np.pi, np.pi], [0.0, np.pi]).signal.tolist()
     [2.0, -1.0]
     """
@@ -204,11 +210,29 @@ class MulticomponentModel:
 def multicomponent_model(
     dynamics: Dynamics, time: ArrayLike, peak: ArrayLike, omega: ArrayLike, phase: ArrayLike, *, count: int = 9
 ) -> MulticomponentModel:
-    """Return eq. (7) with multiples 1..count, each amplitude that of the undamped motion at peak A(t).
+    """Return the multicomponent model, eq. (7), each amplitude that of the undamped motion at the peak A(t).
 
-    Frequencies and slopes of the components by (24) and (25).  Raises InputError without a potential, beyond
-    its limit, and for arrays of different lengths.
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator with numbers, which has a potential.
+    time, peak, omega, phase : array of float, shape (N,)
+        Times, and peak amplitude, frequency and phase of the fundamental there.
+    count : int
+        Multiples 1 .. ``count``.
 
+    Returns
+    -------
+    MulticomponentModel
+        The components, with frequencies and slopes by (24) and (25), and their sum.
+
+    Raises
+    ------
+    InputError
+        Without a potential, beyond its limit, and for arrays of different lengths.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> t = np.linspace(0.0, 1.0, 9)
     >>> model = multicomponent_model(linear(), t, np.ones(9), np.ones(9), t, count=3)

@@ -61,11 +61,31 @@ class FrequencyTable:
 
 
 def exact_frequency(dynamics: Dynamics, peak: ArrayLike, *, tolerance: float = 1e-13) -> FrequencyTable:
-    """Return omega0(A) of the undamped oscillator at peak amplitudes 0 <= A < ``peak_limit(dynamics)``.
+    """Return omega0(A) of the undamped oscillator by quadrature.
 
-    Nodes are doubled until omega0 changes by less than ``tolerance`` (relative) or 8192 are reached; the estimate in
-    ``error`` tells which.  Raises InputError without a potential and for amplitudes outside the range.
+    Nodes are doubled until omega0 changes by less than ``tolerance`` or 8192 are reached.
 
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator with numbers, which has a potential.
+    peak : array of float, shape (M,)
+        Peak amplitudes, 0 <= A < ``peak_limit(dynamics)``.
+    tolerance : float
+        Relative.
+
+    Returns
+    -------
+    FrequencyTable
+        Frequencies in rad per time unit, with the ``error`` that was reached.
+
+    Raises
+    ------
+    InputError
+        Without a potential, and for amplitudes outside the range.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import pendulum
     >>> table = exact_frequency(pendulum(), [1.0, 3.0])
     >>> bool(np.all(np.abs(table.omega - pendulum().closed_form(table.peak)) < 1e-15))

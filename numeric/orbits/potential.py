@@ -61,8 +61,20 @@ def peak_limit(dynamics: Dynamics) -> float:
     """Return the peak amplitude at which the oscillation ends: the first other equilibrium on either side.
 
     One on the left is translated to the peak of equal potential; so is the level at which V saturates on the left
-    (Morse's potential, mirrored).  Infinite where the scan up to 1e6 finds no end.
+    (Morse's potential, mirrored).
 
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator with numbers, which has a potential.
+
+    Returns
+    -------
+    float
+        In the unit of u; infinite where the scan up to 1e6 finds no end.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import duffing, helmholtz_duffing
     >>> peak_limit(duffing(eps=-1.0)), peak_limit(helmholtz_duffing(alpha=-1.0, eps=0.0))
     (1.0, 1.0)

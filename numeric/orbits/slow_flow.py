@@ -74,15 +74,8 @@ class Motion:
 
 
 @dataclass(frozen=True)
-class ScaledOrbits:
+class ScaledOrbits(OrbitTable):
     """Orbits refined to closely spaced peaks, all quantities relative to their power of the peak, in units k = 1."""
-
-    peak: Array
-    omega: Array
-    action: Array
-    cosine: Array
-    cubic: Array
-    quartic: Array
 
     @cached_property
     def level(self) -> Array:
@@ -128,8 +121,26 @@ def as_scaled(table: OrbitTable) -> ScaledOrbits:
 
 
 def decay_flow(orbits: ScaledOrbits, *, k: float, length: float, rates: tuple[float, float, float]) -> Flow:
-    """Return the slow flow of orbits scaled by k and a length under ``rates`` (2 mu, beta L k, gamma L^2 k^2).
+    """Return the slow flow of scaled orbits under damping forces 2 mu u' + beta |u'| u' + gamma u'^3.
 
+    Parameters
+    ----------
+    orbits : ScaledOrbits
+        In units k = 1.
+    k : float
+        Natural frequency, rad per time unit.
+    length : float
+        The unit of u.
+    rates : (float, float, float)
+        2 mu, beta L k and gamma L^2 k^2, per time unit.
+
+    Returns
+    -------
+    Flow
+        Growth rate, frequency and amplitude by level.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> from ridgeback.numeric.orbits.orbit_table import orbit_table
     >>> orbits = refine(orbit_table(linear(), np.linspace(0.1, 1.0, 9)), np.geomspace(0.01, 1.0, 99))

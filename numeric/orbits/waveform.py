@@ -92,10 +92,29 @@ def _integral_to(samples: Array, psi: float) -> float:
 
 
 def orbit_harmonics(dynamics: Dynamics, peak: ArrayLike, *, count: int = 9) -> OrbitHarmonics:
-    """Return the Fourier coefficients of u, m = 0..count, of the undamped motion at each peak amplitude.
+    """Return the Fourier coefficients of u of the undamped motion at each peak amplitude.
 
-    Raises InputError without a potential, beyond its limit, and for a count outside 1 to 200.
+    Parameters
+    ----------
+    dynamics : Dynamics
+        The oscillator with numbers, which has a potential.
+    peak : array of float, shape (M,)
+        Peak amplitudes.
+    count : int
+        The highest multiple, 1 to 200.
 
+    Returns
+    -------
+    OrbitHarmonics
+        ``cosine[m, amplitude]``, m = 0 .. ``count``, phases counted from the peak.
+
+    Raises
+    ------
+    InputError
+        Without a potential, beyond its limit, and for a count outside 1 to 200.
+
+    Examples
+    --------
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> np.allclose(orbit_harmonics(linear(), [2.0], count=2).cosine, [[0.0], [2.0], [0.0]], atol=1e-15)
     True

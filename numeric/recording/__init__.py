@@ -1,4 +1,4 @@
-"""A recording made fit to measure: gaps, uneven times, clipping, drift, each found, said and treated.
+"""Recordings made ready to be measured: gaps, uneven times, clipping, drift, each found, reported and treated.
 
 Knows files and signals.
 """

@@ -7,48 +7,59 @@ missing a signal falls into stretches, each uniform and without a gap; nothing i
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
-from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.files import check_regular, read_regular
 from ridgeback.numeric.arrays import Array, Mask, frozen, frozen_mask
 from ridgeback.numeric.files.column_choice import (
-    SECONDS,
-    find_column,
     is_time,
     name_and_units,
     signal_indices,
     time_index,
-    time_unit,
 )
-from ridgeback.numeric.files.columns import FILE_BUDGET, Columns
 from ridgeback.numeric.files.in_memory import Samples, columns_of
-from ridgeback.numeric.files.readers import READERS
+from ridgeback.numeric.recording.file_signals import Signal, Wanted, signals, stamps
 from ridgeback.numeric.recording.shown import ShownRecording
-from ridgeback.numeric.recording.stretches import Rows, stamped
+from ridgeback.numeric.recording.stretches import stamped
 from ridgeback.numeric.recording.treatment import FEWEST_SAMPLES, Treatment, treated
-from ridgeback.numeric.signal.samples import checked_rate, checked_swing
-
-Wanted = str | int | Sequence[str | int] | None
-MOST_SAMPLES = 50_000_000
-"""Samples of one signal: 400 MB each for its times and its values."""
+from ridgeback.numeric.signal.samples import checked_swing
 
 
 @dataclass(frozen=True, repr=False)
 class Recording(ShownRecording):
-    """A uniformly sampled signal; ``time[i] = time[0] + i / rate``, ``values`` as in the file (the mean included).
+    """A uniformly sampled signal, and what was found and done to get it.
 
-    ``units`` is what the column's header states in brackets, "full scale" for integer WAV, else empty.  ``run`` names
-    the run where there are several, ``stretch`` counts the stretches of a signal with gaps from 1 (0: there is none).
-    ``clipped`` is true at clipped samples, ``filled`` at those interpolated across missing ones.  ``notes`` says in
-    words what was found and done, ``facts`` in numbers; ``sha256`` is that of the file.
+    Parameters
+    ----------
+    time : array of float, shape (N,)
+        ``time[i] = time[0] + i / rate``.
+    values : array of float, shape (N,)
+        The samples as in the file, the mean included.
+    rate : float
+        Samples per time unit.
+    name : str
+        The channel.
+    units : str
+        What the column's header states in brackets, ``"full scale"`` for integer WAV, else empty.
+    source : str
+        The file's name.
+    sha256 : str
+        The file's hash.
+    notes : tuple of str
+        What was found and done, in words.
+    run : str
+        The run, where there are several.
+    stretch : int
+        Counts the stretches of a signal with gaps from 1; 0 where there is no gap.
+    clipped, filled : array of bool, shape (N,)
+        Clipped samples, and those interpolated across missing ones.
+    facts : mapping
+        What was found and done, in numbers.
     """
 
     time: Array
@@ -149,18 +160,6 @@ class Recording(ShownRecording):
         return ", ".join(part for part in (*where, self.name, stretch) if part)
 
 
-@dataclass(frozen=True)
-class Signal:
-    """One channel of one run as the file has it: which rows of which column."""
-
-    columns: Columns
-    index: int
-    clock: int | None
-    rows: Rows
-    run: str
-    sha256: str
-
-
 def read_recording(
     path: str | Path,
     *,
@@ -173,15 +172,40 @@ def read_recording(
 ) -> Recording:
     r"""Read one signal from a CSV (.csv, .txt, .tsv, .dat), NPZ, NPY, WAV, MAT or HDF5 (.h5, .hdf5) file.
 
-    ``column`` is a name or a number from 1 (WAV: the channel); it may be left out when there is only one candidate.
-    The time column is found by name (time, t, time_s, ...) or given as ``time_column``; ``rate`` (samples per second)
-    replaces it.  Integer WAV samples are divided by full scale.  Of a signal with gaps the longest stretch without one
-    is taken, and ``notes`` says so; for all stretches, channels or runs and for the further options see
-    :func:`read_recordings`.
+    Of a signal with gaps the longest stretch without one is taken, and ``notes`` says so; for all stretches, channels
+    or runs see :func:`read_recordings`.
 
-    Raises OSError when the file cannot be read, and InputError for everything in it that is not a signal of numbers:
-    the message names the line, the column and the value.
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    column : str or int, optional
+        A name or a number from 1 (WAV: the channel); it may be left out when there is only one candidate.
+    time_column : str or int, optional
+        The times; by default found by name (time, t, time_s, ...).
+    rate : float, optional
+        Samples per second, in place of a time column.
+    resample : float, optional
+        The rate to interpolate uneven times to.
+    fill : float, optional
+        Interpolate missing values where neighbouring samples are at most so many time units apart.
+    detrend : str
+        ``"none"``, ``"linear"`` or ``"slow"``.
 
+    Returns
+    -------
+    Recording
+        Integer WAV samples are divided by full scale.
+
+    Raises
+    ------
+    OSError
+        When the file cannot be read.
+    InputError
+        For everything in it that is not a signal of numbers: the message names the line, the column and the value.
+
+    Examples
+    --------
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
     ...     path = Path(folder) / "run.csv"
@@ -254,14 +278,39 @@ def read_recordings(
 ) -> tuple[Recording, ...]:
     """Read every stretch of every channel of every run: of several files, or by the values of a ``run_column``.
 
-    ``columns`` is a name, a number, several, or "all".  Where values or times are missing (an empty cell, NaN) the
-    signal is cut; ``fill`` interpolates instead where neighbouring samples are at most so many time units apart.
-    Uneven times are refused, unless they are nearly even, or ``resample`` gives the rate to interpolate to (a lower
-    rate than that of even samples filters them first).  ``detrend`` is "none", "linear" or "slow".  A unit of time in
-    the header, such as "t [ms]", is converted to seconds.
+    Parameters
+    ----------
+    paths : sequence of str or Path
+        The files.
+    columns : str, int or sequence of them, optional
+        Names or numbers from 1, or ``"all"``.
+    time_column : str or int, optional
+        The times.  A unit of time in the header, such as "t [ms]", is converted to seconds.
+    rate : float, optional
+        Samples per second, in place of a time column.
+    run_column : str or int, optional
+        The column that tells the runs of one file apart.
+    resample : float, optional
+        The rate to interpolate uneven times to (a lower rate than that of even samples filters them first); without it
+        they are refused, unless they are nearly even.
+    fill : float, optional
+        Where values or times are missing (an empty cell, NaN) the signal is cut; ``fill`` interpolates instead where
+        neighbouring samples are at most so many time units apart.
+    detrend : str
+        ``"none"``, ``"linear"`` or ``"slow"``.
 
-    Raises as :func:`read_recording` does.
+    Returns
+    -------
+    tuple of Recording
+        In the order of the files, their runs, channels and stretches.
 
+    Raises
+    ------
+    OSError, InputError
+        As :func:`read_recording` does.
+
+    Examples
+    --------
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
     ...     path = Path(folder) / "run.csv"
@@ -283,42 +332,6 @@ def read_recordings(
     return tuple(found)
 
 
-def signals(
-    file: Path, wanted: Wanted, time_column: str | int | None, rate: float | None, run: str | int | None, file_run: str
-) -> Iterator[Signal]:
-    """The channels and runs of one file, which is itself the run ``file_run`` when no column tells runs."""
-    with suppress(FileNotFoundError):  # of which the suffix may be wrong, too
-        check_regular(file)
-    reader = READERS.get(file.suffix.lower())
-    if reader is None:
-        raise InputError(f"{file.name}: the suffix {file.suffix!r} is unknown; use one of {', '.join(READERS)}")
-    data = read_regular(file, FILE_BUDGET, "cut the recording into parts")
-    columns, digest = reader(data, file.name), hashlib.sha256(data).hexdigest()
-    columns = replace(columns, values=lru_cache(maxsize=2)(columns.values))  # the times, for channel after channel
-    clock = time_index(columns, time_column, rate)
-    by = None if run is None else find_column(columns, run)
-    for index in signal_indices(columns, wanted, (clock, by)):
-        if columns.sizes[index] > MOST_SAMPLES:
-            raise InputError(
-                f"{file.name}, column {columns.names[index]} has {columns.sizes[index]} samples, over {MOST_SAMPLES}; "
-                "cut the recording into parts"
-            )
-        for name, rows in runs_of(columns, by, columns.sizes[index]):
-            yield Signal(columns, index, clock, rows, ", ".join(text for text in (file_run, name) if text), digest)
-
-
-def runs_of(columns: Columns, by: int | None, size: int) -> list[tuple[str, Rows]]:
-    """Name and rows of each run, in the order in which the runs begin; one without a name when nothing tells them."""
-    if by is None:
-        return [("", np.arange(size))]
-    marks = columns.values(by)
-    if marks.size != size:
-        raise InputError(f"{columns.source}: run column {columns.names[by]} has {marks.size} rows, the signal {size}")
-    values, first = np.unique(marks[np.isfinite(marks)], return_index=True)
-    name = name_and_units(columns.names[by])[0]
-    return [(f"{name} {values[i]:g}", np.flatnonzero(marks == values[i])) for i in np.argsort(first)]
-
-
 def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> list[Recording]:
     """The stretches of one signal, checked and made uniform."""
     columns = signal.columns
@@ -334,7 +347,7 @@ def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> l
             f"{columns.source}, column {header} is constant at {samples.values[0]:g}; there is no oscillation in it"
         )
     pieces, notes = treated(samples, columns, header, treatment)
-    said = tuple(text for text in (columns.note, note, *notes) if text)
+    remarks = tuple(text for text in (columns.note, note, *notes) if text)
     return [
         Recording(
             time=piece.samples.time,
@@ -344,7 +357,7 @@ def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> l
             units=units or columns.units,
             source=columns.source,
             sha256=signal.sha256,
-            notes=(*said, *piece.notes),
+            notes=(*remarks, *piece.notes),
             run=signal.run,
             stretch=number if len(pieces) > 1 else 0,
             clipped=piece.samples.clipped,
@@ -353,28 +366,6 @@ def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> l
         )
         for number, piece in enumerate(pieces, start=1)
     ]
-
-
-def stamps(signal: Signal, size: int, rate: float | None) -> tuple[Array, str]:
-    """The time of each row of a signal, and a note where a given rate took the place of a time column."""
-    columns, clock = signal.columns, signal.clock
-    stated = columns.rate
-    if clock is None or rate is not None:
-        if stated is not None and clock is None and rate not in (None, stated):
-            raise InputError(f"{columns.source} states {stated:g} samples per second, not {rate:g}; leave the rate out")
-        used = checked_rate(rate if rate is not None else stated or 0.0)
-        note = "" if clock is None else f"the time column {columns.names[clock]} was replaced by the given rate"
-        return np.arange(signal.rows.size) / used, note
-    if columns.sizes[clock] != size:
-        raise InputError(
-            f"{columns.source}: {columns.names[signal.index]} has {size} samples, the time column "
-            f"{columns.names[clock]} {columns.sizes[clock]}; name columns of one length"
-        )
-    unit, seconds = time_unit(columns.names[clock])
-    note = "" if seconds == 1.0 else f"times in {unit} were converted to seconds"
-    if unit and unit.lower() not in SECONDS:
-        note = f"the unit of time, {unit}, is not known: what is printed per second is per {unit}"
-    return seconds * columns.values(clock)[signal.rows], note
 
 
 def span(begin: float, end: float) -> str:

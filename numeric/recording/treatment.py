@@ -1,4 +1,4 @@
-"""What is done to samples before they are a signal: gaps, uneven times, clipping, drift, each found, said and treated.
+"""What is done to samples before they are a signal: gaps, uneven times, clipping, drift: found, reported and treated.
 
 The rules, in this order:
 1. A value or time that is missing, or a step over GAP_STEPS usual ones, is a gap and cuts the signal.  ``fill`` lets
@@ -79,7 +79,7 @@ class Treatment:
 
 @dataclass(frozen=True)
 class Piece:
-    """One stretch: its uniform samples, their values after detrending, and what is to be said of it."""
+    """One stretch: its uniform samples, their values after detrending, and the notes about it."""
 
     samples: Uniform
     values: Array
@@ -218,7 +218,7 @@ def refuse_uneven(part: Stamped, whole: Whole, more: str = "") -> None:
 
 
 def piece(samples: Uniform, treatment: Treatment) -> Piece:
-    """A stretch with its trend removed as asked, and what is to be said of it."""
+    """A stretch with its trend removed as asked, and the notes about it."""
     drift = wandering(samples.values, samples.rate)
     values = detrended(samples.values, samples.rate, treatment.detrend)
     facts: dict[str, object] = {

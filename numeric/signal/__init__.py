@@ -1,4 +1,4 @@
-"""Samples at the door: checks, analytic signal, band limits, decimation, windows, where to look for the fundamental.
+"""Samples as they come in: checks, analytic signal, band limits, decimation, windows, the search band.
 
 Knows arrays; knows no method.
 """

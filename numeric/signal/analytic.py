@@ -27,23 +27,47 @@ def positive_frequency_weights(size: int) -> Array:
 
 
 # z = x + i H[x]; by the DFT (Marple, IEEE Trans. Signal Process. 47 (1999) 2600): Z_k = w_k X_k.
+def analytic_of(samples: Array) -> ComplexArray:
+    """The analytic signal of samples that have been checked."""
+    z = fft.ifft(positive_frequency_weights(samples.size) * fft.fft(samples))
+    return np.asarray(samples + 1j * z.imag, dtype=np.complex128)
+
+
 def analytic_signal(x: ArrayLike, *, remove_mean: bool = False) -> ComplexArray:
-    """Return the analytic signal of real samples ``x``, shape ``(N,)``, any N >= 1.
+    """Return the analytic signal of real samples.
 
-    The real part is ``x`` itself (less its mean when ``remove_mean``).  The DFT takes the record as one period:
-    where the end does not continue into the beginning the imaginary part is wrong near both borders, by a share
-    that falls like one over the distance from the border in cycles.  It is exact for a periodic record.
+    The DFT takes the record as one period: where the end does not continue into the beginning the imaginary part is
+    wrong near both borders, by a share that falls like one over the distance from the border in cycles.  It is exact
+    for a periodic record.
 
-    Raises InputError for complex, non-finite or non-one-dimensional input.
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        The samples, any N >= 1.
+    remove_mean : bool
+        Whether their mean is taken off first.
 
+    Returns
+    -------
+    array of complex, shape (N,)
+        Its real part is ``x`` itself (less its mean when ``remove_mean``).
+
+    Raises
+    ------
+    InputError
+        For complex, non-finite or non-one-dimensional input.
+
+    References
+    ----------
+    Marple, IEEE Trans. Signal Process. 47 (1999) 2600.
+
+    Examples
+    --------
     >>> np.round(analytic_signal([1.0, 0.0, -1.0, 0.0]), 12).tolist()
     [(1+0j), 1j, (-1+0j), -1j]
     """
     samples = checked_real_samples(x, what="analytic_signal")
-    if remove_mean:
-        samples = samples - samples.mean()
-    z = fft.ifft(positive_frequency_weights(samples.size) * fft.fft(samples))
-    return np.asarray(samples + 1j * z.imag, dtype=np.complex128)
+    return analytic_of(samples - samples.mean() if remove_mean else samples)
 
 
 def as_analytic(x: ArrayLike, *, remove_mean: bool = True) -> ComplexArray:
@@ -51,4 +75,5 @@ def as_analytic(x: ArrayLike, *, remove_mean: bool = True) -> ComplexArray:
     samples = checked_samples(x)
     if np.iscomplexobj(samples):
         return np.asarray(samples, dtype=np.complex128)
-    return analytic_signal(samples, remove_mean=remove_mean)
+    real = np.asarray(samples, dtype=np.float64)
+    return analytic_of(real - real.mean() if remove_mean else real)

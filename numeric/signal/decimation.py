@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.ndimage import maximum_filter1d
 from scipy.signal import resample_poly
 
 from ridgeback.numeric.arrays import Array, Mask
-from ridgeback.numeric.signal.samples import TWO_PI
-from ridgeback.numeric.signal.search_band import find_corridor
+from ridgeback.numeric.signal.samples import TWO_PI, checked_rate, checked_real_samples, checked_swing
+from ridgeback.numeric.signal.search_band import SearchBand, find_search_band
 
 LONG = 16_384
 """Samples above which a record is decimated."""
 PER_CYCLE = 10.0
-"""Samples per fastest cycle that are kept: room for the corridor and the third harmonic."""
+"""Samples per fastest cycle that are kept: room for the search band and the third harmonic."""
 RINGING = 10
 """Samples at each end, after decimation, that the filter reaches beyond the record for: they are cut off."""
 FLAT = 8.0
@@ -23,45 +25,70 @@ FLAT = 8.0
 
 
 @dataclass(frozen=True)
-class Decimated:
-    """Every ``factor``-th sample of a low-passed signal, the first one at ``start``."""
+class Samples:
+    """Real samples that have been checked, the first one at ``start``.
+
+    ``factor`` is above 1 where they are every ``factor``-th one of a low-passed record.
+    """
 
     x: Array
     rate: float
     start: float
-    factor: int
+    factor: int = 1
+
+    @property
+    def time(self) -> Array:
+        """Time of each sample."""
+        return self.start + np.arange(self.x.size) / self.rate
+
+
+def checked(x: ArrayLike, rate: float, *, start: float, what: str, at_least: int = 1) -> Samples:
+    """The samples as they come in, checked once; ``what`` names the work that wants them.
+
+    >>> checked([1, 2], 0.0, start=0.0, what="estimate")
+    Traceback (most recent call last):
+        ...
+    ridgeback.common.errors.InputError: sampling rate 0.0 is not positive; give samples per time unit, such as 32.0
+    """
+    samples = checked_swing(checked_real_samples(x, what=what, at_least=at_least))
+    return Samples(samples, checked_rate(rate), float(start))
 
 
 def decimated(
-    x: Array, rate: float, *, start: float, band: tuple[float, float] | None, per_cycle: float = PER_CYCLE
-) -> Decimated:
+    samples: Samples, *, band: tuple[float, float] | None, per_cycle: float = PER_CYCLE
+) -> tuple[Samples, SearchBand | None]:
     """Decimate a record of more than LONG samples by a linear-phase filter; a shorter one is handed back as is.
 
+    The search band that tells how many samples are needed comes with them, None where it was not looked for.
+
     >>> t = np.arange(40_000) / 8000.0
-    >>> few = decimated(np.cos(2 * np.pi * 100.0 * t), 8000.0, start=0.0, band=None)
-    >>> expected = np.cos(2 * np.pi * 100.0 * (few.start + np.arange(few.x.size) / few.rate))
-    >>> few.factor, round(few.rate, 2), bool(np.abs(few.x - expected).max() < 1e-4)
+    >>> few, search = decimated(Samples(np.cos(2 * np.pi * 100.0 * t), 8000.0, 0.0), band=None)
+    >>> few.factor, round(few.rate, 2), bool(np.abs(few.x - np.cos(2 * np.pi * 100.0 * few.time)).max() < 1e-4)
     (7, 1142.86, True)
+    >>> search.guide.size == few.x.size
+    True
     """
-    same = Decimated(x, rate, start, 1)
+    x, rate = samples.x, samples.rate
     if x.size <= LONG or not np.ptp(x) > 0.0:
-        return same
-    fastest = float(find_corridor(x - x.mean(), rate, band=band).guide.max())
-    factor = int(TWO_PI * rate / (fastest * per_cycle))
+        return samples, None
+    search = find_search_band(x - x.mean(), rate, band=band)
+    factor = int(TWO_PI * rate / (float(search.guide.max()) * per_cycle))
     if factor < 2:
-        return same
-    return every(x, rate, factor, start=start)
+        return samples, search
+    few = every(samples, factor)
+    places = factor * (RINGING + np.arange(few.x.size, dtype=np.float64))
+    return few, search.at(places, math.pi * few.rate)
 
 
-def every(x: Array, rate: float, factor: int, *, start: float) -> Decimated:
+def every(samples: Samples, factor: int) -> Samples:
     """Every ``factor``-th sample of the low-passed signal, without the RINGING ones at either end.
 
-    >>> few = every(np.ones(400), 100.0, 5, start=2.0)
+    >>> few = every(Samples(np.ones(400), 100.0, 2.0), 5)
     >>> few.x.size, few.rate, few.start, bool(np.allclose(few.x, 1.0))
     (60, 20.0, 2.5, True)
     """
-    few = resample_poly(x, 1, factor, window=("kaiser", FLAT))[RINGING:-RINGING]
-    return Decimated(np.asarray(few, dtype=np.float64), rate / factor, start + RINGING * factor / rate, factor)
+    x = np.asarray(resample_poly(samples.x, 1, factor, window=("kaiser", FLAT))[RINGING:-RINGING], dtype=np.float64)
+    return Samples(x, samples.rate / factor, samples.start + RINGING * factor / samples.rate, factor)
 
 
 def every_flag(flags: Mask, factor: int) -> Mask:

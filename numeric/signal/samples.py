@@ -1,7 +1,7 @@
-"""Samples of a signal, checked once at the door.
+"""Samples of a signal, checked once, where they come in.
 
 A signal is one-dimensional: float64 when real, complex128 when complex, sampled at a constant rate (samples per
-time unit).  Everything behind this door may rely on it.
+time unit).  Everything behind these checks may rely on it.
 """
 
 from __future__ import annotations

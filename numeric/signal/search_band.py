@@ -1,13 +1,13 @@
-"""Where to look for the fundamental: a corridor around the strongest component, found from the data.
+"""Where to look for the fundamental: a search band around the strongest component, found from the data.
 
-The corridor follows the ridge of a spectrogram some six cycles long and keeps a factor away from it on both sides,
+The search band follows the ridge of a spectrogram some six cycles long and keeps a factor away from it on both sides,
 so that the constant, the second and the third harmonic stay outside even when omega0 itself moves by more than that.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,7 @@ from ridgeback.numeric.signal.samples import TWO_PI, Floats, checked_budget
 from ridgeback.numeric.signal.windows import half_width, window
 
 MARGIN = 1.45
-"""Corridor half width as a factor: below 1.5, so that a second harmonic 1.45 times off its corridor stays out."""
+"""Half width of a search band as a factor: below 1.5, so that a second harmonic 1.45 times off it stays out."""
 GUIDE_CYCLES = 6.0
 FEWEST_CYCLES = 3.0
 LONG = 100_000
@@ -33,7 +33,7 @@ THINNED = 1.25
 
 
 @dataclass(frozen=True)
-class Corridor:
+class SearchBand:
     """Band limits per sample (rad per time unit), the guide between them, its strongest line, and how it was found."""
 
     low: Array
@@ -46,6 +46,16 @@ class Corridor:
     def limits(self) -> tuple[float, float]:
         """The lowest low and the highest high."""
         return float(self.low.min()), float(self.high.max())
+
+    def at(self, places: Array, nyquist: float) -> SearchBand:
+        """The same band at some places (in samples, between them too), cut off at a Nyquist frequency.
+
+        >>> SearchBand(np.ones(3), np.full(3, 9.0), np.arange(2.0, 5.0), 3.0, "example").at(np.array([0.5]), 6.0).limits
+        (1.0, 6.0)
+        """
+        n = np.arange(self.guide.size)
+        low, high, guide = (np.interp(places, n, values) for values in (self.low, self.high, self.guide))
+        return replace(self, low=low, high=np.minimum(high, nyquist), guide=guide)
 
 
 def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | None = None) -> float:
@@ -148,20 +158,42 @@ def checked_band(band: tuple[float, float], rate: float) -> tuple[float, float]:
     return low, high
 
 
-def find_corridor(x: Array, rate: float, *, band: tuple[float, float] | None = None) -> Corridor:
-    """Return the corridor of the real signal ``x``: the given band, or a factor MARGIN round the strongest component.
+def find_search_band(x: Array, rate: float, *, band: tuple[float, float] | None = None) -> SearchBand:
+    """Return where to look for the fundamental of a signal.
 
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        Samples, without their mean.
+    rate : float
+        Samples per time unit.
+    band : (float, float), optional
+        Lowest and highest frequency, rad per time unit; by default a factor MARGIN around the strongest line, along the
+        ridge of a spectrogram.
+
+    Returns
+    -------
+    SearchBand
+        Limits and a guide between them, per sample.
+
+    Raises
+    ------
+    InputError
+        For a band outside 0 .. Nyquist, and where there is no oscillation.
+
+    Examples
+    --------
     >>> t = np.arange(640) / 32.0
-    >>> corridor = find_corridor(np.cos(2 * np.pi * 1.5 * t), 32.0)
-    >>> [round(limit / (2 * np.pi), 1) for limit in corridor.limits]
+    >>> search = find_search_band(np.cos(2 * np.pi * 1.5 * t), 32.0)
+    >>> [round(limit / (2 * np.pi), 1) for limit in search.limits]
     [1.0, 2.2]
     """
     if band is not None:
         low, high = checked_band(band, rate)
         centre = strongest_frequency(x, rate, band=(low, high))
         ones = np.ones(x.size)
-        return Corridor(low * ones, high * ones, guide_path(x, rate, centre, low, high), centre, "band given")
+        return SearchBand(low * ones, high * ones, guide_path(x, rate, centre, low, high), centre, "band given")
     centre = strongest_frequency(x, rate)
     guide = guide_path(x, rate, centre, 0.25 * centre, 4.0 * centre)
-    why = f"corridor of a factor {MARGIN} around the strongest component, near {centre / TWO_PI:.4g} cycles per unit"
-    return Corridor(guide / MARGIN, np.minimum(guide * MARGIN, math.pi * rate), guide, centre, why)
+    why = f"a factor {MARGIN} around the strongest component, near {centre / TWO_PI:.4g} cycles per unit"
+    return SearchBand(guide / MARGIN, np.minimum(guide * MARGIN, math.pi * rate), guide, centre, why)

@@ -36,6 +36,6 @@ def curvature_bias(time: Array, omega: Array, lags: Array, lag_window: Array) ->
     return np.asarray(curvature_coefficient(lags, lag_window) * bend, dtype=np.float64)
 
 
-def held(time: Array, values: Array, keep: Mask) -> Array:
+def hold_nearest(time: Array, values: Array, keep: Mask) -> Array:
     """Values where ``keep``, the nearest kept value before and after."""
     return np.asarray(np.interp(time, time[keep], values[keep]), dtype=np.float64)

@@ -4,14 +4,16 @@ A :class:`Track` is of a frequency (the fundamental's or a harmonic's), an :clas
 say the same things of their values.
 
 - ``standard_deviation``: one sigma of what white noise in the samples does to the values, and of nothing else.
-- ``bias``: the estimated systematic error *of the values as given* (true = value - bias).  When it has been removed,
-  ``settings["bias_removed"]`` is True and ``bias`` holds what was taken off.
+- ``bias``: the estimated systematic error *of the values as given* (true = value - bias).  Where ``bias_removed`` is
+  true it has been taken off, and ``bias`` holds what was taken off.
 - ``bias_deviation``: one sigma of what is not known of the bias, be it for noise or for the model that it rests on.
 - ``interval``: the values with the bias off, plus and minus 1.96 times both deviations together.  It is None where a
-  part is missing: a method that cannot vouch for its bias claims no interval.
+  part is missing: a method that does not know its bias claims no interval.
 - ``valid``: False in the border zones, where the estimator does not see a whole window of data.
 - ``ambiguous``: True where the quantity changes so much per cycle that its own definition leaves more room than the
   interval, which then holds that room too.
+- ``used``: the settings that code reads back; ``details``: what more there is to show; ``settings``: both, for display.
+- ``no_interval``: the reason why there is none where one was asked for.
 """
 
 from __future__ import annotations
@@ -24,8 +26,9 @@ from typing import ClassVar, NamedTuple, Self
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import Array, Mask, frozen, frozen_mask
+from ridgeback.numeric.arrays import Array, Mask, as_rows, frozen, frozen_mask
 from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.tracking.choices import Choices, Definition
 from ridgeback.numeric.tracking.shown import Ends, ShownEstimate
 
 NORMAL_95 = 1.959963984540054
@@ -47,8 +50,16 @@ class Interval(NamedTuple):
         return np.asarray((self.low <= truth) & (truth <= self.high), dtype=np.bool_)
 
 
+@dataclass(frozen=True)
+class Misfit:
+    """An oscillator whose equation did not make the signal: the chance that white noise would look as its residual."""
+
+    oscillator: str
+    probability: float
+
+
 class Estimated(ShownEstimate):
-    """What every estimate against time says of itself; the frozen dataclasses below give the fields their order."""
+    """What every estimate against time has; the frozen dataclasses below give the fields their order."""
 
     time: Array
     valid: Mask
@@ -57,7 +68,10 @@ class Estimated(ShownEstimate):
     bias: Array | None
     bias_deviation: Array | None
     ambiguous: Mask | None
-    settings: Mapping[str, object]
+    used: Choices
+    details: Mapping[str, object]
+    bias_removed: bool
+    no_interval: str | None
 
     def __post_init__(self) -> None:
         for name in ("time", self.QUANTITY, "standard_deviation", "bias", "bias_deviation"):
@@ -68,7 +82,7 @@ class Estimated(ShownEstimate):
                 object.__setattr__(self, name, frozen_mask(value))
         for name in self._columns():
             self._check_length(name, np.size(getattr(self, name)))
-        object.__setattr__(self, "settings", MappingProxyType(dict(self.settings)))
+        object.__setattr__(self, "details", MappingProxyType(dict(self.details)))
 
     def _columns(self) -> list[str]:
         """Names of the fields that hold one value per time."""
@@ -86,15 +100,20 @@ class Estimated(ShownEstimate):
     @property
     def start(self) -> float:
         """Time of the first sample of the signal: what the estimator noted, else the first time of the track."""
-        noted = self.settings.get("start")
-        return float(noted) if isinstance(noted, (int, float)) else float(self.time[0])
+        return float(self.time[0]) if self.used.start is None else self.used.start
+
+    @property
+    def settings(self) -> Mapping[str, object]:
+        """What was used and what more there is to say, by name, for display."""
+        reason = {} if self.no_interval is None else {"no_interval": self.no_interval}
+        return MappingProxyType({**self.used.shown(), **self.details, "bias_removed": self.bias_removed, **reason})
 
     @property
     def interval(self) -> Interval | None:
         """The 95 % interval that includes the bias; None for a method that claims none."""
         if self.standard_deviation is None or self.bias is None or self.bias_deviation is None:
             return None
-        centre = self.values if self.settings.get("bias_removed") else self.values - self.bias
+        centre = self.values if self.bias_removed else self.values - self.bias
         reach = NORMAL_95 * np.hypot(self.standard_deviation, self.bias_deviation)
         return Interval(frozen(centre - reach), frozen(centre + reach))
 
@@ -116,8 +135,39 @@ class Estimated(ShownEstimate):
 
 @dataclass(frozen=True, repr=False)
 class Track(Estimated):
-    """One estimate of a frequency against time: ``omega`` in rad per time unit, and what :class:`Estimated` says of it.
+    """A frequency against time, with its uncertainty, its bias, and where it may be trusted.
 
+    Parameters
+    ----------
+    time : array of float, shape (N,)
+        In the signal's time unit.
+    omega : array of float, shape (N,)
+        Rad per time unit.
+    valid : array of bool, shape (N,)
+        False where the estimator does not see a whole window, or hardly knows the value.
+    method : str
+        The estimator's name.
+    standard_deviation : array of float, shape (N,), optional
+        One sigma of what white noise in the samples does to the values, rad per time unit.
+    bias : array of float, shape (N,), optional
+        Systematic error of the values as given; where ``bias_removed``, what was taken off.
+    used : Choices
+        The settings that code reads back.
+    details : mapping
+        What more there is to show.
+    bias_deviation : array of float, shape (N,), optional
+        One sigma of what is not known of the bias.
+    ambiguous : array of bool, shape (N,), optional
+        Where omega(t)'s own definition leaves more room than the interval would.
+    bias_removed : bool
+        Whether the bias is off the values.
+    no_interval : str, optional
+        Why there is no interval, where one was asked for.
+    misfit : Misfit, optional
+        Of a fitted oscillator that is not what made the signal.
+
+    Examples
+    --------
     >>> track = Track(np.arange(3.0), np.full(3, 6.0), np.array([False, True, True]), "example")
     >>> track.inside().time.tolist(), track.interval is None
     ([1.0, 2.0], True)
@@ -132,9 +182,13 @@ class Track(Estimated):
     method: str
     standard_deviation: Array | None = None
     bias: Array | None = None
-    settings: Mapping[str, object] = field(default_factory=dict)
+    used: Choices = field(default_factory=Choices)
+    details: Mapping[str, object] = field(default_factory=dict)
     bias_deviation: Array | None = None
     ambiguous: Mask | None = None
+    bias_removed: bool = False
+    no_interval: str | None = None
+    misfit: Misfit | None = None
 
     @property
     def frequency_hz(self) -> Array:
@@ -149,10 +203,17 @@ class Track(Estimated):
 
 @dataclass(frozen=True, repr=False)
 class AmplitudeTrack(Estimated):
-    """One estimate of an amplitude against time, in the signal's own unit; ``definition`` says which amplitude it is.
+    """An amplitude against time, in the signal's own unit, with its uncertainty and its bias.
 
-    ``fundamental`` is the size of the first harmonic, ``harmonic h`` that of the h-th.
+    Parameters
+    ----------
+    time, amplitude : array of float, shape (N,)
+        Times, and the amplitude there.
 
+    The other fields are those of :class:`Track`.
+
+    Examples
+    --------
     >>> track = AmplitudeTrack(np.arange(2.0), np.ones(2), np.ones(2, bool), "example", np.zeros(2), np.zeros(2))
     >>> track.rows()[0]["amplitude"], track.interval is None
     (1.0, True)
@@ -167,10 +228,17 @@ class AmplitudeTrack(Estimated):
     method: str
     standard_deviation: Array | None = None
     bias: Array | None = None
-    settings: Mapping[str, object] = field(default_factory=dict)
+    used: Choices = field(default_factory=Choices)
+    details: Mapping[str, object] = field(default_factory=dict)
     bias_deviation: Array | None = None
     ambiguous: Mask | None = None
-    definition: str = "fundamental"
+    bias_removed: bool = False
+    no_interval: str | None = None
+
+    @property
+    def definition(self) -> str:
+        """Which amplitude: ``"fundamental"``, or ``"harmonic h"``."""
+        return str(Definition.FUNDAMENTAL) if self.used.multiple == 1 else f"harmonic {self.used.multiple}"
 
     def rows(self) -> list[dict[str, float | bool]]:
         """One row per time: time_s, amplitude, the uncertainty columns it has, valid, ambiguous."""
@@ -178,7 +246,7 @@ class AmplitudeTrack(Estimated):
 
 
 def rows_of(columns: dict[str, Array], track: Estimated, unit: str) -> list[dict[str, float | bool]]:
-    """Rows of ``columns``, then of what the track says of itself; ``unit`` ends the names of the latter."""
+    """Rows of ``columns``, then those of its uncertainty; ``unit`` ends the names of the latter."""
     known = dict(columns)
     for name in ("standard_deviation", "bias", "bias_deviation"):
         value = getattr(track, name)
@@ -187,7 +255,5 @@ def rows_of(columns: dict[str, Array], track: Estimated, unit: str) -> list[dict
     if track.interval is not None:
         known |= {"low_95" + unit: track.interval.low, "high_95" + unit: track.interval.high}
     flags = {"valid": track.valid} if track.ambiguous is None else {"valid": track.valid, "ambiguous": track.ambiguous}
-    return [
-        {**{k: float(v[i]) for k, v in known.items()}, **{k: bool(v[i]) for k, v in flags.items()}}
-        for i in range(track.time.size)
-    ]
+    told = [dict(zip(flags, row, strict=True)) for row in zip(*(flag.tolist() for flag in flags.values()), strict=True)]
+    return [{**row, **flag} for row, flag in zip(as_rows(known), told, strict=True)]

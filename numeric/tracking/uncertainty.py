@@ -1,4 +1,4 @@
-"""What an estimator's values are worth on the signal at hand: its bias, its deviation, and the 95 % interval of both.
+"""The bias and the deviation of an estimator on the signal at hand, and the 95 % interval of both.
 
 The signal is modelled as a whole by harmonic least squares (``harmonics.spline_fit``).  The model's samples are a
 clean signal whose frequency is known, much like the one measured.
@@ -75,13 +75,13 @@ class Trial:
 
 def trial_of(estimator: Callable[[Request], Track], request: Request, track: Track) -> Trial:
     """The trial of one of the estimators, with what ``track`` chose from the data fixed, read at its times."""
-    fixed = request.like(track.settings)
+    fixed = request.like(track.used)
 
     def run(x: Array) -> Array:
         found = estimator(fixed.on(x))
         return np.asarray(np.interp(track.time, found.time, found.omega), dtype=np.float64)
 
-    return Trial(track.time - request.start, run, efficient=track.method == "harmonic-least-squares")
+    return Trial(track.time - request.signal.start, run, efficient=track.used.scope is not None)
 
 
 @dataclass(frozen=True)
@@ -100,11 +100,11 @@ def replicated(trial: Trial, models: SignalModels, clean: Array, count: int) -> 
     plain, corrected, between = (np.empty((count, trial.time.size)) for _ in range(3))
     for i in range(count):
         noise = fine.noise * rng.normal(size=samples.size)
-        change, taken = fine.answer(noise)
+        change, taken = fine.response(noise)
         moved = trial.truth(fine, change) - truth
         plain[i] = 0.0 if trial.efficient else trial.run(samples + noise) - clean
         corrected[i] = moved + trial.run(samples + noise - taken) - clean
-        between[i] = moved - (trial.truth(coarse, coarse.answer(noise)[0]) - truth_coarse)
+        between[i] = moved - (trial.truth(coarse, coarse.response(noise)[0]) - truth_coarse)
     return Replicates(plain, corrected, between)
 
 
@@ -149,34 +149,34 @@ def replicates_needed(windows: float) -> int:
 
 def with_interval(track: Track, request: Request, trial: Trial, models: SignalModels) -> Track:
     """The track with its bias, both deviations, and so its interval."""
-    windows = request.x.size / request.rate / request.lag_seconds
+    windows = request.signal.x.size / request.signal.rate / request.plan.lag_seconds
     count = replicates_needed(windows)
     clean = trial.run(models.fine.samples())
     bias = clean - trial.truth(models.fine)
     copies = replicated(trial, models, clean, count)
     noise, total, jumps = deviations(track, trial, copies, models.fine, windows)
     apart = (trial.bias(models.coarse) - bias) ** 2 - copies.between.var(axis=0)
-    near = max(1, round(request.lag_seconds / float(np.median(np.diff(track.time)))))
+    near = max(1, round(request.plan.lag_seconds / float(np.median(np.diff(track.time)))))
     left = models.remainder**2 * np.maximum(median_filter(apart, near, mode="nearest"), 0.0)
-    ambiguous, room = definition(trial.truth(models.fine), trial.time, models.best)
+    ambiguous, room = room_of_definition(trial.truth(models.fine), trial.time, models.best)
     how = {
-        "noise": models.fine.noise,
         "model_harmonics": (1, *models.fine.multiples),
         "model_cycles_per_knot": models.fine.cycles,
         "bias_by": "running the method on a model of the signal",
         "deviation_by": f"{count} noisy copies of the model",
         "seed": SEED,
     }
-    if jumps > MOST_JUMPS:
-        how["no_interval"] = f"{100 * jumps:.2g} % of the values in noisy copies of the signal are jumps to other peaks"
+    reason = f"{100 * jumps:.2g} % of the values in noisy copies of the signal are jumps to other peaks"
     unknown = np.sqrt(np.maximum(total**2 - noise**2, 0.0) + left + room**2)
     return replace(
         track,
         standard_deviation=noise,
         bias=bias,
         bias_deviation=None if jumps > MOST_JUMPS else unknown,
+        no_interval=reason if jumps > MOST_JUMPS else None,
         ambiguous=ambiguous,
-        settings={**track.settings, **how},
+        used=replace(track.used, noise=models.fine.noise),
+        details={**track.details, **how},
     )
 
 
@@ -207,7 +207,7 @@ def few_sample_factor(freedom: float) -> float:
 
 # Any definition of omega(t) of a decay (by crossings, by turning points, by the averaged action) holds to the square of
 # the relative change per cycle, 2 pi omega' / omega^2.
-def definition(omega: Array, time: Array, model: SplineModel) -> tuple[Mask, Array]:
+def room_of_definition(omega: Array, time: Array, model: SplineModel) -> tuple[Mask, Array]:
     """Where omega(t), at these times, is ambiguous, and there the room that its definitions leave (one sigma)."""
     base = model.tone(1)[0]
     change = np.interp(time, model.time, TWO_PI * np.gradient(base, model.time) / base**2)

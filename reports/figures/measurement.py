@@ -67,7 +67,7 @@ def drawn(found: Survey) -> Canvas:
     signal_panel(panels[0], shown, cut)
     frequency_panel(panels[1], shown)
     curve_panel(panels[2], found, "omega")
-    curve_panel(panels[3], found, "damping")
+    curve_panel(panels[3], found, "growth_rate")
     return canvas
 
 

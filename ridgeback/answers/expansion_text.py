@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     Result = Expansion | SlowFlow
 
-TITLES = {"frequency": "omega0", "damping": "a'/a", "amplitude_series": "amplitude"}
+TITLES = {"frequency": "omega0", "growth_rate": "a'/a", "amplitude_series": "amplitude"}
 _STABILITY = {True: "stable", False: "unstable", None: "of undecided stability"}
 
 
@@ -161,7 +161,7 @@ def complete_powers(flow: SlowFlow) -> str:
     """Which powers of the small parameter enter a limit cycle; nothing where none ever has all its terms."""
     if flow.complete is None:
         return ""
-    if not flow.entire().damping:
+    if not flow.entire().growth_rate:
         return f"\nNo limit cycle is known: no power of {flow.small} has all its terms at order {flow.order}\n"
     last = power({"powers": {flow.small: flow.complete}})
     return (
@@ -189,5 +189,5 @@ def expressions(result: Result) -> tuple[Any, ...]:
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
 
     if isinstance(result, SlowFlow):
-        return result.frequency_expression(), result.damping_expression()
+        return result.frequency_expression(), result.growth_rate_expression()
     return (result.expression(),)

@@ -55,7 +55,7 @@ def flow_to_follow(oscillator: Oscillator, flow: SlowFlow) -> SlowFlow:
     """
     if oscillator.kind != "limit-cycle" or flow.complete is None:
         return flow
-    if not flow.entire().damping:
+    if not flow.entire().growth_rate:
         raise click.UsageError(
             f"--order {flow.order} with weight {flow.weight} holds no power of {flow.small} with all its terms, and "
             f"{flow.system} has an amplitude that does not stay small; raise --order"

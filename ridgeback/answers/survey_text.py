@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from ridgeback.console.output import json_text
 from ridgeback.console.tables import aligned, csv_text, readable
-from ridgeback.options.model import MODEL_FIT
 
 if TYPE_CHECKING:
     from ridgeback.compare.recording.survey import Common, Measurement, Survey
@@ -72,19 +71,19 @@ def one_json(one: Measurement, *, backbone: bool) -> dict[str, Any]:
 
 def misfit(one: Measurement) -> tuple[str, ...]:
     """The sentence that a fitted oscillator is not what made the signal, where its residual says so."""
-    settings = one.found.settings
-    if one.method != MODEL_FIT or settings["residual_white"] is not False:
+    found = None if one.track is None else one.track.misfit
+    if found is None:
         return ()
-    chance = settings["residual_probability"]
     return (
-        f"Misfit: what the {settings['oscillator']} leaves of the signal is no white noise (probability {chance:.1g}), "
-        "so it is not the oscillator that made it; free more parameters or name another.",
+        f"Misfit: what the {found.oscillator} leaves of the signal is no white noise "
+        f"(probability {found.probability:.1g}), so it is not the oscillator that made it; free more parameters or "
+        "name another.",
     )
 
 
 def asides(one: Measurement) -> list[str]:
     """What a table of numbers has no room for: the notes, and why there is no interval."""
-    reason = one.found.settings.get("no_interval")
+    reason = None if one.track is None else one.track.no_interval
     return [*one.notes, *([] if reason is None else [f"No interval: {reason}."])]
 
 

@@ -81,7 +81,7 @@ def derive(
     --------
     >>> derive("pendulum", 4).frequency
     (1, 0, -1/16, 0, 1/3072)
-    >>> derive("damped_pendulum", 2).damping_expression()
+    >>> derive("damped_pendulum", 2).growth_rate_expression()
     -mu
     """
     system = as_oscillator(oscillator, parameters=parameters, about=about)

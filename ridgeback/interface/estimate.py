@@ -10,7 +10,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
 from ridgeback.common.progress import Wanted, shown
 from ridgeback.compare.binding.family import family_of
-from ridgeback.compare.recording.survey import as_tracked, marked
+from ridgeback.compare.recording.survey import as_tracked, marked, samples_behind
 from ridgeback.interface.signals import SignalLike, as_recording
 from ridgeback.numeric.backbone import backbone as along
 from ridgeback.numeric.backbone import half_cycles as cycles
@@ -264,7 +264,7 @@ def half_cycles(
     >>> import numpy as np
     >>> t = np.arange(640) / 32.0
     >>> found = half_cycles(np.exp(-0.05 * t) * np.cos(7.0 * t), 32.0)
-    >>> bool(abs(found.damping[5] + 0.05) < 1e-3)
+    >>> bool(abs(found.growth_rate[5] + 0.05) < 1e-3)
     True
     """
     used = as_recording(x, rate, time=time, column=column)
@@ -316,7 +316,7 @@ def backbone(
     >>> import numpy as np
     >>> t = np.arange(1280) / 32.0
     >>> curve = backbone(2.0 * np.exp(-0.05 * t) * np.cos(2.5 * np.pi * t), 32.0)
-    >>> bool(np.abs(curve.curve_damping + 0.05).max() < 1e-4)
+    >>> bool(np.abs(curve.curve_growth_rate + 0.05).max() < 1e-4)
     True
     """
     name = chosen(method, (*ESTIMATORS, "half-cycles"), "method")
@@ -329,7 +329,7 @@ def backbone(
 
 def measured_along(track: Track, recording: Recording, window_seconds: float | None) -> Backbone:
     """The backbone along a track; samples near clipped ones are left out."""
-    used = as_tracked(recording, track)
+    used = as_tracked(recording, samples_behind(track, recording))
     return along.backbone(
         track,
         used.values,

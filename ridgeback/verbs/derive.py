@@ -60,7 +60,7 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     ridgeback derive damped-pendulum --order 2 --transient 0.5 --until 100
     ridgeback derive damped-pendulum --order 4 --harmonics
 
-    JSON: system, method, amplitude, order, variables; frequency (damping, amplitude_series) as a list of powers and
+    JSON: system, method, amplitude, order, variables; frequency (growth_rate, amplitude_series) as a list of powers and
     coefficient.  Of balls also radius, ball and certain_digits (null: exact).  limits holds radius of convergence,
     uncertainty, range_of_use (null: not known), singularities and the sentence; for a slow flow also which frequency
     they are of.  With --verify certificate.

@@ -32,8 +32,10 @@ if TYPE_CHECKING:
 @click.option(
     "--harmonic", type=click.IntRange(1, 99), default=1, show_default=True, metavar="N", help="Harmonic to track."
 )
-@click.option("--half-cycles", is_flag=True, help="Frequency, amplitude and damping of each half cycle instead.")
-@click.option("--backbone", "backbone_wanted", is_flag=True, help="Frequency and damping against amplitude instead.")
+@click.option("--half-cycles", is_flag=True, help="Frequency, amplitude and growth rate of each half cycle instead.")
+@click.option(
+    "--backbone", "backbone_wanted", is_flag=True, help="Frequency and growth rate against amplitude instead."
+)
 @click.option(
     "--combine",
     type=click.Choice(("runs", "all", "none")),
@@ -62,18 +64,18 @@ def command(
     style: str,
     output: str,
 ) -> None:
-    """Estimate frequency, amplitude and damping of the signals in FILE... (CSV, NPZ, WAV, MAT, HDF5) over time.
+    """Estimate frequency, amplitude and growth rate of the signals in FILE... (CSV, NPZ, WAV, MAT, HDF5) over time.
 
     Rows of time_s, omega_rad_s, frequency_hz, the amplitude of the fundamental and its rate of change a'/a
-    (damping_per_s), each with the standard deviation that noise causes; the bias, where the estimator knows it;
+    (growth_rate_per_s), each with the standard deviation that noise causes; the bias, where the estimator knows it;
     "valid" is false near the borders, where it does not see a whole window.
 
     --backbone gives rows of amplitude (of the first harmonic, in the unit of the samples; the turning point with
-    --half-cycles), omega_rad_s, frequency_hz, omega_standard_deviation_rad_s, damping_per_s (a'/a, negative in a
-    decay) and damping_standard_deviation_per_s instead: means over bins of amplitude, with everything that is known
+    --half-cycles), omega_rad_s, frequency_hz, omega_standard_deviation_rad_s, growth_rate_per_s (a'/a, negative in a
+    decay) and growth_rate_standard_deviation_per_s instead: means over bins of amplitude, with everything that is known
     of their error.  These are the columns in CSV too; with several signals run, channel and stretch come first, and
     combined backbones follow as the run "combined", with runs (how many reach there) and the scatter between them,
-    omega_between_runs_rad_s and damping_between_runs_per_s.  JSON has the rows under "backbone", beside "method",
+    omega_between_runs_rad_s and growth_rate_between_runs_per_s.  JSON has the rows under "backbone", beside "method",
     "settings", "recording" (gaps, clipping, interpolation, drift), "notes", "offset" and "amplitude_definition", and
     without --backbone also "track"; several signals are "signals", and "combined" follows.
 

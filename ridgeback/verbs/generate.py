@@ -41,7 +41,7 @@ def command(*, choice: Choice, code: Code, request: Request, style: str, output:
     ridgeback generate pendulum --order 12 --up-to 2.36 -o pendulum.py
     ridgeback generate pendulum --order 12 --language c --check -o pendulum.c
     ridgeback generate pendulum --order 12 --language rust -o pendulum/
-    ridgeback generate damped-pendulum --order 6          omega0(a, mu) and damping(a, mu)
+    ridgeback generate damped-pendulum --order 6          omega0(a, mu) and growth_rate(a, mu)
     ridgeback generate pendulum --resummed agm --up-to 3.1 --language javascript
     ridgeback generate --equation "u'' + u + c*u**3 = 0"   omega0(A, c)
     """

@@ -46,7 +46,7 @@ def generate(
     real: str = "float64",
     motion: bool = False,
 ) -> str:
-    r"""Source text of an expansion (omega0 and its slope), a slow flow (omega0 and damping) or a resummation (omega0).
+    r"""Source text of an expansion (omega0 and its slope), a slow flow (omega0, growth_rate) or a resummation.
 
     Parameters
     ----------

@@ -156,7 +156,7 @@ def _scaled(part: fmpq, scale: Expr) -> fmpq | Expr:
 
 
 def slow_flow_form(flow: SlowFlow, request: CodeRequest) -> Form:
-    """Build the functions omega0 and damping of a multiple-scales slow flow; every symbol is an argument.
+    """Build the functions omega0 and growth_rate of a multiple-scales slow flow; every symbol is an argument.
 
     Raises InputError when an irrational natural frequency does not scale out.
     """
@@ -177,7 +177,7 @@ def slow_flow_form(flow: SlowFlow, request: CodeRequest) -> Form:
     domain = request.domain("a")
     functions = (
         slow_function("omega0", OMEGA0, arguments, domain, flow, flow.omega, request.real),
-        slow_function("damping", rate, arguments, domain, flow, flow.delta, request.real),
+        slow_function("growth_rate", rate, arguments, domain, flow, flow.delta, request.real),
     )
     facts = (
         *common_facts(flow.method, request.equation),

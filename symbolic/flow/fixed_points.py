@@ -124,7 +124,7 @@ def fixed_points(
     small = tuple(rational(value) for value in flow.values(given))
     with ctx.workprec(BITS):
         entire = flow.entire()
-        delta, omega = (_squared(_inserted(terms, small)) for terms in (entire.damping, entire.frequency))
+        delta, omega = (_squared(_inserted(terms, small)) for terms in (entire.growth_rate, entire.frequency))
         polynomial = _polynomial(delta, flow)
         zeros = [s for s in real_roots(polynomial) if s > 0] if polynomial.degree() > 0 else []
         branches = tuple(_branches(flow, small[0])) if len(small) == 1 else ()
@@ -230,9 +230,9 @@ def frequency_series(flow: SlowFlow, square: Series) -> Series:
 
 def _reduced(flow: SlowFlow) -> tuple[Plane, int, list[fmpq]]:
     """The amplitude equation as a polynomial in s and m, the last power of m it determines, and s at m = 0."""
-    if any(not term.coefficient.is_Rational for term in flow.damping):
+    if any(not term.coefficient.is_Rational for term in flow.growth_rate):
         return {}, 0, []
-    plane = {(t.powers[0] // 2, t.powers[1]): rational(t.coefficient) for t in flow.entire().damping}
+    plane = {(t.powers[0] // 2, t.powers[1]): rational(t.coefficient) for t in flow.entire().growth_rate}
     lowest = min((r for _, r in plane), default=0)
     if lowest > 0:
         return _detached(plane, flow, lowest)

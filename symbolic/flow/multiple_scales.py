@@ -86,11 +86,11 @@ def multiple_scales(
     --------
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> flow = multiple_scales(find("pendulum"), 2)
-    >>> flow.frequency_expression(), flow.damping_expression()
+    >>> flow.frequency_expression(), flow.growth_rate_expression()
     (1 - a**2/16, -mu)
     >>> from ridgeback.symbolic.systems.oscillator import Oscillator
     >>> own = Oscillator.from_equation("u'' + c*u' + d*u'**3 + u = 0")
-    >>> multiple_scales(own, 2, weights={"d": 1, "c": 1}).damping_expression()
+    >>> multiple_scales(own, 2, weights={"d": 1, "c": 1}).growth_rate_expression()
     -c/2
     """
     oscillator = as_oscillator(oscillator)

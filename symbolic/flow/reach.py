@@ -95,9 +95,9 @@ def _changes(flow: SlowFlow, a: float, small: Sequence[float]) -> list[float]:
     The lowest terms of a'/a that balance at a fixed point, and k, are what is corrected.
     """
     omega, bend = _value(flow.frequency, a, small)
-    rate, slope = _value(flow.damping, a, small)
+    rate, slope = _value(flow.growth_rate, a, small)
     fixed = abs(rate) < NEAR * abs(a * slope)
-    drift, turn = _by_degree(flow, flow.damping), _by_degree(flow, flow.frequency)
+    drift, turn = _by_degree(flow, flow.growth_rate), _by_degree(flow, flow.frequency)
     balanced = sorted(drift)[: 2 if fixed and flow.highest is None else 1]
     moved = max(1.0, abs(a * bend / omega)) / abs(a * slope) if fixed else 1 / abs(omega)
     found: dict[int, float] = {}

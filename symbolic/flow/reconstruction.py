@@ -99,7 +99,7 @@ class Reconstruction:
 
     def velocity(self, a: Any, phi: Any, *small: float, cos: Wave = math.cos, sin: Wave = math.sin) -> Any:
         """Evaluate u' = omega du/dphi + a delta du/da along the flow; errors and arrays as for u itself."""
-        omega, delta = self.flow.frequency_at(a, *small), self.flow.damping_at(a, *small)
+        omega, delta = self.flow.frequency_at(a, *small), self.flow.growth_rate_at(a, *small)
         total = a * 0.0
         for h in self._rounded:
             wave, slope = cos(h.multiple * phi), sin(h.multiple * phi)
@@ -201,4 +201,4 @@ def along(flow: SlowFlow, expression: sympy.Expr) -> sympy.Expr:
     """
     a = sympy.Symbol("a", real=True)
     rate = flow.frequency_expression() * expression.diff(PHI)
-    return sympy.expand(rate + a * flow.damping_expression() * expression.diff(a))
+    return sympy.expand(rate + a * flow.growth_rate_expression() * expression.diff(a))

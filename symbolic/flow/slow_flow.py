@@ -1,8 +1,8 @@
-r"""The frozen result of multiple scales: ``phi' = omega0(a, m)`` and ``a'/a = damping(a, m)``, exact.
+r"""The frozen result of multiple scales: ``phi' = omega0(a, m)`` and ``a'/a = growth_rate(a, m)``, exact.
 
 ``a`` is the ``fundamental`` amplitude, ``m`` the small parameters (mu, eps, ...).  Internally k = 1 and a parameter m
 of dimension d stands for m/k^d (d = 1 for linear damping and for eps of van der Pol's equation, -1 for cubic damping;
-see ``ordering``); ``frequency``, ``damping`` and ``harmonics`` are in the oscillator's own units.
+see ``ordering``); ``frequency``, ``growth_rate`` and ``harmonics`` are in the oscillator's own units.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from ridgeback.symbolic.series.trigonometric import Trig
 class SlowFlow(ShownSlowFlow):
     """phi' and a'/a as exact polynomials in the fundamental amplitude and the small parameters.
 
-    Made by ``multiple_scales``.  ``frequency`` and ``damping`` are the terms in the oscillator's own units,
-    ``frequency_at`` and ``damping_at`` their values, ``expression`` and ``latex`` their formulas, ``residual`` what is
-    left of the equation.
+    Made by ``multiple_scales``.  ``frequency`` and ``growth_rate`` are the terms in the oscillator's own
+    units, ``frequency_at`` and ``growth_rate_at`` their values, ``expression`` and ``latex`` their formulas,
+    ``residual`` what is left of the equation.
 
     Examples
     --------
@@ -115,7 +115,7 @@ class SlowFlow(ShownSlowFlow):
         return self.terms(self.omega, rate=1)
 
     @cached_property
-    def damping(self) -> tuple[Term, ...]:
+    def growth_rate(self) -> tuple[Term, ...]:
         """The nonzero terms of a'/a, per time unit, by weighted degree."""
         return self.terms(self.delta, rate=1)
 
@@ -183,17 +183,17 @@ class SlowFlow(ShownSlowFlow):
         """
         return evaluate(self._frequency_rows, a, self.checked(small))
 
-    def damping_at(self, a: Any, *small: float) -> Any:
+    def growth_rate_at(self, a: Any, *small: float) -> Any:
         """Evaluate a'/a per time unit; ``a`` may be an array, errors as for ``frequency_at``."""
-        return evaluate(self._damping_rows, a, self.checked(small))
+        return evaluate(self._growth_rate_rows, a, self.checked(small))
 
     @cached_property
     def _frequency_rows(self) -> tuple[tuple[float, tuple[int, ...]], ...]:
         return rounded(self.frequency)
 
     @cached_property
-    def _damping_rows(self) -> tuple[tuple[float, tuple[int, ...]], ...]:
-        return rounded(self.damping)
+    def _growth_rate_rows(self) -> tuple[tuple[float, tuple[int, ...]], ...]:
+        return rounded(self.growth_rate)
 
     def checked(self, small: tuple[Any, ...]) -> tuple[Any, ...]:
         """The values of the small parameters; InputError unless there is one for each."""
@@ -223,9 +223,9 @@ class SlowFlow(ShownSlowFlow):
         """phi' as one SymPy expression."""
         return sympy.Add(*self.expressions(self.frequency))
 
-    def damping_expression(self) -> sympy.Expr:
+    def growth_rate_expression(self) -> sympy.Expr:
         """a'/a as one SymPy expression."""
-        return sympy.Add(*self.expressions(self.damping))
+        return sympy.Add(*self.expressions(self.growth_rate))
 
     def complex_expression(self) -> sympy.Expr:
         """h of z' = z h for z = (a/2) exp(i phi): h = a'/a + i phi' with a^2 = 4 z conj(z) (theory, section 3).
@@ -236,9 +236,9 @@ class SlowFlow(ShownSlowFlow):
         -mu + I*(-z*conjugate(z)/4 + 1)
         """
         a, z = sympy.Symbol("a", real=True), sympy.Symbol("z")
-        rates = (self.damping_expression(), self.frequency_expression())
-        damping, frequency = (rate.subs(a, 2 * sympy.sqrt(z * sympy.conjugate(z))) for rate in rates)
-        return damping + sympy.I * frequency
+        rates = (self.growth_rate_expression(), self.frequency_expression())
+        growth, frequency = (rate.subs(a, 2 * sympy.sqrt(z * sympy.conjugate(z))) for rate in rates)
+        return growth + sympy.I * frequency
 
     def expressions(self, terms: tuple[Term, ...]) -> tuple[sympy.Expr, ...]:
         """Terms as SymPy expressions, in the order given."""
@@ -248,7 +248,7 @@ class SlowFlow(ShownSlowFlow):
         r"""LaTeX of the two relations, ``\dot\varphi = ...`` and ``\dot a/a = ...``."""
         return (
             r"\dot{\varphi} = " + series_latex(self.expressions(self.frequency)),
-            r"\frac{\dot{a}}{a} = " + series_latex(self.expressions(self.damping)),
+            r"\frac{\dot{a}}{a} = " + series_latex(self.expressions(self.growth_rate)),
         )
 
     def mathml(self) -> tuple[str, str]:
@@ -267,7 +267,7 @@ class SlowFlow(ShownSlowFlow):
             **ordering,
             "variables": list(self.variables),
             "frequency": json_rows(self.variables, self.frequency),
-            "damping": json_rows(self.variables, self.damping),
+            "growth_rate": json_rows(self.variables, self.growth_rate),
         }
 
 

@@ -96,7 +96,7 @@ def closed_form(flow: SlowFlow) -> ClosedForm | None:
     >>> found.amplitude, found.phase
     (a_0*exp(-mu*t), a_0**2*(-1 + exp(-2*mu*t))/(32*mu) + phi_0 + t)
     """
-    delta, omega = (_by_square(flow, terms) for terms in (flow.damping, flow.frequency))
+    delta, omega = (_by_square(flow, terms) for terms in (flow.growth_rate, flow.frequency))
     if len(delta) > 2:
         return None
     c0, c2 = (*delta, sympy.S.Zero, sympy.S.Zero)[:2]
@@ -185,7 +185,7 @@ def transient(
     """
     times = _checked(time, amplitude)
     values = flow.checked(tuple(small))
-    rates = _Rates(*(amplitude_powers(rounded(terms), values)[::2] for terms in (flow.damping, flow.frequency)))
+    rates = _Rates(*(amplitude_powers(rounded(terms), values)[::2] for terms in (flow.growth_rate, flow.frequency)))
     state, t, found = (amplitude * amplitude, phase), times[0], [(amplitude, phase)]
     for end in times[1:]:
         state = _advanced(state, t, end, rates, tolerance)

@@ -14,7 +14,13 @@ LETTERS = """
 alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau phi chi psi omega
 """
 GREEK = frozenset(LETTERS.split())
-NAMES = {"omega0": r"\omega_0", "omega0_slope": r"\omega_0'", "damping": r"\dot a/a", "motion": "u", "amplitude": "A"}
+NAMES = {
+    "omega0": r"\omega_0",
+    "omega0_slope": r"\omega_0'",
+    "growth_rate": r"\dot a/a",
+    "motion": "u",
+    "amplitude": "A",
+}
 
 
 class Latex(Language):

@@ -28,7 +28,7 @@ def test_rows_join_frequency_and_amplitude_and_say_where_there_is_none():
     assert 300 < len(known) < 500
     for row in known:
         assert row["amplitude"] == pytest.approx(1.2 * np.exp(-0.05 * row["time_s"]), rel=1e-3)
-        assert row["damping_per_s"] == pytest.approx(-0.05, abs=1e-3)
+        assert row["growth_rate_per_s"] == pytest.approx(-0.05, abs=1e-3)
     assert found.method == "pseudo-wigner"
     assert found.usable
 
@@ -117,10 +117,10 @@ def test_a_long_record_is_measured_at_the_rate_of_its_decimated_track(monkeypatc
     t = np.arange(64_000) / rate
     x = 2.0 * np.exp(-0.1 * t) * np.cos(10 * np.pi * t) + 0.001 * np.random.default_rng(0).normal(size=t.size)
     found = measure(Recording(t, x, rate, "u", "V", "a.wav", "", clipped=t < 1.0))
-    factor = found.found.settings["decimated_by"]
+    factor = found.track.used.decimated_by
     assert factor > 100
     assert seen == [(found.found.time.size, rate / factor)]
     curve = found.backbone
     assert curve.time.min() > 1.0
     assert np.abs(curve.amplitude / (2.0 * np.exp(-0.1 * curve.time)) - 1.0).max() < 3e-4
-    assert np.abs(curve.damping + 0.1).max() < 5e-3
+    assert np.abs(curve.growth_rate + 0.1).max() < 5e-3

@@ -22,7 +22,7 @@ def test_softening_backbone_and_constant_damping_are_recovered() -> None:
     assert found.offset == pytest.approx(0.5, abs=0.02)
     assert np.abs(found.amplitude - 2.0 * np.exp(-0.04 * (found.time - 3.0))).max() < 2e-3
     assert np.abs(found.omega - (8.0 - 0.3 * found.amplitude**2)).max() < 5e-3
-    assert np.abs(found.damping + 0.04).max() < 2e-3
+    assert np.abs(found.growth_rate + 0.04).max() < 2e-3
     assert np.all(np.diff(found.curve_amplitude) > 0)
     assert np.abs(found.curve_omega - (8.0 - 0.3 * found.curve_amplitude**2)).max() < 1e-2
     assert "mean" in found.notes[0]
@@ -37,15 +37,15 @@ def test_every_track_serves(method: str) -> None:
 
 
 def test_bands_cover_the_truth_in_noise() -> None:
-    inside_omega, inside_damping = [], []
+    inside_omega, inside_growth = [], []
     for seed in range(4):
         x = CLEAN + 0.05 * np.random.default_rng(seed).normal(size=T.size)
         found = backbone(estimate(x, RATE, bias=False), x, RATE)
         expected = 8.0 - 0.3 * found.curve_amplitude**2
         inside_omega.append(np.abs(found.curve_omega - expected) < 2 * found.curve_omega_sd)
-        inside_damping.append(np.abs(found.curve_damping + 0.04) < 2 * found.curve_damping_sd)
+        inside_growth.append(np.abs(found.curve_growth_rate + 0.04) < 2 * found.curve_growth_rate_sd)
     assert np.mean(np.concatenate(inside_omega)) > 0.85
-    assert np.mean(np.concatenate(inside_damping)) > 0.85
+    assert np.mean(np.concatenate(inside_growth)) > 0.85
     assert np.median(found.curve_omega_sd) < 0.1
 
 
@@ -63,20 +63,20 @@ def test_rows_carry_the_names_of_their_columns() -> None:
         "omega_rad_s",
         "frequency_hz",
         "omega_standard_deviation_rad_s",
-        "damping_per_s",
-        "damping_standard_deviation_per_s",
+        "growth_rate_per_s",
+        "growth_rate_standard_deviation_per_s",
     ]
     assert row["frequency_hz"] == pytest.approx(row["omega_rad_s"] / (2 * np.pi))
 
 
 def test_the_bands_are_not_much_wider_than_the_errors_either() -> None:
-    off_omega, off_damping = [], []
+    off_omega, off_growth = [], []
     for seed in range(4):
         x = CLEAN + 0.05 * np.random.default_rng(seed).normal(size=T.size)
         found = backbone(estimate(x, RATE, method="pseudo-wigner", bias=False), x, RATE)
         off_omega.append((found.curve_omega - (8.0 - 0.3 * found.curve_amplitude**2)) / found.curve_omega_sd)
-        off_damping.append((found.curve_damping + 0.04) / found.curve_damping_sd)
-    for off in (np.concatenate(off_omega), np.concatenate(off_damping)):
+        off_growth.append((found.curve_growth_rate + 0.04) / found.curve_growth_rate_sd)
+    for off in (np.concatenate(off_omega), np.concatenate(off_growth)):
         assert 0.4 < np.sqrt(np.mean(off**2)) < 1.4
 
 

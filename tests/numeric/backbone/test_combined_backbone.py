@@ -19,14 +19,16 @@ T = np.arange(1600) / RATE
 def curve(omega: float, sd: float, low: float, high: float, definition: str = "fundamental") -> Backbone:
     a = np.linspace(low, high, 12)
     flat = np.full(12, sd)
-    along = dict.fromkeys(("time", "amplitude", "amplitude_sd", "omega", "omega_sd", "damping", "damping_sd"), a)
+    along = dict.fromkeys(
+        ("time", "amplitude", "amplitude_sd", "omega", "omega_sd", "growth_rate", "growth_rate_sd"), a
+    )
     return Backbone(
         **along,
         curve_amplitude=a,
         curve_omega=omega - 0.1 * a**2,
         curve_omega_sd=flat,
-        curve_damping=-0.05 * np.ones(12),
-        curve_damping_sd=flat,
+        curve_growth_rate=-0.05 * np.ones(12),
+        curve_growth_rate_sd=flat,
         offset=0.0,
         definition=definition,
     )
@@ -98,8 +100,8 @@ def test_runs_of_one_oscillator_give_one_backbone() -> None:
     found = combine(curves, ["1", "2", "3"])
     inside = found.runs > 1
     assert np.abs(found.omega - (8.0 - 0.3 * found.amplitude**2))[inside].max() < 0.03
-    assert np.abs(found.damping + 0.04)[inside].max() < 0.01
-    assert set(found.rows()[0]) >= {"amplitude", "omega_between_runs_rad_s", "damping_between_runs_per_s", "runs"}
+    assert np.abs(found.growth_rate + 0.04)[inside].max() < 0.01
+    assert set(found.rows()[0]) >= {"amplitude", "omega_between_runs_rad_s", "growth_rate_between_runs_per_s", "runs"}
 
 
 def test_clipped_windows_are_left_out_of_a_backbone_and_counted() -> None:

@@ -21,8 +21,8 @@ def decay(offset: float = 0.0, phase: float = 0.3) -> np.ndarray:
 def test_a_linear_decay_is_recovered_whatever_its_offset(offset: float) -> None:
     found = half_cycles(decay(offset), RATE, start=3.0)
     assert np.abs(found.omega - OMEGA).max() < 2e-4
-    assert np.abs(found.damping[1:-1] + MU).max() < 1e-4
-    assert np.isnan(found.damping[[0, -1]]).all()
+    assert np.abs(found.growth_rate[1:-1] + MU).max() < 1e-4
+    assert np.isnan(found.growth_rate[[0, -1]]).all()
     # A turning point of a decay lies before the top of its envelope: A cos(atan(mu / omega)) there.
     expected = 2.0 * np.exp(-MU * (found.time - 3.0))
     assert np.abs(found.amplitude / expected - 1.0).max() < 3e-4
@@ -40,7 +40,7 @@ def test_the_duffing_backbone_in_peak_amplitude() -> None:
     assert curve.definition == "peak"
     expected = 6.0 + 0.5 * curve.curve_amplitude**2
     assert np.abs(curve.curve_omega / expected - 1.0).max() < 2e-3
-    assert np.abs(curve.curve_damping + 0.03).max() < 1e-3
+    assert np.abs(curve.curve_growth_rate + 0.03).max() < 1e-3
 
 
 def test_standard_deviations_are_those_of_repeated_noise() -> None:
@@ -49,20 +49,20 @@ def test_standard_deviations_are_those_of_repeated_noise() -> None:
         noise = sigma * np.random.default_rng(seed).standard_normal(800)
         runs.append(half_cycles(decay()[:800] + noise, RATE))
     first = slice(2, 40)
-    for value, deviation in (("omega", "omega_sd"), ("amplitude", "amplitude_sd"), ("damping", "damping_sd")):
+    for value, deviation in (("omega", "omega_sd"), ("amplitude", "amplitude_sd"), ("growth_rate", "growth_rate_sd")):
         seen = np.std([getattr(r, value)[first] for r in runs], axis=0)
         said = np.mean([getattr(r, deviation)[first] for r in runs], axis=0)
         assert np.median(seen / said) == pytest.approx(1.0, abs=0.12), value
 
 
 def test_the_bands_of_its_backbone_are_as_wide_as_the_errors() -> None:
-    frequency, damping = [], []
+    frequency, growth_rate = [], []
     for seed in range(12):
         x = decay() + 0.02 * np.random.default_rng(seed).standard_normal(T.size)
         curve = half_cycles(x, RATE).backbone()
         frequency.append((curve.curve_omega - OMEGA) / curve.curve_omega_sd)
-        damping.append((curve.curve_damping + MU) / curve.curve_damping_sd)
-    for off in (np.concatenate(frequency), np.concatenate(damping)):
+        growth_rate.append((curve.curve_growth_rate + MU) / curve.curve_growth_rate_sd)
+    for off in (np.concatenate(frequency), np.concatenate(growth_rate)):
         assert 0.6 < np.sqrt(np.mean(off**2)) < 1.25
         assert 0.9 < np.mean(np.abs(off) < 1.96) <= 1.0
 
@@ -77,13 +77,13 @@ def test_an_asymmetric_signal_alternates_in_frequency_and_not_in_damping() -> No
     # |p| = a (1 + 0.1 s a) on side s, and the decrement compares the neighbours, on the other side.
     own, other = np.exp(-MU * found.time), -0.1 * found.side
     expected = -MU * (1 + other * own / (1 + other * own))
-    assert np.abs(found.damping - expected)[2:-2].max() < 5e-4
+    assert np.abs(found.growth_rate - expected)[2:-2].max() < 5e-4
 
 
 def test_the_decrement_of_an_exponential_is_exact() -> None:
     at = np.array([0.0, 0.4, 1.1, 1.5])
-    damping, _ = decrements(at, np.exp(-0.3 * at) * [1, -1, 1, -1], np.zeros(4))
-    assert damping[1:-1] == pytest.approx([-0.3, -0.3], rel=1e-12)
+    growth_rate, _ = decrements(at, np.exp(-0.3 * at) * [1, -1, 1, -1], np.zeros(4))
+    assert growth_rate[1:-1] == pytest.approx([-0.3, -0.3], rel=1e-12)
 
 
 def test_too_few_crossings_or_all_in_noise_are_refused() -> None:
@@ -97,4 +97,4 @@ def test_too_few_crossings_or_all_in_noise_are_refused() -> None:
 def test_rows_carry_names_and_units() -> None:
     row = half_cycles(decay(), RATE).rows()[3]
     assert row["frequency_hz"] == pytest.approx(OMEGA / (2 * np.pi), rel=1e-4)
-    assert set(row) >= {"time_s", "omega_rad_s", "amplitude", "damping_per_s", "side"}
+    assert set(row) >= {"time_s", "omega_rad_s", "amplitude", "growth_rate_per_s", "side"}

@@ -14,6 +14,7 @@ from ridgeback.numeric.distributions.ridge import follow
 from ridgeback.numeric.distributions.wigner import wigner_kernel
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.harmonics.noise import Level, peak_deviation
+from ridgeback.numeric.signal.analytic import as_analytic
 from ridgeback.numeric.signal.windows import window
 
 RATE = 32.0
@@ -37,7 +38,7 @@ def test_design_keeps_the_slope_and_order_six_removes_the_cubic(order: int) -> N
 
 def test_order_two_is_the_pseudo_wigner_distribution() -> None:
     x = np.cos(8.0 * T + np.sin(T))
-    same = polynomial_kernel(x, RATE, lag_seconds=3.0, order=2)
+    same = polynomial_kernel(as_analytic(x), RATE, lag_seconds=3.0, order=2)
     usual = wigner_kernel(x, RATE, lag_seconds=3.0)
     assert np.abs(same.products * 2 / RATE - usual.columns(0, T.size)).max() < 1e-12
 
@@ -85,7 +86,7 @@ def test_deviation_of_order_two_is_the_known_one_and_order_six_pays_for_its_exac
 
 
 def test_unusable_requests_are_named() -> None:
-    x = np.cos(8.0 * T)
+    x = as_analytic(np.cos(8.0 * T))
     with pytest.raises(InputError, match=r"order 5 .* use 2, 4 or 6"):
         polynomial_kernel(x, RATE, lag_seconds=2.0, order=5)
     with pytest.raises(InputError, match="513 by 19 lag products needs"):

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.estimators.estimate import METHODS, estimate
+from ridgeback.numeric.estimators.estimate import METHODS, estimate, estimation
 from ridgeback.numeric.harmonics.local_fit import Shape, harmonic_fit
+from ridgeback.numeric.tracking.choices import Scope
 
 PEAKS = (
     "wigner",
@@ -41,22 +42,22 @@ def test_every_method_follows_a_chirp_and_fills_the_same_track(method: str) -> N
     assert track.standard_deviation is not None
     assert np.all(np.isfinite(track.standard_deviation))
     assert track.start == 100.0
-    assert track.settings["offset_removed"] == pytest.approx(3.0, abs=0.1)
-    assert track.settings["bias_removed"] is False
+    assert track.details["offset_removed"] == pytest.approx(3.0, abs=0.1)
+    assert track.bias_removed is False
     assert t.size == 641
 
 
 def test_auto_says_what_it_chose_and_why() -> None:
     track = estimate(chirp()[1], 32.0)
     assert track.method == "harmonic-least-squares"
-    assert track.settings["scope"] == "global"
-    assert str(track.settings["why"]).startswith("harmonic least squares of the whole record: relative rms errors")
-    assert "pseudo-Wigner over" in str(track.settings["why"])
+    assert track.used.scope is Scope.GLOBAL
+    assert track.used.why.startswith("harmonic least squares of the whole record: relative rms errors")
+    assert "pseudo-Wigner over" in track.used.why
     short = estimate(np.cos(2 * np.pi * 1.1 * np.arange(48) / 8.0), 8.0)
     assert short.method == "pseudo-wigner"
-    assert "because harmonic least squares cannot: signal holds" in str(short.settings["why"])
+    assert "because harmonic least squares cannot: signal holds" in short.used.why
     assert short.interval is None
-    assert "needs more than" in str(short.settings["no_interval"])
+    assert "needs more than" in str(short.no_interval)
 
 
 # Relative rms over 2 .. 18 s of the paper's case at 32 Hz, noise free, against the phase of the zero crossings.
@@ -196,7 +197,7 @@ def test_bias_is_left_out_or_taken_off_on_request() -> None:
     removed = estimate(x, 32.0, method="pseudo-wigner", remove_bias=True)
     assert plain.bias is not None
     assert np.array_equal(removed.omega, plain.omega - plain.bias)
-    assert removed.settings["bias_removed"] is True
+    assert removed.bias_removed is True
     assert estimate(x, 32.0, method="pseudo-wigner", bias=False).bias is None
 
 
@@ -240,3 +241,15 @@ def test_what_cannot_be_done_is_said_in_one_line(x: np.ndarray, arguments: dict[
     with pytest.raises(InputError, match=message) as caught:
         estimate(x, 32.0, **arguments)
     assert "\n" not in str(caught.value)
+
+
+def test_a_band_beyond_what_decimation_leaves_is_cut_off_there() -> None:
+    """The search band is found once, on the whole record, and thinned with it."""
+    rate = 4000.0
+    t = np.arange(40_000) / rate
+    x = np.cos(2 * np.pi * 20.0 * t) + 1e-3 * np.random.default_rng(3).normal(size=t.size)
+    found = estimation(x, rate, band=(60.0, 6000.0))
+    assert found.samples.factor > 4
+    assert found.request is not None
+    assert found.request.signal.search.limits == pytest.approx((60.0, np.pi * found.samples.rate))
+    assert np.abs(found.track.inside().omega / (40.0 * np.pi) - 1.0).max() < 1e-4

@@ -39,7 +39,7 @@ def test_raw_wigner_peak_near_the_third_harmonic_is_wrong(pendulum_decay: Source
     wrong, right = (decay.error(track.time, track.omega, multiple=3) for track in (raw, locked))
     assert wrong > 0.03
     assert wrong > 100 * right
-    assert "cross terms" in str(raw.settings["why"])
+    assert "cross terms" in raw.used.why
 
 
 def test_cross_term_of_one_and_five_stands_where_no_third_harmonic_is() -> None:

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.harmonics.signal_model import signal_models
 from ridgeback.numeric.harmonics.spline_basis import DEGREE, normal_equations, spline_basis
-from ridgeback.numeric.harmonics.spline_fit import chosen, fit_on, harmonic_splines, weights_of
+from ridgeback.numeric.harmonics.spline_fit import best_model, fit_on, harmonic_splines, weights_of
 
 RATE = 32.0
 T = np.arange(641) / RATE
@@ -45,7 +45,7 @@ def test_slopes_are_those_of_the_splines() -> None:
 
 def test_exact_where_the_model_holds_up_to_the_very_ends() -> None:
     x = (2.0 - 0.05 * T) * np.cos(PHASE) + (0.2 + 0.01 * T) * np.cos(3 * PHASE - 1.0) + 0.7 - 0.02 * T
-    model = chosen(harmonic_splines(x, RATE, OMEGA * 1.1, multiples=(3,)))
+    model = best_model(harmonic_splines(x, RATE, OMEGA * 1.1, multiples=(3,)))
     assert np.abs(model.omega / OMEGA - 1.0).max() < 3e-6
     assert np.abs(model.amplitude - (2.0 - 0.05 * T)).max() < 3e-5
     third, size = model.tone(3)
@@ -83,7 +83,7 @@ def test_answer_to_noise_is_the_change_of_the_fit() -> None:
     model = fit_on(clean, T, PHASE, np.ones(T.size), breaks, (2,))
     noise = 1e-5 * rng.normal(size=T.size)
     again = fit_on(model.samples() + noise, T, PHASE, np.ones(T.size), breaks, (2,))
-    change, taken = model.answer(noise)
+    change, taken = model.response(noise)
     for h in (1, 2):
         for moved, predicted, before in zip(again.tone(h), model.tone(h, change), model.tone(h), strict=True):
             assert np.abs(moved - predicted).max() < 2e-2 * np.abs(moved - before).max()
@@ -93,7 +93,7 @@ def test_answer_to_noise_is_the_change_of_the_fit() -> None:
 def test_knots_go_where_the_phase_bends() -> None:
     phase = 2 * np.pi * 1.5 * T + 3.0 * np.exp(-T)
     x = np.cos(phase) + 0.001 * np.random.default_rng(5).normal(size=T.size)
-    model = chosen(harmonic_splines(x, RATE, np.gradient(phase, T)))
+    model = best_model(harmonic_splines(x, RATE, np.gradient(phase, T)))
     assert np.diff(model.breaks)[0] < 0.8 * np.diff(model.breaks)[-1]
 
 
@@ -101,7 +101,7 @@ def test_more_noise_asks_for_fewer_knots() -> None:
     rng = np.random.default_rng(9)
     noise = rng.normal(size=T.size)
     x = np.cos(PHASE + np.sin(T))
-    fine, rough = (chosen(harmonic_splines(x + s * noise, RATE, OMEGA)) for s in (1e-3, 0.3))
+    fine, rough = (best_model(harmonic_splines(x + s * noise, RATE, OMEGA)) for s in (1e-3, 0.3))
     assert fine.cycles < rough.cycles
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import frozen, frozen_mask
-from ridgeback.numeric.motion.cycle_frequency import cycle_frequency, is_symmetric
+from ridgeback.numeric.motion.cycle_frequency import Events, cycle_frequency, is_symmetric
 from ridgeback.numeric.motion.dynamics import duffing, helmholtz_duffing, linear, pendulum, van_der_pol
 from ridgeback.numeric.motion.roots import bracketed_newton
 from ridgeback.numeric.motion.trajectory import CrossingEvents, Trajectory, TurningEvents, integrate
@@ -114,7 +114,7 @@ def test_asymmetric_wells_use_the_centres_between_crossings():
     gaps = np.diff(run.crossings.time)
     assert abs(gaps[0] - gaps[1]) > 0.1
     cycles = cycle_frequency(run, dynamics=oscillator)
-    assert cycles.kind == "centres"
+    assert cycles.kind is Events.CENTRES
     assert cycles.readings[0].name == "centres of upper half swings"
 
 
@@ -145,8 +145,8 @@ def test_without_dynamics_the_result_is_the_same_within_its_uncertainty():
     run = integrate(oscillator, (2.0, 0.0), duration=10.0, rate=64.0)
     blind, told = cycle_frequency(run), cycle_frequency(run, dynamics=oscillator)
     t = np.linspace(1.5, 8.5, 50)
-    assert blind.kind == "centres"
-    assert told.kind == "crossings"
+    assert blind.kind is Events.CENTRES
+    assert told.kind is Events.CROSSINGS
     assert np.all(np.abs(blind.at(t) - told.at(t)) <= blind.uncertainty_at(t) + told.uncertainty_at(t))
 
 

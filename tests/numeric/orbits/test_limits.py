@@ -80,16 +80,16 @@ def test_half_cycles_of_noise_divide_by_nothing(seed: int) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         found = half_cycles(noise, 20.0)
-    assert not np.isinf(found.damping).any()
+    assert not np.isinf(found.growth_rate).any()
 
 
 def test_turning_points_at_one_time_or_on_zero_give_no_damping() -> None:
     at, peak, ones = np.array([0.0, 1.0, 2.0, 1.0, 5.0]), np.array([2.0, -1.0, 1.0, -1.0, 0.0]), np.ones(5)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        damping, deviation = decrements(at, peak, ones)
-    assert damping[1] == pytest.approx(-0.5 * np.log(2.0))
-    assert np.isnan(damping[[0, 2, 3, 4]]).all()
+        growth_rate, deviation = decrements(at, peak, ones)
+    assert growth_rate[1] == pytest.approx(-0.5 * np.log(2.0))
+    assert np.isnan(growth_rate[[0, 2, 3, 4]]).all()
     assert np.isnan(deviation[[0, 2, 3, 4]]).all()
 
 

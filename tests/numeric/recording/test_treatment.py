@@ -14,7 +14,7 @@ from ridgeback.numeric.recording.clipping import clipped
 from ridgeback.numeric.recording.drift import detrended, slow_part, wandering
 from ridgeback.numeric.recording.recording import read_recording, read_recordings
 from ridgeback.numeric.recording.uniform import Uniform, grid_of, resampled, rms, spline_values
-from ridgeback.numeric.signal.search_band import find_corridor
+from ridgeback.numeric.signal.search_band import find_search_band
 
 RATE = 20.0
 T = np.arange(600) / RATE
@@ -268,15 +268,15 @@ def test_resampling_there_and_back_gives_the_signal() -> None:
 
 
 def test_the_guide_of_a_thinned_record_is_that_of_the_whole() -> None:
-    """A chirp of 150,000 samples, more than two hundred a cycle: its corridor follows it all the same."""
+    """A chirp of 150,000 samples, more than two hundred a cycle: its search band follows it all the same."""
     rate = 2500.0
     t = np.arange(150_000) / rate
     omega = 2 * np.pi * (6.0 + 0.05 * t)
     x = np.cos(2 * np.pi * (6.0 * t + 0.025 * t**2))
-    corridor = find_corridor(x, rate)
+    search = find_search_band(x, rate)
     inside = (t > 1.0) & (t < 59.0)
-    assert np.abs(corridor.guide / omega - 1.0)[inside].max() < 0.02
-    assert corridor.guide.size == t.size
+    assert np.abs(search.guide / omega - 1.0)[inside].max() < 0.02
+    assert search.guide.size == t.size
 
 
 @pytest.mark.parametrize("seed", range(4))

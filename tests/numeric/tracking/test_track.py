@@ -16,8 +16,9 @@ from ridgeback.numeric.distributions.ridge import follow, highest
 from ridgeback.numeric.distributions.short_time import ShortTimeKernel
 from ridgeback.numeric.distributions.wigner import wigner_kernel
 from ridgeback.numeric.estimators.estimate import estimate
-from ridgeback.numeric.signal.search_band import continuous_path, find_corridor
+from ridgeback.numeric.signal.search_band import continuous_path, find_search_band
 from ridgeback.numeric.signal.windows import WINDOWS, window
+from ridgeback.numeric.tracking.choices import Choices
 from ridgeback.numeric.tracking.curvature_bias import curvature_bias, curvature_coefficient
 from ridgeback.numeric.tracking.track import Track
 
@@ -162,11 +163,21 @@ def test_path_prefers_continuity_to_a_lone_peak() -> None:
     assert set(continuous_path(level, reach=1).tolist()) == {2}
 
 
-def test_corridor_keeps_harmonics_out_while_the_fundamental_moves_past_them() -> None:
+def test_search_band_keeps_harmonics_out_while_the_fundamental_moves_past_them() -> None:
     t = np.arange(1281) / 32.0
     phase = 2 * np.pi * (1.0 * t + 0.03 * t**2)  # 1.0 to 3.4 Hz: more than the third harmonic's distance
     x = np.cos(phase) + 0.5 * np.cos(2 * phase) + 0.5 * np.cos(3 * phase)
-    corridor = find_corridor(x, 32.0)
+    search = find_search_band(x, 32.0)
     true = 2 * np.pi * (1.0 + 0.06 * t)
-    assert np.all((corridor.low < true) & (true < corridor.high))
-    assert np.all(corridor.high[64:-64] < 2 * true[64:-64])
+    assert np.all((search.low < true) & (true < search.high))
+    assert np.all(search.high[64:-64] < 2 * true[64:-64])
+
+
+def test_settings_for_display_hold_what_code_reads_and_more() -> None:
+    used = Choices(start=1.0, multiple=3, harmonics=(1, 3))
+    track = Track(np.arange(3.0), np.ones(3), np.ones(3, bool), "test", used=used, details={"rate": 4.0})
+    shown = {"start": 1.0, "multiple": 3, "harmonics": (1, 3), "rate": 4.0, "bias_removed": False}
+    assert dict(track.settings) == shown
+    assert track.between(1.0, 2.0).used is used
+    assert track.start == 1.0
+    assert dict(Track(np.arange(3.0), np.ones(3), np.ones(3, bool), "test").settings) == {"bias_removed": False}

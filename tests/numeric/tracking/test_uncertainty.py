@@ -84,7 +84,7 @@ def test_a_peak_that_jumps_claims_no_interval(pendulum_decay: Source) -> None:
     track = estimate(noisy(x, 10.0, 111_000), RATE, method="wigner")
     assert track.bias is not None
     assert track.interval is None
-    assert "are jumps to other peaks" in str(track.settings["no_interval"])
+    assert "are jumps to other peaks" in str(track.no_interval)
 
 
 def test_no_bias_no_interval() -> None:
@@ -128,7 +128,7 @@ def test_velocity_gives_the_third_harmonic_with_an_interval(pendulum_decay: Sour
 def test_harmonic_that_the_data_do_not_show_has_no_interval() -> None:
     track = estimate(noisy(np.cos(7.0 * T), 20.0, 1), RATE, harmonic=3)
     assert track.interval is None
-    assert "harmonic 3 is not in the model" in str(track.settings["no_interval"])
+    assert "harmonic 3 is not in the model" in str(track.no_interval)
 
 
 @pytest.mark.parametrize("harmonic", [1, 3])
@@ -172,8 +172,8 @@ def test_long_record_is_decimated_by_auto_and_says_so() -> None:
     phase = 2 * np.pi * (100.0 * t + 1.0 * t * t)
     x = np.cos(phase) + 0.2 * np.cos(2 * phase) + 0.05 * np.random.default_rng(1).normal(size=t.size)
     track = estimate(x, 8000.0, start=10.0)
-    assert track.settings["decimated_by"] == 6
-    assert track.settings["rate_given"] == 8000.0
+    assert track.used.decimated_by == 6
+    assert track.details["rate_given"] == pytest.approx(8000.0)
     expected = np.interp(track.time - 10.0, t, frequency)
     assert np.abs(track.frequency_hz / expected - 1.0)[50:-50].max() < 1e-4
     assert track.interval is not None
@@ -186,7 +186,7 @@ def test_lag_and_degree_follow_the_noise() -> None:
         estimate(noisy(np.cos(phase), decibel, 2), RATE, method="harmonic-least-squares", scope="local", bias=False)
         for decibel in (60.0, 5.0)
     )
-    shape = [(float(str(t.settings["lag_seconds"])), int(str(t.settings["phase_degree"]))) for t in (quiet, loud)]
+    shape = [(t.used.lag_seconds, t.used.phase_degree) for t in (quiet, loud)]
     assert shape[0][0] < shape[1][0] or shape[0][1] > shape[1][1]
 
 
@@ -197,8 +197,8 @@ def test_work_over_the_budget_is_a_reason_for_another_method(monkeypatch: pytest
     monkeypatch.setattr("ridgeback.numeric.harmonics.spline_fit.checked_work", refuse)
     track = estimate(np.cos(7.0 * T), RATE)
     assert track.method == "pseudo-wigner"
-    assert "pseudo-Wigner, because harmonic least squares cannot: harmonic splines on 641" in str(track.settings["why"])
-    assert "over the budget" in str(track.settings["no_interval"])
+    assert "pseudo-Wigner, because harmonic least squares cannot: harmonic splines on 641" in track.used.why
+    assert "over the budget" in str(track.no_interval)
 
 
 def test_pieces() -> None:

@@ -50,7 +50,7 @@ def test_an_equation_with_set_and_about(ridgeback: Ridgeback) -> None:
 def test_a_file_serves_every_verb(ridgeback: Ridgeback, mine: str, tmp_path: Path) -> None:
     assert "x'' + 2*mu*x'" in ridgeback("systems", mine).out
     assert json.loads(ridgeback("derive", mine, "--order", "2", "--format", "json").out)["method"] == "multiple-scales"
-    assert "def damping" in ridgeback("generate", mine, "--order", "2").out
+    assert "def growth_rate" in ridgeback("generate", mine, "--order", "2").out
     assert ridgeback("simulate", mine, "--duration", "1", "--rate", "2").out.splitlines()[1] == "0.0,1.2,0.0"
     rows = ridgeback("study", mine, "--orders", "2", "--amplitudes", "0.5,1", "--format", "csv").out.splitlines()
     assert len(rows) == 3

@@ -49,7 +49,7 @@ def test_a_track_has_amplitude_and_damping_beside_frequency(ridgeback: Ridgeback
     for row in rows:
         a = np.exp(-0.05 * float(row["time_s"]))
         assert float(row["amplitude"]) == pytest.approx(a, rel=2e-3)
-        assert float(row["damping_per_s"]) == pytest.approx(-0.05, abs=2e-3)
+        assert float(row["growth_rate_per_s"]) == pytest.approx(-0.05, abs=2e-3)
         assert float(row["omega_rad_s"]) == pytest.approx(8.0 - 0.3 * a**2, rel=1e-3)
 
 
@@ -127,10 +127,10 @@ def test_half_cycles_and_their_backbone(ridgeback: Ridgeback, tmp_path: Path) ->
     for row in public["track"][1:-1]:
         a = np.exp(-0.05 * row["time_s"])
         assert row["amplitude"] == pytest.approx(a, rel=2e-3)
-        assert row["damping_per_s"] == pytest.approx(-0.05, abs=1e-3)
+        assert row["growth_rate_per_s"] == pytest.approx(-0.05, abs=1e-3)
         assert row["omega_rad_s"] == pytest.approx(8.0 - 0.3 * a**2, rel=1e-3)
     rows = table(ridgeback("estimate", path, "--half-cycles", "--backbone", "--format", "csv").out)
-    assert set(rows[0]) >= {"amplitude", "omega_rad_s", "damping_per_s"}
+    assert set(rows[0]) >= {"amplitude", "omega_rad_s", "growth_rate_per_s"}
 
 
 def test_a_matlab_file_gives_what_the_text_gives(ridgeback: Ridgeback, tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ def test_every_symbol_is_an_argument(ridgeback: Ridgeback) -> None:
     assert "def omega0(A, c):" in text
     flow = ["--method", "multiple-scales", "--weights", "c3=1", "--order", "4", "--language", "c"]
     text = source_of(ridgeback, "--equation", "u'' + 2*mu*u' + c3*u'**3 + k**2*u + g*u**3 = 0", *flow)
-    assert "double equation_damping(double a, double mu, double c3, double g, double k)" in text
+    assert "double equation_growth_rate(double a, double mu, double c3, double g, double k)" in text
     assert "p + 2 q + 1 q_2 up to 4" in text
 
 

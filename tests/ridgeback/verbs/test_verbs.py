@@ -114,9 +114,9 @@ def test_slow_flow_keeps_the_terms_of_its_order(ridgeback: Ridgeback) -> None:
     public = json.loads(done.out)
     assert public["variables"] == ["a", "mu"]
     frequency = {(t["powers"]["a"], t["powers"]["mu"]): t["coefficient"] for t in public["frequency"]}
-    damping = {(t["powers"]["a"], t["powers"]["mu"]): t["coefficient"] for t in public["damping"]}
+    growth = {(t["powers"]["a"], t["powers"]["mu"]): t["coefficient"] for t in public["growth_rate"]}
     assert frequency == {(0, 0): "1", (2, 0): "-1/16", (4, 0): "1/1024", (0, 2): "-1/2"}
-    assert damping == {(0, 1): "-1", (2, 1): "-1/16"}
+    assert growth == {(0, 1): "-1", (2, 1): "-1/16"}
     for weight, order in itertools.product((1, 3), (5, 6)):
         arguments = f"derive damped-pendulum --weight {weight} --order {order} --format json"
         terms = json.loads(ridgeback(*arguments.split()).out)["frequency"]
@@ -335,7 +335,7 @@ def test_weights_order_several_small_parameters(ridgeback: Ridgeback) -> None:
     assert found["variables"] == ["a", "mu", "c3"]
     assert found["weights"] == {"mu": 2, "c3": 1}
     # Cubic damping alone: a' = -3/8 c3 a^3 (averaging of u'^3 over cos).
-    assert {"powers": {"a": 2, "mu": 0, "c3": 1}, "coefficient": "-3/8"} in found["damping"]
+    assert {"powers": {"a": 2, "mu": 0, "c3": 1}, "coefficient": "-3/8"} in found["growth_rate"]
     assert ridgeback("derive", "pendulum", "--weights", "mu=2").code == 2
     assert ridgeback("derive", "damped-pendulum", "--weights", "mu").code == 2
 

@@ -125,9 +125,9 @@ def test_slow_flow_in_both_languages(k: int, tmp_path: Path) -> None:
     flow = multiple_scales(find("damped-pendulum").with_parameters({"k": k}), 8)
     module = load(generate(flow), tmp_path)
     source = generate(flow, "c")
-    for name in ("omega0", "damping"):
+    for name in ("omega0", "growth_rate"):
         in_c = compiled(source, tmp_path, f"{identifier(flow.system)}_{name}", 3)
-        direct = flow.frequency_at if name == "omega0" else flow.damping_at
+        direct = flow.frequency_at if name == "omega0" else flow.growth_rate_at
         for a, mu in itertools.product((0.0, 0.3, 1.0, 2.0), (0.0, 0.01, 0.2)):
             value = getattr(module, name)(a, mu)
             assert value == pytest.approx(float(direct(a, mu)), rel=1e-13, abs=1e-300)
@@ -140,7 +140,7 @@ def test_slow_flow_in_both_languages(k: int, tmp_path: Path) -> None:
 @pytest.mark.parametrize("order", [0, 1, 2, 3])
 def test_low_orders_compile_without_a_warning(order: int, tmp_path: Path) -> None:
     flow = multiple_scales(find("damped-pendulum"), order)
-    compiled(generate(flow, "c"), tmp_path, "damped_pendulum_damping", 3)
+    compiled(generate(flow, "c"), tmp_path, "damped_pendulum_growth_rate", 3)
     compiled(generate(lindstedt(find("van-der-pol"), order), "c"), tmp_path, "van_der_pol_omega0_slope", 2)
 
 

@@ -71,7 +71,7 @@ def test_a_slow_flow_with_any_symbols_is_within_its_proved_bound(equation: str, 
         names = [n for n in flow.dimensions if not n.endswith("*")]
         natural = values["w"] if "w" in values else float(flow.scale)
         arguments = [a, *(values[name] for name in names), natural]
-        for made, terms in zip(form.functions, (flow.frequency, flow.damping), strict=True):
+        for made, terms in zip(form.functions, (flow.frequency, flow.growth_rate), strict=True):
             true, size = exact_sum(flow, terms, exact)
             error = abs(Fraction(getattr(module, made.name)(*arguments)) - true)
             assert error <= gamma(roundings_of(made)) * size
@@ -96,9 +96,9 @@ def test_another_natural_frequency_rescales_time_and_every_parameter(tmp_path: P
     )
     at = (0.7, 0.03, 0.05, 0.4)
     first, second = load(generate(one), tmp_path, "first"), load(generate(two), tmp_path, "second")
-    for name in ("omega0", "damping"):
+    for name in ("omega0", "growth_rate"):
         assert getattr(first, name)(*at, 2.0) == getattr(second, name)(*at)
-        direct = two.frequency_at if name == "omega0" else two.damping_at
+        direct = two.frequency_at if name == "omega0" else two.growth_rate_at
         with pytest.raises(InputError, match="g"):
             direct(*at[:3])
 

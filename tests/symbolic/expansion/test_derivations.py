@@ -73,7 +73,7 @@ def test_slow_flow_of_the_damped_pendulum() -> None:
         (4, 0): sympy.Rational(1, 1024),
         (0, 1 + 1): sympy.Rational(-1, 2),
     }
-    assert {t.powers: t.coefficient for t in flow.damping} == {(0, 1): -1, (2, 1): sympy.Rational(-1, 16)}
+    assert {t.powers: t.coefficient for t in flow.growth_rate} == {(0, 1): -1, (2, 1): sympy.Rational(-1, 16)}
 
 
 def test_slow_flow_of_the_damped_duffing_oscillator_is_right_at_third_order() -> None:
@@ -86,7 +86,7 @@ def test_slow_flow_of_the_damped_duffing_oscillator_is_right_at_third_order() ->
     )
     assert sympy.expand(flow.frequency_expression() - expected.subs(c, 2 * mu)) == 0
     decay = -c / 2 + 3 * c * a**2 / 16 - 195 * c * a**4 / 1024
-    assert sympy.expand(flow.damping_expression() - decay.subs(c, 2 * mu)) == 0
+    assert sympy.expand(flow.growth_rate_expression() - decay.subs(c, 2 * mu)) == 0
 
 
 def test_linear_damping_gives_the_square_root_of_one_minus_mu_squared() -> None:
@@ -94,7 +94,7 @@ def test_linear_damping_gives_the_square_root_of_one_minus_mu_squared() -> None:
     mu = sympy.Symbol("mu", real=True)
     exact = sympy.series(sympy.sqrt(1 - mu**2), mu, 0, 8).removeO()
     assert sympy.expand(flow.frequency_expression() - exact) == 0
-    assert flow.damping_expression() == -mu
+    assert flow.growth_rate_expression() == -mu
 
 
 def test_limit_cycle_is_the_fixed_point_of_its_slow_flow() -> None:
@@ -105,7 +105,7 @@ def test_limit_cycle_is_the_fixed_point_of_its_slow_flow() -> None:
     )
     eps = sympy.Symbol("eps", real=True)
     a = sum(c * eps**n for n, c in enumerate(cycle.amplitude_series or ()))
-    damping = sympy.expand(flow.damping_expression().subs(sympy.Symbol("a", real=True), a))
+    damping = sympy.expand(flow.growth_rate_expression().subs(sympy.Symbol("a", real=True), a))
     frequency = sympy.expand(flow.frequency_expression().subs(sympy.Symbol("a", real=True), a))
     # Terms eps^n a^(2n) have degree 3n: order 12 keeps all of them through eps^4.
     assert [damping.coeff(eps, n) for n in (1, 2, 3)] == [0, 0, 0]

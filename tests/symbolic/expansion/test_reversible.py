@@ -58,7 +58,7 @@ def test_the_centre_in_its_first_harmonic() -> None:
     assert lindstedt(CENTRE, 4).convert("fundamental").frequency == expected
     flow = multiple_scales(CENTRE, 4)
     assert [term.coefficient for term in flow.frequency] == [c for c in expected if c]
-    assert not flow.damping
+    assert not flow.growth_rate
 
 
 def test_the_lower_turning_point_is_not_half_a_period_after_the_upper_one() -> None:

@@ -102,7 +102,7 @@ def test_slow_twin_with_k_written_out(name: str) -> None:
     flow = multiple_scales(oscillator, order, weights=weights)
     assert flow.variables == ("a", *weights)
     h = slow_twin(oscillator.force, k, weights, order)
-    assert same(flow.damping_expression() + sympy.I * flow.frequency_expression(), h)
+    assert same(flow.growth_rate_expression() + sympy.I * flow.frequency_expression(), h)
     assert flow.residual() == []
 
 
@@ -122,7 +122,7 @@ def test_any_cubic_force_agrees_with_the_slow_twin(values: list[int], weights: t
     chosen = dict(zip(("c", "d"), weights, strict=True))
     flow = multiple_scales(oscillator, 4, weights=chosen)
     h = slow_twin(oscillator.force, k, chosen, 4)
-    assert same(flow.damping_expression() + sympy.I * flow.frequency_expression(), h)
+    assert same(flow.growth_rate_expression() + sympy.I * flow.frequency_expression(), h)
 
 
 # -- published slow flows --------------------------------------------------------------------------------------------
@@ -138,7 +138,7 @@ def test_damped_duffing_oscillator_with_both_parameters_symbolic() -> None:
         - (15 * g**2 * a**4 + 32 * c**2) / 256
         + 3 * g * a**2 * (41 * g**2 * a**4 - 128 * c**2) / 8192
     )
-    assert same(flow.damping_expression(), decay)
+    assert same(flow.growth_rate_expression(), decay)
     assert same(flow.frequency_expression(), frequency)
 
 
@@ -155,7 +155,7 @@ def test_negative_damping() -> None:
     # a^2 = a0^2 / [3 w^2 a0^2/4 + (1 - 3 w^2 a0^2/4) exp(-eps t)].
     flow = multiple_scales(make("u'' + w**2*u = eps*(u' - u'**3)"), 3, weight=1)
     w = symbol("w")
-    assert same(flow.damping_expression(), eps / 2 * (1 - R(3, 4) * w**2 * a**2))
+    assert same(flow.growth_rate_expression(), eps / 2 * (1 - R(3, 4) * w**2 * a**2))
     found = closed_form(flow)
     assert found is not None
     quarter = R(3, 4) * w**2 * START**2
@@ -168,7 +168,7 @@ def test_cubic_damping_decays_algebraically() -> None:
     flow = multiple_scales(make("u'' + u + eps*u'**3 = 0"), 4)
     found = closed_form(flow)
     assert found is not None
-    assert same(flow.damping_expression(), -3 * eps * a**2 / 8)
+    assert same(flow.growth_rate_expression(), -3 * eps * a**2 / 8)
     assert sympy.simplify(found.amplitude * sympy.sqrt(1 + R(3, 4) * eps * START**2 * TIME) / START) == 1
 
 
@@ -208,7 +208,7 @@ def test_weights_say_which_terms_are_kept() -> None:
     own = make("u'' + c*u' + d*u'**3 + u + g*u**3")
     for weights in ({"c": 1, "d": 1}, {"c": 3, "d": 2}, {"c": 2, "d": 1, "g": 1}):
         flow, wide = multiple_scales(own, 6, weights=weights), multiple_scales(own, 12, weights=weights)
-        for mine, other in ((flow.frequency, wide.frequency), (flow.damping, wide.damping)):
+        for mine, other in ((flow.frequency, wide.frequency), (flow.growth_rate, wide.growth_rate)):
             degrees = [
                 t.powers[0] + sum(w * r for w, r in zip(weights.values(), t.powers[1:], strict=True)) for t in mine
             ]
@@ -221,7 +221,7 @@ def test_one_ordering_is_contained_in_another() -> None:
     # Whatever the weights, a coefficient that both flows keep is the same number.
     own = make("u'' + c*u' + d*u'**3 + u + u**3")
     flows = [multiple_scales(own, 8, weights={"c": p, "d": q}) for p, q in ((1, 1), (2, 2), (1, 3))]
-    tables = [{t.powers: t.coefficient for t in flow.damping} for flow in flows]
+    tables = [{t.powers: t.coefficient for t in flow.growth_rate} for flow in flows]
     for other in tables[1:]:
         shared = set(tables[0]) & set(other)
         assert len(shared) >= 3
@@ -232,21 +232,21 @@ def test_weight_zero_makes_a_coefficient_of_a_parameter() -> None:
     own = make("u'' + c*u' + d*u'**3 + u", c=None, d="1/3")
     flow = multiple_scales(own, 2, weights={"d": 0})
     assert flow.variables == ("a", "c")
-    assert same(flow.damping_expression(), -c / 2 - a**2 / 8)
+    assert same(flow.growth_rate_expression(), -c / 2 - a**2 / 8)
 
 
 def test_terms_odd_in_the_velocity_need_no_small_parameter() -> None:
     flow = multiple_scales(make("u'' + u + u'**3 = 0"), 4)
     assert flow.variables == ("a",)
-    assert same(flow.damping_expression(), -3 * a**2 / 8)
-    assert flow.damping_at(0.5) == -0.09375
+    assert same(flow.growth_rate_expression(), -3 * a**2 / 8)
+    assert flow.growth_rate_at(0.5) == -0.09375
     assert flow.to_dict()["weights"] == {}
 
 
 def test_json_of_one_small_parameter_keeps_its_keys() -> None:
     public = multiple_scales(find("damped-pendulum"), 2).to_dict()
-    assert list(public) == ["system", "method", "amplitude", "order", "weight", "variables", "frequency", "damping"]
-    assert public["damping"] == [{"powers": {"a": 0, "mu": 1}, "coefficient": "-1"}]
+    assert list(public) == ["system", "method", "amplitude", "order", "weight", "variables", "frequency", "growth_rate"]
+    assert public["growth_rate"] == [{"powers": {"a": 0, "mu": 1}, "coefficient": "-1"}]
     two = multiple_scales(make("u'' + c*u' + d*u'**3 + u"), 4).to_dict()
     assert (two["variables"], two["weights"]) == (["a", "c", "d"], {"c": 2, "d": 2})
 
@@ -273,7 +273,7 @@ def test_values_are_asked_for_by_name_and_number() -> None:
     with pytest.raises(InputError, match="d has no value"):
         flow.values({"c": 1, "d": None})
     with pytest.raises(InputError, match="1 values were given"):
-        flow.damping_at(0.5, 0.1)
+        flow.growth_rate_at(0.5, 0.1)
     with pytest.raises(InputError, match="one small parameter"):
         _ = flow.small
 
@@ -281,7 +281,7 @@ def test_values_are_asked_for_by_name_and_number() -> None:
 def test_code_has_the_arguments_that_the_flow_has() -> None:
     text = generate(multiple_scales(make("u'' + u + u'**3 = 0"), 4))
     assert "def omega0(a, k=1.0)" in text
-    assert "def damping(a, k=1.0)" in text
+    assert "def growth_rate(a, k=1.0)" in text
     text = generate(multiple_scales(make("u'' + c*u' + d*u'**3 + u"), 4))
     assert "def omega0(a, c, d, k=1.0)" in text
     assert "d_times_k" in generate(multiple_scales(make("u'' + d*u'**3 + u"), 4))  # cubic damping falls like 1/k
@@ -293,7 +293,7 @@ def test_code_has_the_arguments_that_the_flow_has() -> None:
 
 
 def at_k(flow: SlowFlow, k: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
-    both = flow.frequency_expression(), flow.damping_expression()
+    both = flow.frequency_expression(), flow.growth_rate_expression()
     return tuple(sympy.expand(e.subs(symbol("k"), k)) for e in both)  # type: ignore[return-value]
 
 
@@ -308,9 +308,9 @@ def test_symbolic_natural_frequency_is_the_numeric_one_written_out(square: str) 
 
 def test_irrational_frequency_with_a_plain_cubic_damping() -> None:
     flow, named = multiple_scales(make("u'' + 2*u + u'**3"), 4), multiple_scales(make("u'' + 2*u + d*u'**3"), 8)
-    assert same(flow.damping_expression(), sum(e for e in named.expressions(named.damping[:1])).subs(d, 1))
+    assert same(flow.growth_rate_expression(), sum(e for e in named.expressions(named.growth_rate[:1])).subs(d, 1))
     # a'/a = -3 k^2 a^2/8 and phi' = k + 9 k^3 a^4/256 with k^2 = 2.
-    assert same(flow.damping_expression(), -3 * a**2 / 4)
+    assert same(flow.growth_rate_expression(), -3 * a**2 / 4)
     assert same(flow.frequency_expression(), sympy.sqrt(2) * (1 + R(9, 128) * a**4))
 
 
@@ -320,7 +320,7 @@ def test_symbolic_frequency_that_does_not_scale_out() -> None:
     assert same(flow.frequency_expression(), k + 3 * a**2 / (8 * k) - 15 * a**4 / (256 * k**3))
     assert flow.residual() == []
     damped = multiple_scales(make("u'' + k**2*u + u'**3"), 4)
-    assert same(damped.damping_expression(), -3 * k**2 * a**2 / 8)
+    assert same(damped.growth_rate_expression(), -3 * k**2 * a**2 / 8)
     assert same(damped.frequency_expression(), k + 9 * k**3 * a**4 / 256)
 
 
@@ -431,7 +431,7 @@ def test_complex_slow_flow_is_both_equations() -> None:
     value = R(1, 5) * (1 + 2 * sympy.I)
     found = sympy.expand(flow.complex_expression().subs(z, value))
     size = 2 * sympy.Abs(value)
-    assert same(found, (flow.damping_expression() + sympy.I * flow.frequency_expression()).subs(a, size))
+    assert same(found, (flow.growth_rate_expression() + sympy.I * flow.frequency_expression()).subs(a, size))
 
 
 # -- limit cycles ----------------------------------------------------------------------------------------------------
@@ -462,7 +462,7 @@ def test_two_cycles_of_a_fifth_order_damping() -> None:
     # since u^2 u' averages to a^2/4 and u^4 u' to a^4/8.
     own = make("u'' + eps*(1 - 5*u**2 + 2*u**4)*u' + u = 0")
     flow = multiple_scales(own, 5, weight=1)
-    assert same(flow.damping_expression().coeff(eps, 1), (a**2 - 1) * (4 - a**2) / 8)
+    assert same(flow.growth_rate_expression().coeff(eps, 1), (a**2 - 1) * (4 - a**2) / 8)
     assert [s[0] for s in cycle_series(multiple_scales(own, 20, weight=1))] == [1, 4]
     found = fixed_points(flow, {"eps": "1/50"})
     assert [(round(float(p.amplitude), 3), p.stable) for p in found[:2]] == [(1, False), (2, True)]
@@ -501,7 +501,7 @@ def test_every_zero_is_enclosed_and_a_true_zero() -> None:
     for value in ("0.05", "0.5", "1", "1.5"):
         cycle = fixed_points(flow, {"eps": value})[0]
         assert cycle.square_series is not None  # followed from 4 all the way
-        terms = tuple(t for t in flow.damping if t.powers[1] <= flow.complete)  # type: ignore[operator]
+        terms = tuple(t for t in flow.growth_rate if t.powers[1] <= flow.complete)  # type: ignore[operator]
         delta = sum(flow.expressions(terms)).subs(eps, R(value))
         radius = R(1, 10**10)
         middle = R(str(float(cycle.amplitude)))
@@ -593,7 +593,7 @@ def test_closed_forms_solve_the_slow_flow_and_meet_the_taylor_steps(name: str) -
     amplitude, phase = found.amplitude.subs(numbers), found.phase.subs(numbers)
     for t in (R(0), R(3), R(17, 2)):
         now = {a: amplitude.subs(TIME, t), **small}
-        rate = (flow.damping_expression() * a).subs(now), flow.frequency_expression().subs(now)
+        rate = (flow.growth_rate_expression() * a).subs(now), flow.frequency_expression().subs(now)
         assert abs((amplitude.diff(TIME).subs(TIME, t) - rate[0]).evalf(40)) < 1e-35
         assert abs((phase.diff(TIME).subs(TIME, t) - rate[1]).evalf(40)) < 1e-35
     assert (amplitude.subs(TIME, 0), sympy.simplify(phase.subs(TIME, 0))) == (R(4, 5), R(1, 3))

@@ -1,0 +1,101 @@
+"""The signals that a file holds: one for each channel (column) and run (the file, or a value of a run column)."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.common.files import check_regular, read_regular
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.files.column_choice import (
+    SECONDS,
+    find_column,
+    name_and_units,
+    signal_indices,
+    time_index,
+    time_unit,
+)
+from ridgeback.numeric.files.columns import FILE_BUDGET, Columns
+from ridgeback.numeric.files.readers import READERS
+from ridgeback.numeric.recording.stretches import Rows
+from ridgeback.numeric.recording.uniform import MOST_SAMPLES
+from ridgeback.numeric.signal.samples import checked_rate
+
+Wanted = str | int | Sequence[str | int] | None
+
+
+@dataclass(frozen=True)
+class Signal:
+    """One channel of one run as the file has it: which rows of which column."""
+
+    columns: Columns
+    index: int
+    clock: int | None
+    rows: Rows
+    run: str
+    sha256: str
+
+
+def signals(
+    file: Path, wanted: Wanted, time_column: str | int | None, rate: float | None, run: str | int | None, file_run: str
+) -> Iterator[Signal]:
+    """The channels and runs of one file, which is itself the run ``file_run`` when no column tells runs."""
+    with suppress(FileNotFoundError):  # of which the suffix may be wrong, too
+        check_regular(file)
+    reader = READERS.get(file.suffix.lower())
+    if reader is None:
+        raise InputError(f"{file.name}: the suffix {file.suffix!r} is unknown; use one of {', '.join(READERS)}")
+    data = read_regular(file, FILE_BUDGET, "cut the recording into parts")
+    columns, digest = reader(data, file.name), hashlib.sha256(data).hexdigest()
+    columns = replace(columns, values=lru_cache(maxsize=2)(columns.values))  # the times, for channel after channel
+    clock = time_index(columns, time_column, rate)
+    by = None if run is None else find_column(columns, run)
+    for index in signal_indices(columns, wanted, (clock, by)):
+        if columns.sizes[index] > MOST_SAMPLES:
+            raise InputError(
+                f"{file.name}, column {columns.names[index]} has {columns.sizes[index]} samples, over {MOST_SAMPLES}; "
+                "cut the recording into parts"
+            )
+        for name, rows in runs_of(columns, by, columns.sizes[index]):
+            yield Signal(columns, index, clock, rows, ", ".join(text for text in (file_run, name) if text), digest)
+
+
+def runs_of(columns: Columns, by: int | None, size: int) -> list[tuple[str, Rows]]:
+    """Name and rows of each run, in the order in which the runs begin; one without a name when nothing tells them."""
+    if by is None:
+        return [("", np.arange(size))]
+    marks = columns.values(by)
+    if marks.size != size:
+        raise InputError(f"{columns.source}: run column {columns.names[by]} has {marks.size} rows, the signal {size}")
+    values, first = np.unique(marks[np.isfinite(marks)], return_index=True)
+    name = name_and_units(columns.names[by])[0]
+    return [(f"{name} {values[i]:g}", np.flatnonzero(marks == values[i])) for i in np.argsort(first)]
+
+
+def stamps(signal: Signal, size: int, rate: float | None) -> tuple[Array, str]:
+    """The time of each row of a signal, and a note where a given rate took the place of a time column."""
+    columns, clock = signal.columns, signal.clock
+    stated = columns.rate
+    if clock is None or rate is not None:
+        if stated is not None and clock is None and rate not in (None, stated):
+            raise InputError(f"{columns.source} states {stated:g} samples per second, not {rate:g}; leave the rate out")
+        used = checked_rate(rate if rate is not None else stated or 0.0)
+        note = "" if clock is None else f"the time column {columns.names[clock]} was replaced by the given rate"
+        return np.arange(signal.rows.size) / used, note
+    if columns.sizes[clock] != size:
+        raise InputError(
+            f"{columns.source}: {columns.names[signal.index]} has {size} samples, the time column "
+            f"{columns.names[clock]} {columns.sizes[clock]}; name columns of one length"
+        )
+    unit, seconds = time_unit(columns.names[clock])
+    note = "" if seconds == 1.0 else f"times in {unit} were converted to seconds"
+    if unit and unit.lower() not in SECONDS:
+        note = f"the unit of time, {unit}, is not known: what is printed per second is per {unit}"
+    return seconds * columns.values(clock)[signal.rows], note

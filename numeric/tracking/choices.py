@@ -1,0 +1,79 @@
+"""What an estimator used, as far as code reads it back from a track."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from enum import StrEnum
+
+
+class Scope(StrEnum):
+    """Of harmonic least squares: splines over the whole record, or a polynomial in a sliding window."""
+
+    LOCAL = "local"
+    GLOBAL = "global"
+
+
+class Definition(StrEnum):
+    """Of an amplitude: the size of the first harmonic, or the turning point."""
+
+    FUNDAMENTAL = "fundamental"
+    PEAK = "peak"
+
+
+@dataclass(frozen=True)
+class Choices:
+    """The settings that an estimator was given or chose from the data.
+
+    Parameters
+    ----------
+    start : float, optional
+        Time of the signal's first sample.
+    multiple : int
+        Which harmonic the track is of, 1 the fundamental.
+    scope : Scope, optional
+        That of harmonic least squares.
+    lag_seconds, smoothing_seconds, filter_seconds : float, optional
+        Full widths of the lag window, the smoothing along time and the low-pass, in time units.
+    cycles_per_knot : float, optional
+        Mean distance of a global model's knots.
+    harmonics : tuple of int
+        The multiples that were fitted, the fundamental included; empty where none were.
+    phase_degree, order : int, optional
+        Degree of the phase in a sliding window; number of factors of a polynomial lag product.
+    hysteresis : float, optional
+        Half width of the zone around zero in which crossings are not counted, in the signal's unit.
+    noise : float, optional
+        Standard deviation of the noise that was found, in the signal's unit.
+    one_sided_borders : bool
+        Whether values near the ends are fits to one side, and so of use although the window is not whole there.
+    decimated_by : int
+        How many samples of the record stand behind one sample of the signal that the track is of.
+    why : str
+        The reason for what was chosen, for display.
+
+    Examples
+    --------
+    >>> Choices(start=0.0, multiple=3, harmonics=(1, 3)).shown()
+    {'start': 0.0, 'multiple': 3, 'harmonics': (1, 3)}
+    """
+
+    start: float | None = None
+    multiple: int = 1
+    scope: Scope | None = None
+    lag_seconds: float | None = None
+    smoothing_seconds: float | None = None
+    filter_seconds: float | None = None
+    cycles_per_knot: float | None = None
+    harmonics: tuple[int, ...] = ()
+    phase_degree: int | None = None
+    order: int | None = None
+    hysteresis: float | None = None
+    noise: float | None = None
+    one_sided_borders: bool = False
+    decimated_by: int = 1
+    why: str = ""
+
+    def shown(self) -> dict[str, object]:
+        """What differs from its default, by name, for display."""
+        held = {item.name: (getattr(self, item.name), item.default) for item in fields(self)}
+        return {name: value for name, (value, default) in held.items() if value != default}
