@@ -25,7 +25,7 @@ FIGURES = {
         *("noise-error", "noise-ratio"),
     ],
     "recording": [
-        *(f"recording-{name}" for name in ("backbone", "damping", "signal", "plane", "tracks")),
+        *(f"recording-{name}" for name in ("backbone", "growth", "signal", "plane", "tracks")),
         *("identify-backbone", "identify-growth"),
         *(f"prediction-{name}" for name in ("amplitude", "frequency", "phase")),
     ],
