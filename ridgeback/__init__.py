@@ -55,6 +55,8 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.numeric.distributions.wigner import wigner as wigner
     from ridgeback.numeric.model_fit.fit import ModelFit as ModelFit
     from ridgeback.numeric.motion.dynamics import Dynamics as Dynamics
+    from ridgeback.numeric.motion.limit_cycle import periodic_orbit as periodic_orbit
+    from ridgeback.numeric.motion.limit_cycle import precise_orbit as precise_orbit
     from ridgeback.numeric.motion.trajectory import Trajectory as Trajectory
     from ridgeback.numeric.recording.recording import Recording as Recording
     from ridgeback.numeric.recording.recording import read_recording as read_recording
@@ -68,6 +70,9 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.symbolic.expansion.energy_integral import energy_integral as energy_integral
     from ridgeback.symbolic.expansion.expansion import Expansion as Expansion
     from ridgeback.symbolic.expansion.lindstedt import lindstedt as lindstedt
+    from ridgeback.symbolic.flow.fixed_points import cycle_series as cycle_series
+    from ridgeback.symbolic.flow.fixed_points import fixed_points as fixed_points
+    from ridgeback.symbolic.flow.fixed_points import frequency_series as frequency_series
     from ridgeback.symbolic.flow.multiple_scales import multiple_scales as multiple_scales
     from ridgeback.symbolic.flow.slow_flow import SlowFlow as SlowFlow
     from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes as lindstedt_by_primes

@@ -192,11 +192,21 @@ def _branches(flow: SlowFlow, m: fmpq) -> Iterator[tuple[arb, Series]]:
 
 
 def cycle_series(flow: SlowFlow) -> tuple[Series, ...]:
-    """The exact series of a^2 in the small parameter, one for each limit cycle that stays in reach as it vanishes.
+    """Return the exact series of a^2 in the small parameter m, one for each limit cycle that has one as m vanishes.
 
-    They stop at the last power that the terms kept in the flow determine.  Empty when there are none, or when the
-    flow has not exactly one small parameter.
+    Parameters
+    ----------
+    flow : SlowFlow
+        With one small parameter.
 
+    Returns
+    -------
+    tuple of tuple of sympy.Expr
+        Coefficients of the powers 0, 1, ... of the small parameter, through the last that the terms kept in the flow
+        determine; empty when there is no such cycle, or not exactly one small parameter.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.flow.multiple_scales import multiple_scales
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> cycle_series(multiple_scales(find("rayleigh"), 12, weight=1))
@@ -209,11 +219,30 @@ def cycle_series(flow: SlowFlow) -> tuple[Series, ...]:
 
 
 def frequency_series(flow: SlowFlow, square: Series) -> Series:
-    """phi' on a limit cycle in powers of the small parameter, from the series of a^2 there.
+    """Return phi' on a limit cycle in powers of the small parameter.
 
     Where the terms of a power of m come to an end, phi' = k + O(m) depends on a through m only and is known one power
-    further than a^2.  Raises InputError when a parameter is symbolic.
+    further than a^2.
 
+    Parameters
+    ----------
+    flow : SlowFlow
+        With one small parameter.
+    square : tuple of sympy.Expr
+        The series of a^2 there, as ``cycle_series`` gives it.
+
+    Returns
+    -------
+    tuple of sympy.Expr
+        Coefficients of the powers 0, 1, ..., in rad per time unit.
+
+    Raises
+    ------
+    InputError
+        When a parameter is symbolic.
+
+    Examples
+    --------
     >>> from ridgeback.symbolic.flow.multiple_scales import multiple_scales
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> flow = multiple_scales(find("van-der-pol"), 12, weight=1)
