@@ -90,7 +90,7 @@ def setting(
     duration
         Time to integrate over; by default forty natural periods.
     rate
-        Samples per time unit; by default 32 in a natural period.
+        Samples per time unit; by default 32 in a natural period, or a little more so that the last falls on the end.
     time_unit
         Name of the time unit; ``s`` has frequencies shown in hertz.
 
@@ -107,17 +107,29 @@ def setting(
     """
     oscillator = as_oscillator(oscillator)
     k = float(oscillator.natural_frequency.evalf(30))
+    span = CYCLES * 2 * np.pi / k if duration is None else float(duration)
     chosen = Setting(
         oscillator=oscillator,
         initial=oscillator.initial if initial is None else (float(initial[0]), float(initial[1])),
-        duration=CYCLES * 2 * np.pi / k if duration is None else float(duration),
-        rate=SAMPLES_PER_CYCLE * k / (2 * np.pi) if rate is None else float(rate),
+        duration=span,
+        rate=_whole_rate(SAMPLES_PER_CYCLE * k / (2 * np.pi), span) if rate is None else float(rate),
         time_unit=time_unit,
     )
     for name, value in (("duration", chosen.duration), ("rate", chosen.rate)):
         if not (np.isfinite(value) and value > 0):
             raise InputError(f"{name} {value:g} is not a positive number; use e.g. {name}=20")
     return chosen
+
+
+def _whole_rate(rate: float, duration: float) -> float:
+    """The next higher rate at which the last sample, and the last that is integrated twice, falls on the end.
+
+    >>> _whole_rate(5.09, 20.0)
+    5.2
+    """
+    if not (np.isfinite(duration) and duration > 0):
+        return rate
+    return float(CHECKED * np.ceil(rate * duration / CHECKED - 1e-9) / duration)
 
 
 @dataclass(frozen=True)
