@@ -124,7 +124,8 @@ class Range:
     order: int
     target: float
     up_to: float | None
-    """Largest studied amplitude below which the target holds everywhere; None when it holds nowhere."""
+    """The amplitude at which the error first passes the target, interpolated between studied ones; the last of them
+    when it never does, None when the first is beyond it."""
 
 
 @dataclass(frozen=True)

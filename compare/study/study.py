@@ -13,6 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.interpolate import PchipInterpolator
+from scipy.optimize import brentq
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
@@ -138,14 +140,14 @@ def study_of(
 
 
 def ranges(result: Study, target: float) -> tuple[Range, ...]:
-    """How far each order may be used: the largest studied amplitude before the first violation of a target.
+    """How far each order may be used: the amplitude at which its error first passes a target.
 
     Parameters
     ----------
     result
         A study.
     target
-        Relative error that must hold at every studied amplitude up to the one returned.
+        Relative error that must hold at every studied amplitude up to the one returned, which is interpolated.
 
     Raises
     ------
@@ -155,18 +157,43 @@ def ranges(result: Study, target: float) -> tuple[Range, ...]:
     Examples
     --------
     >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> [item.up_to for item in ranges(study(find("pendulum"), (2, 4), [0.5, 1.0, 2.0]), 1e-4)]
-    [0.5, 1.0]
+    >>> grid = np.linspace(0.1, 3.0, 30)
+    >>> [round(item.up_to, 3) for item in ranges(study(find("pendulum"), (2, 8), grid), 1e-3)]
+    [1.358, 2.214]
     """
     if not target > 0:
         raise InputError(f"target {target} is not positive; give a relative error such as 0.001")
     rising = np.argsort(result.amplitudes)
-    within = _within(result, target)[:, rising]
-    grid = result.amplitudes[rising]
+    grid, errors = result.amplitudes[rising], np.abs(result.relative_error[:, rising])
+    signs = np.sign(result.relative_error[:, rising])
     return tuple(
-        Range(order, target, float(grid[count - 1]) if count else None)
-        for order, count in zip(result.orders, np.cumprod(within, axis=1).sum(axis=1), strict=True)
+        Range(order, target, _reach(grid, error, sign, target))
+        for order, error, sign in zip(result.orders, errors, signs, strict=True)
     )
+
+
+def _reach(grid: Array, error: Array, sign: Array, target: float) -> float | None:
+    """The amplitude at which an error first passes the target; the last studied one when it never does.
+
+    Between two studied amplitudes ln |error| is interpolated over ln A, in which a truncated series is nearly
+    straight.  Where the error changes sign between them, the last amplitude at which the target holds is returned.
+    """
+    broken = np.flatnonzero(~(error <= target))
+    if not broken.size:
+        return float(grid[-1])
+    first = int(broken[0])
+    if first == 0:
+        return None
+    around = slice(max(0, first - 2), min(grid.size, first + 2))
+    x, y = np.log(grid[around]), error[around]
+    steady = np.isfinite(y).all() and (y > 0).all() and np.all(sign[around] == sign[first]) and x.size > 1
+    if not steady:
+        return float(grid[first - 1])
+    curve = PchipInterpolator(x, np.log(y) - math.log(target))
+    low, high = math.log(grid[first - 1]), math.log(grid[first])
+    if curve(low) >= 0:
+        return float(grid[first - 1])
+    return float(math.exp(brentq(lambda x: float(curve(x)), low, high, xtol=1e-12)))
 
 
 def order_needed(result: Study, target: float) -> tuple[Need, ...]:

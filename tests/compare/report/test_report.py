@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.numbers import relative
+from ridgeback.common.numbers import relative, rounded_down
 from ridgeback.common.progress import silent
 from ridgeback.common.quantities import amplitude
 from ridgeback.compare.motion import motion
@@ -78,7 +78,7 @@ def test_a_noise_study_over_its_budget_is_refused_with_a_reason_for_motions_and_
 def test_the_title_is_the_range_of_the_chosen_order(report):
     found = next(item for item in ranges(report.study, 1e-3) if item.order == 6)
     assert report.finding == found
-    assert report.title == f"Order 6 stays within 0.10 % up to A = {amplitude(found.up_to, '')}"
+    assert report.title == f"Order 6 stays within 0.10 % up to A = {amplitude(rounded_down(found.up_to, 4), '')}"
     row = np.abs(report.study.relative_error[report.study.orders.index(6)])
     assert (row[report.study.amplitudes <= found.up_to] <= 1e-3).all()
     assert row[report.study.amplitudes > found.up_to][0] > 1e-3
