@@ -9,6 +9,8 @@ from contextlib import suppress
 from types import TracebackType
 from typing import TextIO
 
+from ridgeback.common.progress import is_terminal
+
 
 class Progress:
     """One line on a terminal that says which step runs; silent when standard error is a file or a pipe.
@@ -43,11 +45,3 @@ class Progress:
         self, kind: type[BaseException] | None, error: BaseException | None, where: TracebackType | None
     ) -> None:
         self.show("")
-
-
-def is_terminal(stream: TextIO) -> bool:
-    """Whether somebody is looking; a closed stream has no viewer."""
-    try:
-        return stream.isatty()
-    except (OSError, ValueError, AttributeError):
-        return False

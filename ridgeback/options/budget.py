@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 import click
 
+from ridgeback.common.progress import is_terminal
 from ridgeback.console.failure import say
 from ridgeback.console.output import STDOUT, OutputPath, is_special, open_descriptor, output_path
-from ridgeback.console.progress import Progress, is_terminal
+from ridgeback.console.progress import Progress
 from ridgeback.options.arguments import shown, written
 from ridgeback.options.shared import Decorated
 

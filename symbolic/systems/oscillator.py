@@ -71,7 +71,7 @@ class Normalised:
     """The values of those symbols by their names, which no parameter can have."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Oscillator:
     """A named equation of motion with exact parameters.
 
@@ -110,6 +110,13 @@ class Oscillator:
         for name in ("parameters", "defaults"):
             object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
         self.check_at_origin()
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name} = {value}" for name, value in self.parameters.items() if value is not None)
+        return f"<Oscillator: {self.name}, {self.equation}{f' ({values})' if values else ''}>"
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.equation_latex}$"
 
     def __reduce__(self) -> tuple[Callable[..., Oscillator], tuple[type[Oscillator], dict[str, Any]]]:
         """Pickle by value (a mapping proxy cannot be), so that work can be sent to other processes."""

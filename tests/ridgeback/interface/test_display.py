@@ -195,3 +195,9 @@ def test_names_cannot_smuggle_markup() -> None:
     assert r"x\_1 \& 50\%" in latex
     hostile = ridgeback.Recording.from_arrays(X, RATE, name="<img src=x onerror=alert(1)>")
     assert "<img" not in hostile._repr_html_()
+
+
+def test_an_oscillator_is_a_line_and_its_equation() -> None:
+    pendulum = ridgeback.oscillator("pendulum", parameters={"k": 2})
+    assert repr(pendulum) == "<Oscillator: pendulum, theta'' + 2*mu*theta' + k**2*sin(theta) = 0 (mu = 0, k = 2)>"
+    assert r"\ddot" in pendulum._repr_latex_()

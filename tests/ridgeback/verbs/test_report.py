@@ -119,7 +119,8 @@ def test_missing_results_are_owned_up_to(tmp_path: Path, monkeypatch: pytest.Mon
 
     monkeypatch.setattr("ridgeback.reports.page.html_page", lambda _: "<html></html>")
     scores = (SimpleNamespace(label="Wigner peak", failed="too short"), SimpleNamespace(label="model", failed=""))
-    made = SimpleNamespace(title="t", cards=(), summary=(), decay=SimpleNamespace(scores=scores))
+    decay = SimpleNamespace(scores=scores)
+    made = SimpleNamespace(title="t", cards=(), summary=(), decay=decay, derivation=None)
     page = tmp_path / "page.html"
     with pytest.raises(PartialError, match="Wigner peak"):
         report.publish(made, str(page), "text")  # type: ignore[arg-type]
