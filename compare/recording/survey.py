@@ -6,13 +6,14 @@ backbones of the runs and stretches of one channel are then combined, since they
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Wanted, shown
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.backbone.combined import CombinedBackbone, combine
@@ -250,7 +251,7 @@ def measure_recordings(
     combine_over: str = "runs",
     harmonic: int = 1,
     halves: bool = False,
-    progress: Callable[[float, str], None] = lambda _, __: None,
+    progress: Wanted = None,
     **settings: object,
 ) -> Survey:
     """Measure every signal and combine their backbones.
@@ -267,7 +268,7 @@ def measure_recordings(
     harmonic, halves, **settings
         As for :func:`measure`.
     progress
-        Called with the share of the work that is done, 0 to 1, and the name of the step.
+        ``True`` shows a bar; a function is told the share of the work that is done, 0 to 1, and the step.
 
     Raises
     ------
@@ -278,12 +279,13 @@ def measure_recordings(
         raise InputError(f"combine {combine_over!r} is unknown; use one of {', '.join(COMBINE)}")
     measured: list[Measurement] = []
     refused: list[tuple[Recording, InputError]] = []
-    for i, recording in enumerate(recordings):
-        progress(i / len(recordings), f"estimating {recording.label}")
-        try:
-            measured.append(measure(recording, harmonic=harmonic, halves=halves, **settings))
-        except InputError as error:
-            refused.append((recording, error))
+    with shown(progress) as told:
+        for i, recording in enumerate(recordings):
+            told(i / len(recordings), f"estimating {recording.label}")
+            try:
+                measured.append(measure(recording, harmonic=harmonic, halves=halves, **settings))
+            except InputError as error:
+                refused.append((recording, error))
     if not measured:
         raise refused[0][1]
     good = {signal_of(m.recording) for m in measured}

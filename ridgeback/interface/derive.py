@@ -8,7 +8,7 @@ from typing import cast
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
-from ridgeback.common.progress import Wanted, shown
+from ridgeback.common.progress import Wanted
 from ridgeback.interface.source import known_form
 from ridgeback.symbolic.codegen import Formula, written
 from ridgeback.symbolic.codegen.closed_forms import mean_form, sine_series
@@ -89,13 +89,14 @@ def derive(
     if name == "multiple-scales":
         if amplitude not in (None, "fundamental"):
             raise InputError(f"multiple-scales has the fundamental amplitude, not {amplitude!r}; leave amplitude out")
-        return multiple_scales(system, order, weight=2 if weight is None else weight, weights=weights, budget=budget)
+        return multiple_scales(
+            system, order, weight=2 if weight is None else weight, weights=weights, budget=budget, progress=progress
+        )
     if weight is not None or weights is not None:
         raise InputError(f"weights belong to multiple-scales, not to {name}; leave them out")
     if name == "energy-integral":
         return energy_integral(system, order, amplitude=amplitude or "peak", budget=budget)
-    with shown(progress) as told:
-        return lindstedt(system, order, amplitude=amplitude or "peak", budget=budget, progress=told)
+    return lindstedt(system, order, amplitude=amplitude or "peak", budget=budget, progress=progress)
 
 
 def method_for(oscillator: Oscillator, method: str | None) -> str:

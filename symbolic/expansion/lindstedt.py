@@ -20,7 +20,7 @@ from __future__ import annotations
 from flint import fmpq
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.progress import Progress, silent
+from ridgeback.common.progress import Progress, Wanted, shown
 from ridgeback.symbolic.expansion.amplitude import DEFINITIONS, check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order
@@ -42,7 +42,7 @@ def lindstedt(
     *,
     amplitude: str = "peak",
     budget: Budget | None = None,
-    progress: Progress = silent,
+    progress: Wanted = None,
 ) -> Expansion:
     """Expand omega0 in the amplitude (conservative) or in eps (limit cycle) by Lindstedt's recursion.
 
@@ -58,8 +58,8 @@ def lindstedt(
         ``fundamental`` for a limit cycle.
     budget : Budget, optional
         What the derivation may cost; 10 minutes and 4 GB by default.
-    progress : callable, optional
-        Told the share of the work that is done and the order about to be found.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share of the work that is done and the order about to be found.
 
     Returns
     -------
@@ -86,12 +86,13 @@ def lindstedt(
     order = check_order(order)
     check_amplitude(oscillator, amplitude, DIRECT if oscillator.kind == "limit-cycle" else DEFINITIONS)
     budget = budget or Budget()
-    if oscillator.kind == "limit-cycle":
-        check("limit-cycle", order, budget)
-        return limit_cycle(oscillator, order, amplitude, watch=watching(progress, order))
-    if amplitude not in DIRECT:
-        return _conservative(oscillator, order, "peak", budget, progress).convert(amplitude)
-    return _conservative(oscillator, order, amplitude, budget, progress)
+    with shown(progress) as told:
+        if oscillator.kind == "limit-cycle":
+            check("limit-cycle", order, budget)
+            return limit_cycle(oscillator, order, amplitude, watch=watching(told, order))
+        if amplitude not in DIRECT:
+            return _conservative(oscillator, order, "peak", budget, told).convert(amplitude)
+        return _conservative(oscillator, order, amplitude, budget, told)
 
 
 STEEPNESS = 4
@@ -104,7 +105,7 @@ def watching(progress: Progress, order: int) -> BetweenOrders:
     >>> watching(lambda share, step: print(f"{share:.2f}", step), 3)(None, 2)
     0.06 order 2 of 3
     """
-    return lambda _, n: progress((n / (order + 1)) ** STEEPNESS, f"order {n} of {order}")
+    return lambda _, n: progress((n / (order + 1)) ** STEEPNESS, f"order {min(n, order)} of {order}")
 
 
 def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Budget, progress: Progress) -> Expansion:

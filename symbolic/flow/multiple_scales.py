@@ -27,6 +27,7 @@ from typing import Final
 import sympy
 from flint import fmpq
 
+from ridgeback.common.progress import Wanted, shown
 from ridgeback.symbolic.expansion.amplitude import check_name
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import check_order
@@ -42,6 +43,9 @@ from ridgeback.symbolic.systems.oscillator import U, V
 COEFFICIENT: Final = 2
 """What a symbolic coefficient counts when the cost is predicted: that of u^3 comes with a^2 each time."""
 
+STEEPNESS = 4
+"""Power of the order that the time of a derivation follows (``expansion.cost``)."""
+
 
 def multiple_scales(
     oscillator: OscillatorLike,
@@ -50,6 +54,7 @@ def multiple_scales(
     weight: int = 2,
     weights: Mapping[str, int] | None = None,
     budget: Budget | None = None,
+    progress: Wanted = None,
 ) -> SlowFlow:
     """Expand phi' and a'/a in the fundamental amplitude a and the small parameters m by multiple scales.
 
@@ -67,6 +72,8 @@ def multiple_scales(
         Weights of single parameters by name; 0 for one that is not small.
     budget : Budget, optional
         What the derivation may cost; 10 minutes and 4 GB by default.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the weighted degree about to be found.
 
     Returns
     -------
@@ -101,8 +108,10 @@ def multiple_scales(
     check("multiple-scales", order, budget or Budget(), weights=counted)
     frame = _Frame(natural, Parametric(natural.names))
     recursion = _Recursion(frame)
-    for n in range(2, order + 2):
-        recursion.step(n)
+    with shown(progress) as told:
+        for n in range(2, order + 2):
+            told((n / (order + 1)) ** STEEPNESS, f"weighted degree {min(n, order)} of {order}")
+            recursion.step(n)
     return SlowFlow(
         system=oscillator.name,
         order=order,

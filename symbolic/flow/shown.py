@@ -35,7 +35,7 @@ class ShownSlowFlow(Displayed):
         raise NotImplementedError
 
     @property
-    def damping(self) -> tuple[Term, ...]:
+    def growth_rate(self) -> tuple[Term, ...]:
         """The terms of a'/a."""
         raise NotImplementedError
 
@@ -52,7 +52,7 @@ class ShownSlowFlow(Displayed):
                 "coefficient": term.coefficient,
                 "decimal": decimal(term.coefficient),
             }
-            for relation, terms in (("phi'", self.frequency), ("a'/a", self.damping))
+            for relation, terms in (("phi'", self.frequency), ("a'/a", self.growth_rate))
             for term in terms
         ]
 
@@ -62,14 +62,14 @@ class ShownSlowFlow(Displayed):
 
     def headline(self) -> str:
         """System, method, order and the leading terms of both equations."""
-        phase, growth = (leading_text(self.expressions(terms)) for terms in (self.frequency, self.damping))
+        phase, growth = (leading_text(self.expressions(terms)) for terms in (self.frequency, self.growth_rate))
         return f"{self.system}, {self.method} to order {self.order}: phi' = {phase}; a'/a = {growth}"
 
     def formulas(self) -> tuple[str, ...]:
         """The leading terms of both equations."""
         return (
             r"\dot{\varphi} = " + leading_latex(self.expressions(self.frequency)),
-            r"\frac{\dot{a}}{a} = " + leading_latex(self.expressions(self.damping)),
+            r"\frac{\dot{a}}{a} = " + leading_latex(self.expressions(self.growth_rate)),
         )
 
     def _repr_html_(self) -> str:
