@@ -61,7 +61,12 @@ class Measurement:
     @property
     def usable(self) -> bool:
         """Whether any value is one that the estimator calls valid."""
-        return not isinstance(self.found, Track) or bool(self.found.valid.any())
+        return not self.noise if isinstance(self.found, HalfCycles) else bool(self.found.valid.any())
+
+    @property
+    def noise(self) -> str:
+        """Why noise alone explains the signal; empty where an oscillation stands out of it."""
+        return "" if self.found.presence is None else self.found.presence.reason
 
     def frequency(self) -> Along:
         """Frequency where it is valid with its 95 % interval: with the bias in it, where the estimator knows that."""
@@ -193,7 +198,8 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
         used = as_tracked(recording, found.samples)
         curve = backbone(track, used.values, used.rate, start=float(used.time[0]), exclude=marked(used))
     except InputError as error:
-        return Measurement(recording, track, None, (*recording.notes, f"No amplitude: {error}."))
+        reason = str(error) if track.presence is None or track.presence.found else track.presence.reason
+        return Measurement(recording, track, None, (*recording.notes, f"No amplitude: {reason}."))
     return Measurement(recording, track, curve, (*recording.notes, *curve.notes))
 
 

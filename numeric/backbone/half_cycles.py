@@ -29,6 +29,7 @@ from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.estimators.zero_crossing import crossing_samples, dead_zone, interpolate
 from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
 from ridgeback.numeric.signal.decimation import checked
+from ridgeback.numeric.signal.presence import Presence
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.choices import Definition
 from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, Request, prepared
@@ -78,6 +79,8 @@ class HalfCycles(ShownBackbone):
     settings: Mapping[str, object] = field(default_factory=dict)
     definition: Definition = Definition.PEAK
     units: str = ""
+    presence: Presence | None = None
+    """How well noise alone explains the signal."""
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -108,8 +111,10 @@ class HalfCycles(ShownBackbone):
     def backbone(self, exclude: Mask | None = None) -> Backbone:
         """Frequency and growth rate against peak amplitude, binned; ``exclude`` marks half cycles to leave out.
 
-        Raises InputError when fewer than four half cycles are clear of the noise.
+        Raises InputError when fewer than four half cycles are clear of the noise, and where all is noise.
         """
+        if self.presence is not None and not self.presence.found:
+            raise InputError(f"backbone: {self.presence.reason}")
         usable = np.isfinite(self.growth_rate) & (self.amplitude > CLEAR * self.amplitude_sd)
         usable &= np.ones_like(usable) if exclude is None else ~exclude
         if np.count_nonzero(usable) < 4:
@@ -163,7 +168,8 @@ def half_cycles(
     Returns
     -------
     HalfCycles
-        With the standard deviations that white noise of the measured level causes.
+        With the standard deviations that white noise of the measured level causes; NaN where noise alone explains
+        the signal.
 
     Raises
     ------
@@ -197,18 +203,24 @@ def half_cycles(
     found = np.array([turning_point(x, first, last) for first, last in pairwise(crossings.at.tolist())])
     at, peak, spread = found[:, 0] / rate, found[:, 1], noise * found[:, 2]
     growth_rate, growth_rate_sd = decrements(at, peak, spread)
+    known = 1.0 if request.presence.found else np.nan
     return HalfCycles(
         time=request.signal.start + 0.5 * (crossings.at[:-1] + crossings.at[1:]) / rate,
         omega=omega,
-        omega_sd=omega / period * np.hypot(error[:-1], error[1:]),
+        omega_sd=known * omega / period * np.hypot(error[:-1], error[1:]),
         amplitude=np.abs(peak),
-        amplitude_sd=spread,
+        amplitude_sd=known * spread,
         growth_rate=growth_rate,
-        growth_rate_sd=growth_rate_sd,
+        growth_rate_sd=known * growth_rate_sd,
         side=np.where(crossings.rising[:-1], 1.0, -1.0),
         offset=request.signal.offset,
         noise=noise,
-        settings={"start": samples.start, **request.details(noise=noise, hysteresis=hysteresis)},
+        settings={
+            "start": samples.start,
+            "noise_probability": request.presence.probability,
+            **request.details(noise=noise, hysteresis=hysteresis),
+        },
+        presence=request.presence,
     )
 
 

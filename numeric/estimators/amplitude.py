@@ -48,7 +48,7 @@ def estimate_amplitude(
     -------
     AmplitudeTrack
         The size of that harmonic, a(t) in x = a cos phi + ..., in the unit of ``x``: for the fundamental not the
-        turning point.  With deviation, bias and interval.
+        turning point.  With deviation, bias and interval; none of it where noise alone explains the signal.
 
     Raises
     ------
@@ -95,7 +95,7 @@ def amplitude_of(request: Request, multiple: int) -> AmplitudeTrack:
         bias_deviation=np.sqrt(apart**2 + models.remainder**2 * left),
         used=used,
         details=request.details(**how, seed=SEED),
-    )
+    ).held_against(request.presence)
 
 
 def sizes(model: SplineModel, multiple: int) -> tuple[Array, Array]:

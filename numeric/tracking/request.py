@@ -15,6 +15,7 @@ from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
 from ridgeback.numeric.signal.analytic import analytic_of
 from ridgeback.numeric.signal.band_limit import ringing
 from ridgeback.numeric.signal.decimation import Samples
+from ridgeback.numeric.signal.presence import Presence, presence
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import SearchBand, find_search_band, strongest_frequency
 from ridgeback.numeric.signal.windows import half_width
@@ -113,6 +114,12 @@ class Request:
         multiples = used.harmonics[1:] if used.harmonics else None
         plan = replace(self.plan, multiples=multiples, hysteresis=used.hysteresis)
         return replace(self, plan=plan, known_models=self.models)
+
+    @cached_property
+    def presence(self) -> Presence:
+        """Whether an oscillation stands out of the noise in the search band."""
+        limits, found = self.signal.search.limits, self.options.band is None
+        return presence(self.signal.x, self.signal.rate, limits=limits, whole=found)
 
     @property
     def half(self) -> int:

@@ -14,6 +14,7 @@ say the same things of their values.
   interval, which then holds that room too.
 - ``used``: the settings that code reads back; ``details``: what more there is to show; ``settings``: both, for display.
 - ``no_interval``: the reason why there is none where one was asked for.
+- ``presence``: how well noise alone explains the signal; where it does, nothing is valid and there is no interval.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask, as_rows, frozen, frozen_mask
+from ridgeback.numeric.signal.presence import Presence
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.choices import Choices, Definition
 from ridgeback.numeric.tracking.shown import Ends, ShownEstimate
@@ -72,6 +74,7 @@ class Estimated(ShownEstimate):
     details: Mapping[str, object]
     bias_removed: bool
     no_interval: str | None
+    presence: Presence | None
 
     def __post_init__(self) -> None:
         for name in ("time", self.QUANTITY, "standard_deviation", "bias", "bias_deviation"):
@@ -105,7 +108,9 @@ class Estimated(ShownEstimate):
     @property
     def settings(self) -> Mapping[str, object]:
         """What was used and what more there is to say, by name, for display."""
-        reason = {} if self.no_interval is None else {"no_interval": self.no_interval}
+        reason: dict[str, object] = {} if self.no_interval is None else {"no_interval": self.no_interval}
+        if self.presence is not None:
+            reason["noise_probability"] = self.presence.probability
         return MappingProxyType({**self.used.shown(), **self.details, "bias_removed": self.bias_removed, **reason})
 
     @property
@@ -120,6 +125,20 @@ class Estimated(ShownEstimate):
     def band(self) -> Ends | None:
         """The ends of the interval, for a picture."""
         return None if self.interval is None else Ends(*self.interval)
+
+    def held_against(self, noise: Presence) -> Self:
+        """The same values with how well noise alone explains the signal; none of them is valid where it does.
+
+        >>> track = Track(np.arange(2.0), np.ones(2), np.ones(2, bool), "example")
+        >>> judged = track.held_against(Presence(0.4, 1.0))
+        >>> judged.valid.tolist(), judged.settings["noise_probability"]
+        ([False, False], 0.4)
+        """
+        if noise.found:
+            return type(self)(**vars(self) | {"presence": noise})
+        nothing = dict.fromkeys(("standard_deviation", "bias", "bias_deviation"))
+        why = {"presence": noise, "valid": np.zeros(self.time.size, dtype=np.bool_), "no_interval": noise.reason}
+        return type(self)(**vars(self) | nothing | why)
 
     def inside(self) -> Self:
         """Return the valid part of the track."""
@@ -163,6 +182,8 @@ class Track(Estimated):
         Whether the bias is off the values.
     no_interval : str, optional
         Why there is no interval, where one was asked for.
+    presence : Presence, optional
+        How well noise alone explains the signal.
     misfit : Misfit, optional
         Of a fitted oscillator that is not what made the signal.
 
@@ -188,6 +209,7 @@ class Track(Estimated):
     ambiguous: Mask | None = None
     bias_removed: bool = False
     no_interval: str | None = None
+    presence: Presence | None = None
     misfit: Misfit | None = None
 
     @property
@@ -234,6 +256,7 @@ class AmplitudeTrack(Estimated):
     ambiguous: Mask | None = None
     bias_removed: bool = False
     no_interval: str | None = None
+    presence: Presence | None = None
 
     @property
     def definition(self) -> str:

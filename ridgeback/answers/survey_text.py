@@ -81,6 +81,15 @@ def misfit(one: Measurement) -> tuple[str, ...]:
     )
 
 
+def chance(one: Measurement) -> tuple[str, ...]:
+    """The sentence of the probability that all is noise."""
+    seen = one.found.presence
+    if seen is None:
+        return ()
+    what = "An oscillation stands out" if seen.found else "No oscillation stands out"
+    return (f"{what} of the noise, which alone shows as clear a peak with probability {seen.probability:.1g}.",)
+
+
 def asides(one: Measurement) -> list[str]:
     """What a table of numbers has no room for: the notes, and why there is no interval."""
     reason = None if one.track is None else one.track.no_interval
@@ -120,7 +129,7 @@ def one_text(one: Measurement, *, backbone: bool) -> str:
     """Heading, notes and table of one signal."""
     rows = rows_of(one, backbone=backbone)
     table = aligned(list(columns_of(rows)), rows) if rows else "no rows"
-    notes = "".join(f"\n{note}" for note in (*one.notes, *misfit(one)))
+    notes = "".join(f"\n{note}" for note in (*one.notes, *misfit(one), *chance(one)))
     return f"{heading(one)}{notes}\n\n{table}\n"
 
 

@@ -193,8 +193,10 @@ def refuse_empty(found: Survey, *, backbone: bool) -> None:
     """Raise PartialError where a signal gave nothing, or nothing that its estimator can bound the error of."""
     reasons = [f"{one.recording.label}: {said.rstrip('.')}" for one in found.measured for said in misfit(one)]
     reasons += [
-        f"{one.recording.label}: {one.method} found no sample whose error it can bound; give a longer recording or a "
-        "shorter --lag"
+        f"{one.recording.label}: {one.noise}; give a longer recording or a --band"
+        if one.noise
+        else f"{one.recording.label}: {one.method} found no sample whose error it can bound; give a longer recording "
+        "or a shorter --lag"
         for one in found.measured
         if not one.usable
     ]

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
+from ridgeback.cli import main
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.recording.recording import Recording
 from tests.ridgeback.conftest import Ridgeback
@@ -317,3 +318,20 @@ def test_a_checkpoint_is_no_output(
     assert done.code == 2
     assert "-o 'x.json' is the file of --checkpoint too" in done.err
     assert not (tmp_path / "x.json").exists()
+
+
+@pytest.mark.parametrize("more", [[], ["--half-cycles"], ["--backbone"]])
+def test_noise_is_said_to_be_noise(more: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "noise.csv"
+    x = np.random.default_rng(4).standard_normal(500)
+    path.write_text("u\n" + "\n".join(map(repr, x.tolist())))
+    code = main(["estimate", str(path), "--rate", "20", "--format", "json", *more])
+    captured = capsys.readouterr()
+    assert code == (2 if "--backbone" in more else 3)
+    assert "noise alone shows as clear a peak with probability" in captured.err
+    if not more:
+        found = json.loads(captured.out)
+        assert found["settings"]["noise_probability"] > 1e-3
+        assert not any(row["valid"] for row in found["track"])
+        assert main(["estimate", str(path), "--rate", "20"]) == 3
+        assert "No oscillation stands out of the noise" in capsys.readouterr().out
