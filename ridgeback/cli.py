@@ -97,12 +97,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     2
     """
     given = sys.argv[1:] if arguments is None else list(arguments)
+    os.environ["MPLBACKEND"] = "agg"  # no window is opened, and a name that matplotlib does not know ends its import
     sys.set_int_max_str_digits(max(LONGEST_INTEGER, sys.get_int_max_str_digits()))
     try:
         # Not `cli.main`, which turns a broken pipe into exit code 1 before anybody can see it.
         with stoppable(), cli.make_context("ridgeback", list(given), obj=tuple(given)) as context:
             cli.invoke(context)
-        sys.stdout.flush()
+        if sys.stdout is not None:
+            sys.stdout.flush()
     except click.exceptions.Exit as stop:
         return stop.exit_code
     except BrokenPipeError:

@@ -46,6 +46,16 @@ def bind(oscillator: OscillatorLike, *, values: Mapping[str, Value] | None = Non
 def _bound(bound: Oscillator) -> Dynamics:
     """The functions of one oscillator, which a report asks for several times."""
     _check_numbers(bound)
+    try:
+        return _in_doubles(bound)
+    except OverflowError:
+        raise InputError(
+            f"{bound.name}: a coefficient of the force is beyond the largest double, 1.8e308; use units in which the "
+            "parameters are of order 1"
+        ) from None
+
+
+def _in_doubles(bound: Oscillator) -> Dynamics:
     force, potential = bound.substituted_force, bound.substituted_potential
     scalar, precise = evaluator(force, (U, V), SCALAR), evaluator(force, (U, V), PRECISE)
     return Dynamics(

@@ -311,10 +311,17 @@ def _well_end(dynamics: Dynamics, side: float) -> float:
         if first == 0:
             raise InputError(f"{dynamics.name}: u = 0 is not a stable equilibrium: V' does not restore near it")
         if np.isnan(pull[first]):
-            return float(SCAN[first - 1])
+            return _edge(lambda u: restoring(side * u), float(SCAN[first - 1]), float(SCAN[first]))
         if pull[first] == 0 and pull[first - 1] < _UNDERFLOW:
             return math.inf
         return _equilibrium(lambda u: side * restoring(side * u), SCAN[first - 1], SCAN[first])
+
+
+def _edge(pull: Callable[[Array], Array], inside: float, outside: float) -> float:
+    """The last place that has a force, by bisection down to neighbouring doubles."""
+    while inside < (middle := 0.5 * (inside + outside)) < outside:
+        inside, outside = (inside, middle) if np.isnan(pull(np.array([middle]))[0]) else (middle, outside)
+    return inside
 
 
 def _equilibrium(pull: Callable[[Array], Array], inside: float, outside: float) -> float:

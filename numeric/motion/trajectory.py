@@ -180,9 +180,28 @@ def check_request(
             raise InputError(f"{label} = {value} must be finite and positive")
     _check_budget(dynamics, duration, rate)
     check_inside(dynamics, u, 0.0, well(dynamics))
-    if v == 0 and (u == 0 or dynamics.force(u, 0.0) == 0):
+    pull = checked_force(dynamics, u, v)
+    if v == 0 and (u == 0 or pull == 0):
         raise InputError(f"{dynamics.name}: (u, u') = ({u:g}, 0) is an equilibrium and stays there; start elsewhere")
     return u, v
+
+
+def checked_force(dynamics: Dynamics, u: float, v: float) -> float:
+    """The force at a state; raises InputError where it has none, as left of a pole, or none that is a double.
+
+    >>> from ridgeback.numeric.motion.dynamics import duffing
+    >>> checked_force(duffing(eps=1.0), 1e154, 0.0)
+    Traceback (most recent call last):
+        ...
+    ridgeback.common.errors.InputError: duffing: the force at (u, u') = (1e+154, 0) is no finite number; start elsewhere
+    """
+    try:
+        pull = dynamics.force(u, v)
+    except (ArithmeticError, ValueError):
+        pull = math.nan
+    if not math.isfinite(pull):
+        raise InputError(f"{dynamics.name}: the force at (u, u') = ({u:g}, {v:g}) is no finite number; start elsewhere")
+    return pull
 
 
 def _check_budget(dynamics: Dynamics, duration: float, rate: float) -> None:

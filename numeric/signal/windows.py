@@ -61,13 +61,18 @@ def window_slope(name: str, half: int) -> Array:
 def half_width(seconds: float, rate: float, *, name: str = "lag_seconds", longest: int | None = None) -> int:
     """Samples on each side of the centre of a window that spans ``seconds`` of signal, ``2 half / rate``.
 
-    Raises InputError when the width is not positive and finite, or longer than ``longest`` samples.
+    Raises InputError when the width is not positive and finite, below one step, or longer than ``longest`` samples.
 
     >>> half_width(3.0, 32.0)
     48
     """
     if not (math.isfinite(seconds) and seconds > 0.0):
         raise InputError(f"{name} {seconds} is not a positive width; use for example {8 / rate:.4g}")
+    if seconds * rate < 1.0:
+        raise InputError(
+            f"{name} {seconds:.4g} is shorter than the step between two samples, {1.0 / rate:.4g}; "
+            f"use for example {8 / rate:.4g}"
+        )
     half = max(1, round(0.5 * seconds * rate))
     if longest is not None and 2 * half + 1 > longest:
         raise InputError(

@@ -7,9 +7,13 @@ import io
 import math
 from collections.abc import Iterable, Sequence
 
+from ridgeback.common.visible import no_formula
+
 
 def cell(value: object) -> str:
     """A value for CSV: floats with every digit they need to be read back the same, nothing for a missing one.
+
+    Text that a spreadsheet would take for a formula is quoted.
 
     >>> cell(0.1), cell(None), cell(float("nan")), cell(True), cell(3)
     ('0.1', '', '', 'true', '3')
@@ -20,7 +24,7 @@ def cell(value: object) -> str:
         return "true" if value else "false"
     if isinstance(value, float):
         return repr(float(value)) if math.isfinite(value) else ""
-    return str(value)
+    return no_formula(str(value)) if isinstance(value, str) else str(value)
 
 
 def csv_text(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
@@ -31,6 +35,6 @@ def csv_text(header: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(header)
+    writer.writerow(map(no_formula, header))
     writer.writerows([cell(value) for value in row] for row in rows)
     return text.getvalue()

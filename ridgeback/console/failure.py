@@ -64,6 +64,11 @@ def verdict(error: BaseException) -> tuple[Exit, str]:
             return Exit.PARTIAL, str(error)
         case OSError():
             return Exit.ENVIRONMENT, describe_system_error(error)
+        case OverflowError():
+            return Exit.BAD_INPUT, (
+                f"a number on the way is beyond the largest double, 1.8e308 ({error}); use units in which parameters, "
+                "amplitudes and times are of order 1"
+            )
         case MemoryError():
             return (
                 Exit.ENVIRONMENT,

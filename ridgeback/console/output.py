@@ -17,6 +17,7 @@ from typing import Any
 import click
 
 from ridgeback.common.files import naming, write_whole
+from ridgeback.common.visible import visible
 
 STDOUT = "-"
 DESCRIPTORS = {"/dev/stdin": "/dev/fd/0", "/dev/stdout": "/dev/fd/1", "/dev/stderr": "/dev/fd/2"}
@@ -135,11 +136,14 @@ def same_file(one: str, other: str) -> bool:
 
 
 def write_text(path: str, text: str) -> None:
-    """Write the whole text, or leave what was there; ``-`` prints it, devices and pipes are written to."""
+    """Write the whole text, or leave what was there; ``-`` prints it, devices and pipes are written to.
+
+    Characters of names that would act on a terminal or a page are written as their escapes.
+    """
     if path == STDOUT:
         print_text(text)
     else:
-        write_bytes(path, text.encode("utf-8", "backslashreplace"))
+        write_bytes(path, visible(text).encode("utf-8", "backslashreplace"))
 
 
 def write_bytes(path: str, data: bytes) -> None:
@@ -158,6 +162,9 @@ def write_bytes(path: str, data: bytes) -> None:
 
 def print_text(text: str) -> None:
     """Print the whole text: an unbuffered standard output may take a part of it and say so only by a number."""
+    text = visible(text)
+    if sys.stdout is None:
+        raise OSError(errno.EBADF, "standard output is closed; open it, or name a file with -o")
     binary = getattr(sys.stdout, "buffer", None)
     if binary is None:
         sys.stdout.write(text)

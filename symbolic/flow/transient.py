@@ -44,6 +44,8 @@ SETTLED: Final = 1e-10
 """Deviation from a limit cycle whose square no longer counts, relative to s; a hundred times that to L/curvature."""
 NEGLIGIBLE: Final = 1e-15
 """What the higher powers of s may add near rest, relative to the rate of decay."""
+LARGEST: Final = 1e15
+"""Amplitudes beyond, and below its inverse, have powers that are no doubles."""
 MOST_PHASE: Final = 2.0**52 * 1e-6
 """Phases beyond, in rad, are spaced by more than 1e-6: cos(phi) would have lost the digits that are printed."""
 
@@ -214,6 +216,11 @@ def _checked(time: Sequence[float], amplitude: float) -> tuple[float, ...]:
         raise InputError("the times of a transient must be finite and rise; give e.g. 0, 1, 2")
     if not (math.isfinite(amplitude) and amplitude > 0):
         raise InputError(f"the starting amplitude {amplitude!r} is not a positive number; use e.g. 0.5")
+    if not 1.0 / LARGEST <= amplitude <= LARGEST:
+        raise InputError(
+            f"the starting amplitude {amplitude:g} is outside {1.0 / LARGEST:g} .. {LARGEST:g}, where its powers are "
+            "doubles; use e.g. 0.5"
+        )
     return times
 
 

@@ -244,7 +244,7 @@ def test_what_a_table_has_no_room_for_is_said(ridgeback: Ridgeback, tmp_path: Pa
     wanted = [*public["notes"], f"No interval: {reason}."]
     *said, last = done.err.splitlines()
     assert said == [f"ridgeback: a.csv, u: {note}" for note in wanted]
-    assert "found no sample whose error it can bound" in last
+    assert "no oscillation stands out of the noise" in last
 
 
 @pytest.mark.parametrize("style", ["text", "json", "csv"])
