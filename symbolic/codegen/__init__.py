@@ -12,6 +12,7 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TypeAlias
 
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.codegen.accurate import accurate
 from ridgeback.symbolic.codegen.build import expansion_form, slow_flow_form
 from ridgeback.symbolic.codegen.closed_forms import MeanForm, SineSeries
 from ridgeback.symbolic.codegen.languages.registry import find_language, languages
@@ -148,7 +149,10 @@ def _built(result: Formula, request: CodeRequest) -> Form:
 def finished(form: Form, request: CodeRequest) -> Form:
     """A form under its name and in its mode, with its proofs, the version and the hash of all that went into it."""
     name = checked_identifier(request.name) if request.name else identifier(form.name)
-    made = annotated(replace(form, name=name, mode=request.mode, real=request.real, version=_version()))
+    plain = replace(form, name=name, mode=request.mode, real=request.real, version=_version())
+    if request.mode == "accurate":
+        plain = replace(plain, functions=tuple(accurate(plain, f) for f in plain.functions))
+    made = annotated(plain)
     return replace(made, digest=hashlib.sha256(repr(made).encode()).hexdigest()[:DIGEST])
 
 

@@ -53,7 +53,8 @@ _OWN: Final = """
 k omega0 omega0_slope amplitude growth_rate a A out count index table values motion mean t i j n w
 result quotient k_inverse k_squared_inverse scaled rest root fall rise inner moved distance vanishing grown half_angle
 total gap area ratio m ell q theta theta_squared turn taken pairs odd sign even uneven cosine sine twice u high low
-high_share low_share high_inside low_inside head fraction block start stop size point points expected given failed
+high_share low_share high_inside low_inside rounded product lost sum_low share head fraction block
+start stop size point points expected given failed
 """
 _TAKEN: Final = frozenset(" ".join((_C, _CPP, _RUST, _JULIA, _MATLAB, _JAVASCRIPT, _FORTRAN, _PYTHON, _OWN)).split())
 _FOLDED: Final = frozenset(word.lower() for word in _TAKEN)

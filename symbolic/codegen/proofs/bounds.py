@@ -10,17 +10,17 @@ and the product that also give their rounding error give it exactly: what is los
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final
 
-from flint import arb, ctx
+from flint import arb, ctx, fmpq
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.arithmetic.balls import ball
+from ridgeback.symbolic.arithmetic.balls import ball, whole_power
 from ridgeback.symbolic.codegen.number import Number, Real, fraction
-from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operand, Operation, Statement, Step
+from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operand, Operation, Statement, Step, operands_of
 
 BITS: Final = 128
 WORK: Final = 12000
@@ -30,12 +30,17 @@ SHARP: Final = arb(1.02)
 """A box whose bound is so near to that at its middle is not halved."""
 
 
+ZERO: Final = arb(0)
+
+
 @dataclass(frozen=True)
 class Computed:
     """A value over a box: ``exact`` holds its exact values, the computed ones are within ``error`` of them."""
 
     exact: arb
     error: arb
+    before: arb = ZERO
+    """The part of the error that was there before the last rounding."""
 
 
 @dataclass(frozen=True)
@@ -49,10 +54,13 @@ class Bound:
 
 
 def half_spacing(size: arb, real: Real) -> arb:
-    """Half the distance between neighbouring numbers at the upper end of a size; infinite beyond the largest.
+    """How far rounding may move a value of at most this size; infinite beyond the largest number.
+
+    That is half the distance between neighbouring numbers; just above a power of two, where the distance doubles, no
+    more than what the size exceeds the power by, since the power itself is a number.
 
     >>> from ridgeback.symbolic.codegen.number import FLOAT64
-    >>> half_spacing(arb(1), FLOAT64) == arb(2) ** -53, half_spacing(arb(0.99), FLOAT64) == arb(2) ** -54
+    >>> half_spacing(arb(1.5), FLOAT64) == arb(2) ** -53, half_spacing(arb(1), FLOAT64) == arb(2) ** -54
     (True, True)
     """
     top = size.upper()
@@ -60,9 +68,11 @@ def half_spacing(size: arb, real: Real) -> arb:
         return arb("inf")
     mantissa, exponent = top.man_exp()
     e = int(mantissa).bit_length() + int(exponent) if mantissa != 0 else real.low
-    if e >= real.high:
+    if e > real.high:
         return arb("inf")
-    return arb(2) ** (max(e - real.digits, real.low) - 1)
+    whole, below = (arb(2) ** (max(n - real.digits, real.low) - 1) for n in (e, e - 1))
+    excess = top - arb(2) ** (e - 1)
+    return excess if below <= excess <= whole else below if excess < below else whole
 
 
 class _Analysis:
@@ -79,6 +89,12 @@ class _Analysis:
                 self._step(statement)
         return self.of(result)
 
+    def run_to_sum(self, body: Sequence[Statement], exact: arb) -> Computed:
+        """The same for code that ends with the sum of a value and its low part, whose exact sum is known better."""
+        last = body[-1]
+        self.run(body[:-1], Number(fmpq(0)))
+        return self.rounded(exact, sum((self.of(o).error for o in operands_of(last)), arb(0)))
+
     def of(self, operand: Operand) -> Computed:
         if isinstance(operand, str):
             return self.known[operand]
@@ -87,7 +103,7 @@ class _Analysis:
         return self.constants[id(operand)]
 
     def rounded(self, exact: arb, error: arb) -> Computed:
-        return Computed(exact, (error + half_spacing(abs(exact) + error, self.real)).upper())
+        return Computed(exact, (error + half_spacing(abs(exact) + error, self.real)).upper(), error.upper())
 
     def _horner(self, horner: Horner) -> None:
         for step in horner.steps():
@@ -110,9 +126,9 @@ class _Analysis:
                 exact, error = product(x[0], x[1])
                 if any(is_power_of_two(one) for one in x):
                     lost = half_spacing(abs(exact) + error, self.real)  # of an overflow; the rest is for an underflow
-                    return Computed(
-                        exact, (error + arb(2) ** (self.real.low - 1)).upper() if lost.is_finite() else lost
-                    )
+                    whole = (error + arb(2) ** (self.real.low - 1)).upper() if lost.is_finite() else lost
+                    one, other = x if is_power_of_two(x[0]) else (x[1], x[0])
+                    return Computed(exact, whole, (abs(one.exact) * other.before).upper())
                 return self.rounded(exact, error)
             case Operation.MULTIPLY_ADD:
                 exact, error = product(x[0], x[1])
@@ -189,9 +205,25 @@ def bound(form: Form, function: Function) -> Bound | None:
 
         def run(box: arb) -> Computed:
             analysis = _Analysis({**fixed, variable: Computed(box, arb(0))}, form, constants)
+            if form.mode == "accurate" and function.polynomial is not None:
+                return analysis.run_to_sum(function.body, exact_value(function, fixed, box))
             return analysis.run(function.body, function.result)
 
         return _over(function, run, form.real)
+
+
+def exact_value(function: Function, fixed: Mapping[str, Computed], box: arb) -> arb:
+    """A polynomial in one variable on a ball, by its exact coefficients."""
+    polynomial = function.polynomial
+    assert polynomial is not None  # noqa: S101 - asked only where there is one
+    powers = {p[0]: c for p, c in polynomial.terms.items()}
+    total = arb(0)
+    low, high = min(powers, default=0), max(powers, default=0)
+    stride = 2 if all((p - low) % 2 == 0 for p in powers) else 1
+    for p in range(high, low - 1, -stride):
+        total = total * whole_power(box, stride) + (powers[p].ball if p in powers else 0)
+    total = total * whole_power(box, low)
+    return total * fixed[polynomial.factor].exact if polynomial.factor else total
 
 
 def _over(function: Function, run: Callable[[arb], Computed], real: Real) -> Bound:
@@ -241,8 +273,32 @@ def _worst(function: Function, found: list[Computed], real: Real, high: Fraction
     if any(one.exact.contains(0) for one in found):
         return Bound(None, absolute, None)
     relative = [(one.error / one.exact.abs_lower()).upper() for one in found]
-    ulps = [(one.error / (2 * half_spacing(one.exact.abs_lower(), real))).upper() for one in found]
-    return Bound(max(map(upper, relative)), absolute, max(map(upper, ulps)))
+    return Bound(max(map(upper, relative)), absolute, max(upper(in_last_places(one, real)) for one in found))
+
+
+def in_last_places(one: Computed, real: Real) -> arb:
+    """The error in units of the last place of the exact value; on both sides of a power of two in the box apart.
+
+    The unit doubles there, and so does what the last rounding can do.
+    """
+    low, high = abs(one.exact).lower(), abs(one.exact).upper()
+    mantissa, exponent = high.man_exp()
+    edge = arb(2) ** (int(mantissa).bit_length() + int(exponent) - 1)
+    if not low < edge < high:
+        return (one.error / last_place(low, real)).upper()
+    below = one.before + half_spacing(edge + one.before, real)
+    return arb(arb.max(below / last_place(low, real), one.error / last_place(edge, real)).upper())
+
+
+def last_place(size: arb, real: Real) -> arb:
+    """The distance of a number of this size to the next larger one.
+
+    >>> from ridgeback.symbolic.codegen.number import FLOAT64
+    >>> last_place(arb(1), FLOAT64) == arb(2) ** -52
+    True
+    """
+    mantissa, exponent = size.lower().man_exp()
+    return arb(2) ** max(int(mantissa).bit_length() + int(exponent) - real.digits, real.low)
 
 
 def upper(x: arb) -> Fraction:

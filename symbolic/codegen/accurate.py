@@ -1,0 +1,132 @@
+r"""Mode ``accurate``: the last steps of Horner's rule with their rounding errors carried along.
+
+A value is the unevaluated sum H + L.  With p + e = H x and s + t = p + c exactly (``TWO_PRODUCT``, ``TWO_SUM``),
+
+    H' = s,      L' = (t + (e + (H x_low + L x))) + c_low,
+
+x + x_low being the exact square of the argument, and c + c_low the exact coefficient to twice the digits: compensated
+Horner (S. Graillat, P. Langlois and N. Louvet, Algorithms for accurate, validated and fast polynomial evaluation, Japan
+J. Indust. Appl. Math. 26, 2009).  Only so many steps are carried as the proved bound asks for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+from typing import Final
+
+from flint import fmpq
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.codegen.number import Number, Real, fraction
+from ridgeback.symbolic.codegen.program import (
+    Form,
+    Function,
+    Horner,
+    Operand,
+    Operation,
+    Statement,
+    Step,
+    Steps,
+    needed,
+)
+from ridgeback.symbolic.codegen.proofs.bounds import bound
+
+GOAL: Final = Fraction(51, 100)
+"""Units in the last place that the bound should come to."""
+
+
+def accurate(form: Form, function: Function) -> Function:
+    """The function with as few compensated steps as bring its bound to ``GOAL``, or all of them.
+
+    Raises InputError for a function that is not Horner's rule in one variable, times powers and k.
+    """
+    place = _place(function)
+    length = len(function.body[place].coefficients)  # type: ignore[union-attr]
+    count = 1
+    while True:
+        made = _compensated(function, place, count, form.real)
+        if count == length - 1:
+            break
+        found = bound(form, made)
+        if found is not None and found.ulps is not None and found.ulps <= GOAL:
+            break
+        count = min(2 * count, length - 1) if found is not None and found.ulps is not None else length - 1
+    return made
+
+
+def _place(function: Function) -> int:
+    """Where Horner's rule is."""
+    places = [i for i, statement in enumerate(function.body) if isinstance(statement, Horner)]
+    rest = function.body[places[0] + 1 :] if len(places) == 1 else ()
+    plain = all(isinstance(s, Step) and s.operation is Operation.MULTIPLY for s in rest)
+    if len(places) != 1 or not plain or function.polynomial is None:
+        raise InputError(
+            f"mode accurate is written for polynomials in one variable, and {function.name} is none; use strict"
+        )
+    return places[0]
+
+
+class _Pair:
+    """H + L as statements are added."""
+
+    def __init__(self, steps: Steps, high: str) -> None:
+        self.steps, self.high = steps, high
+        self.low: Operand | None = None
+
+    def times(self, x: Operand, x_low: str | None) -> None:
+        """(H + L)(x + x_low), without L x_low."""
+        steps, shares = self.steps, []
+        if x_low is not None:
+            shares.append(steps.multiply("high_share", self.high, x_low))
+        if self.low is not None:
+            shares.append(steps.multiply("low_share", self.low, x))
+        self.high = steps.assign("product", Operation.TWO_PRODUCT, self.high, x, rest="lost")
+        for share in shares:
+            steps.add("lost", "lost", share)
+        self.low = "lost"
+
+    def plus(self, c: Number) -> None:
+        """(H + L) + c, after a product."""
+        steps = self.steps
+        nearest = Fraction(c.nearest)
+        high = steps.number(fmpq(nearest.numerator, nearest.denominator))
+        self.high = steps.assign("sum", Operation.TWO_SUM, self.high, high, rest="sum_low")
+        self.low = steps.add("sum_low", "sum_low", self.low or steps.number(0))
+        rest = fraction(c.exact) - nearest if isinstance(c.exact, fmpq) else Fraction(0)
+        if rest:
+            steps.add("sum_low", self.low, steps.number(fmpq(rest.numerator, rest.denominator)))
+
+
+def _compensated(function: Function, place: int, count: int, real: Real) -> Function:
+    horner = function.body[place]
+    assert isinstance(horner, Horner)  # noqa: S101 - ``_place`` has seen to it
+    steps = Steps(real)
+    x_low = _before(steps, function.body[:place], horner.at)
+    kept, last = horner.coefficients[count:], horner.coefficients[:count]
+    if len(kept) > 1:
+        steps.taken.append(replace(horner, coefficients=kept))
+    else:
+        steps.multiply(horner.name, kept[0] or steps.number(0), steps.number(1))
+    pair = _Pair(steps, horner.name)
+    for coefficient in reversed(last):
+        pair.times(horner.at, x_low)
+        if coefficient is not None:
+            pair.plus(coefficient)
+    for statement in function.body[place + 1 :]:
+        factor = statement.operands[0] if isinstance(statement, Step) else horner.at
+        pair.times(factor, x_low if factor == horner.at else None)
+    result = steps.add("rounded", pair.high, pair.low or steps.number(0))
+    return replace(function, body=needed(steps.taken, result), result=result)
+
+
+def _before(steps: Steps, body: tuple[Statement, ...], at: str) -> str | None:
+    """What stands before Horner's rule; the square of the argument keeps its rounding error, whose name is returned."""
+    rest = None
+    for statement in body:
+        if isinstance(statement, Step) and statement.name == at and len(set(statement.operands)) == 1:
+            rest = f"{at}_low"
+            steps.assign(at, Operation.TWO_PRODUCT, *statement.operands, rest=rest)
+        else:
+            steps.taken.append(statement)
+    return rest
