@@ -16,7 +16,7 @@ from ridgeback.symbolic.systems.oscillator import Oscillator
 
 def known_form(
     oscillator: Oscillator,
-    series: Expansion | SlowFlow,
+    series: Expansion | SlowFlow | None,
     result: Formula,
     *,
     up_to: Fraction | None = None,
@@ -25,10 +25,11 @@ def known_form(
     real: str = "float64",
     motion: bool = False,
 ) -> Form:
-    """The coefficient form of a formula of an oscillator; ``series`` is what it was made of."""
-    limit = Undamped(oscillator).limit if series.amplitude == "peak" and not free(oscillator) else None
+    """The coefficient form of a formula of an oscillator; ``series`` is what it was made of, if it was of one."""
+    peak = series is None or series.amplitude == "peak"
+    limit = Undamped(oscillator).limit if peak and not free(oscillator) else None
     end, facts = up_to, tuple[str, ...]()
-    if not isinstance(series, SlowFlow) and not isinstance(result, SlowFlow):
+    if series is not None and not isinstance(series, SlowFlow) and not isinstance(result, SlowFlow):
         end = end or end_of(oscillator, series, result, limit)
         facts = () if end is None else certified_facts(oscillator, result, end)
     return form_of(

@@ -30,10 +30,14 @@ class Code:
     name: str = ""
     motion: bool = False
     check: bool = False
+    gappa: bool = False
     resummed: str | None = None
     degrees: tuple[int, int] | None = None
     growth: Fraction | None = None
     terms: int | None = None
+    fit: str | None = None
+    degree: int | None = None
+    tolerance: Fraction | None = None
     up_to: Fraction | None = None
 
     def check_together(self) -> None:
@@ -44,6 +48,14 @@ class Code:
                     raise click.UsageError(f"--{name} needs --resummed; leave it out")
         if (self.terms is not None) != (self.resummed == "sine"):
             raise click.UsageError("--terms and --resummed sine go together; give both or none")
+        if self.gappa and self.language != "c":
+            raise click.UsageError("--gappa goes with --language c; leave it out")
+        if self.fit is None and (self.degree is not None or self.tolerance is not None):
+            raise click.UsageError("--degree and --tolerance need --fit minimax; leave them out")
+        if self.fit is not None and (self.up_to is None or (self.degree is None) == (self.tolerance is None)):
+            raise click.UsageError("--fit needs --up-to, and --degree or --tolerance")
+        if self.fit is not None and (self.resummed is not None or self.motion):
+            raise click.UsageError("--fit stands by itself; leave out --resummed and --motion")
         if self.motion and self.resummed is not None:
             raise click.UsageError("--motion belongs to a series, not to --resummed; leave one of them out")
         if self.up_to is not None and self.up_to <= 0:
@@ -83,6 +95,9 @@ OPTIONS = (
     click.option("--name", default="", metavar="WORD", help="Identifier of what is written.  Default: the system's."),
     click.option("--motion", is_flag=True, help="Write u(t) and its harmonics too."),
     click.option(
+        "--gappa", is_flag=True, help="With C and -o: a script beside it by which Gappa proves the rounding again."
+    ),
+    click.option(
         "--check", is_flag=True, help="Compile the code with the tools of this machine and run its self-test."
     ),
     click.option(
@@ -103,6 +118,20 @@ OPTIONS = (
         "--growth", type=written(rational), default=None, metavar="P", help="With --resummed map: see derive."
     ),
     click.option("--terms", type=int, default=None, metavar="N", help="With --resummed sine: terms of the series."),
+    click.option(
+        "--fit",
+        type=click.Choice(("minimax",)),
+        default=None,
+        help="In place of a series: the polynomial in A^2 next to the exact frequency up to --up-to, its error proved.",
+    ),
+    click.option("--degree", type=int, default=None, metavar="D", help="With --fit: degree in A^2."),
+    click.option(
+        "--tolerance",
+        type=written(rational),
+        default=None,
+        metavar="E",
+        help="With --fit: the lowest degree whose error, relative to k, is at most this.",
+    ),
     click.option(
         "--up-to",
         type=written(rational),

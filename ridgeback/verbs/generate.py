@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from ridgeback.answers.resummation import resummed_from
 from ridgeback.console.folder import write_folder
-from ridgeback.console.output import json_text, write_text
+from ridgeback.console.output import STDOUT, json_text, write_text
 from ridgeback.console.verb import Verb
 from ridgeback.options.code import Code, coding
 from ridgeback.options.demand import Demand
@@ -42,28 +44,43 @@ def command(*, choice: Choice, code: Code, request: Request, style: str, output:
     ridgeback generate pendulum --order 12 --language c --check -o pendulum.c
     ridgeback generate pendulum --order 12 --language rust -o pendulum/
     ridgeback generate damped-pendulum --order 6          omega0(a, mu) and growth_rate(a, mu)
+    ridgeback generate pendulum --fit minimax --up-to 2.36 --tolerance 1e-11 --language c
     ridgeback generate pendulum --resummed agm --up-to 3.1 --language javascript
     ridgeback generate --equation "u'' + u + c*u**3 = 0"   omega0(A, c)
     """
     code.check_together()
     oscillator = choice.oscillator()
-    series = derived(oscillator, request)
-    result = formula_of(oscillator, series, code)
+    result, series = formula_of(oscillator, request, code)
     form = form_for(oscillator, series, result, code)
     from ridgeback.symbolic.codegen import packaged, written
 
     if code.check:
         checked(form, code.language)
+    script = {f"{form.name}.gappa": gappa_of(form, output)} if code.gappa else {}
     if output.endswith("/"):
-        write_folder(output, packaged(form, code.language))
+        write_folder(output, {**packaged(form, code.language), **script})
         return
+    for text in script.values():
+        write_text(str(Path(output).with_suffix(".gappa")), text)
     source = written(form, code.language)
-    public = result.to_dict() if hasattr(result, "to_dict") else series.to_dict()
-    described_so = {"language": code.language, **public, "source": source}
+    public = result if series is None or hasattr(result, "to_dict") else series
+    described_so = {"language": code.language, **public.to_dict(), "source": source}  # type: ignore[union-attr]
     write_text(output, json_text(described_so) if style == "json" else source)
 
 
-def formula_of(oscillator: Oscillator, series: Expansion | SlowFlow, code: Code) -> Formula:
+def formula_of(oscillator: Oscillator, request: Request, code: Code) -> tuple[Formula, Expansion | SlowFlow | None]:
+    """The formula, and the series that it comes from where there is one."""
+    if code.fit is not None:
+        from ridgeback.symbolic.codegen.fit.fit import minimax
+        from ridgeback.symbolic.codegen.number import REALS
+
+        end, real = code.up_to or Fraction(0), REALS[code.real]
+        return minimax(oscillator, end, degree=code.degree, tolerance=code.tolerance, real=real), None
+    series = derived(oscillator, request)
+    return _from_series(oscillator, series, code), series
+
+
+def _from_series(oscillator: Oscillator, series: Expansion | SlowFlow, code: Code) -> Formula:
     """The series itself, or another formula in its place."""
     if code.resummed is None:
         return series
@@ -76,7 +93,7 @@ def formula_of(oscillator: Oscillator, series: Expansion | SlowFlow, code: Code)
     return resummed_from(oscillator, series, demand)
 
 
-def form_for(oscillator: Oscillator, series: Expansion | SlowFlow, result: Formula, code: Code) -> Form:
+def form_for(oscillator: Oscillator, series: Expansion | SlowFlow | None, result: Formula, code: Code) -> Form:
     """The code with what is known about the formula: where the oscillation ends, and its certified error."""
     from ridgeback.interface.source import known_form
 
@@ -103,3 +120,12 @@ def checked(form: Form, language: str) -> None:
     if found.state == "failed":
         raise RuntimeError(f"the generated code fails its self-test: {found}")
     click.echo(f"self-test of the generated code: {found}", err=True)
+
+
+def gappa_of(form: Form, output: str) -> str:
+    """The script that stands beside a file; click.UsageError where there is no file."""
+    from ridgeback.symbolic.codegen.proofs.gappa import gappa_script
+
+    if output == STDOUT:
+        raise click.UsageError("--gappa writes beside a file; name it with -o")
+    return gappa_script(form)

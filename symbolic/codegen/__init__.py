@@ -15,6 +15,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen.accurate import accurate
 from ridgeback.symbolic.codegen.build import expansion_form, slow_flow_form
 from ridgeback.symbolic.codegen.closed_forms import MeanForm, SineSeries
+from ridgeback.symbolic.codegen.fit.fit import Fit
 from ridgeback.symbolic.codegen.languages.registry import find_language, languages
 from ridgeback.symbolic.codegen.naming import checked_identifier, identifier
 from ridgeback.symbolic.codegen.number import REALS
@@ -28,7 +29,7 @@ from ridgeback.symbolic.resummation.resummation import Resummation
 
 __all__ = ["LANGUAGES", "Formula", "form_of", "generate", "packaged", "written"]
 
-Formula: TypeAlias = "Expansion | SlowFlow | Resummation | MeanForm | SineSeries"
+Formula: TypeAlias = "Expansion | SlowFlow | Resummation | MeanForm | SineSeries | Fit"
 LANGUAGES = tuple(languages())
 DIGEST = 16
 """Hexadecimal digits of the input's hash that are printed."""
@@ -139,7 +140,7 @@ def form_of(
 
 
 def _built(result: Formula, request: CodeRequest) -> Form:
-    if isinstance(result, MeanForm | SineSeries):
+    if isinstance(result, MeanForm | SineSeries | Fit):
         return result.form(request)
     if isinstance(result, Resummation):
         return resummation_form(result, request)

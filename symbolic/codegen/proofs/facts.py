@@ -8,6 +8,7 @@ from typing import Final, TypeAlias
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.certificates.at_amplitudes import certified_frequencies
 from ridgeback.symbolic.codegen.closed_forms import MeanForm, SineSeries
+from ridgeback.symbolic.codegen.fit.fit import Fit
 from ridgeback.symbolic.codegen.proofs.notes import upwards
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.elliptic_nome import NomeForm
@@ -17,7 +18,7 @@ from ridgeback.symbolic.resummation.resummation import Resummation
 from ridgeback.symbolic.singularities.limits import settled_limits
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
-Formula: TypeAlias = "Expansion | Resummation | MeanForm | SineSeries"
+Formula: TypeAlias = "Expansion | Resummation | MeanForm | SineSeries | Fit"
 SHARES: Final = (Fraction(1, 4), Fraction(1, 2), Fraction(3, 4))
 """Where in the range the error is certified."""
 INSIDE: Final = Fraction(999, 1000)
@@ -49,6 +50,8 @@ def before_pole(reach: Fraction, formula: Expansion | Resummation) -> Fraction:
 
 def end_of(oscillator: Oscillator, series: Expansion, formula: Formula, limit: float | None) -> Fraction | None:
     """The end of the domain where none is given: the end of the oscillation, or of the series' convergence."""
+    if isinstance(formula, Fit):
+        return formula.end
     if isinstance(formula, MeanForm | SineSeries):
         return None if limit is None else INSIDE * Fraction(limit)
     return reach_of(oscillator, series, formula) if limit is None else before_pole(Fraction(limit), formula)
@@ -62,8 +65,8 @@ def certified_facts(oscillator: Oscillator, formula: Formula, reach: Fraction) -
     >>> certified_facts(find("pendulum"), lindstedt(find("pendulum"), 8), Fraction(3))[0]
     'Certified relative error against the exact frequency: below 9.1e-09 at A = 0.75, 1.3e-05 at 1.5, 0.0013 at 2.25.'
     """
-    if isinstance(formula, MeanForm | SineSeries):
-        return ()  # the one is exact, the other proves its own bound
+    if isinstance(formula, MeanForm | SineSeries | Fit):
+        return ()  # exact, or with a bound of their own
     places = [Fraction(f"{float(share * reach):.3g}") for share in SHARES]
     try:
         bounds = [reading.to_dict(6)["error_bound"] for reading in certified_frequencies(oscillator, formula, places)]

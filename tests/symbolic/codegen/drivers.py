@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from ridgeback.symbolic.codegen.program import Form
 
-POINTS = 1000
-STEP = "0.003"
+POINTS = 200
+STEP = "0.015"
 """Grid: i*STEP for i = 0 ... POINTS - 1; the product is rounded alike everywhere."""
 
 
@@ -88,8 +88,8 @@ def arrays(form: Form) -> dict[str, str]:
     """Of modules whose functions take arrays."""
     rows = ", ".join(f"m.{f.name}(x, 1.0)" for f in form.functions)
     return {
-        "bits.py": f"import numpy as np\nimport {form.name} as m\nx = np.arange({POINTS})*{STEP}\n"
-        f"for v in np.stack([{rows}]).T.ravel():\n    print(v.astype('>f8').tobytes().hex())\n"
+        "bits.py": f"import struct\nimport numpy as np\nimport {form.name} as m\nx = np.arange({POINTS})*{STEP}\n"
+        f"for v in np.stack([{rows}]).T.ravel():\n    print(struct.pack('>d', v).hex())\n"
     }
 
 

@@ -64,7 +64,9 @@ def bits(language: str, form: Form, folder: Path) -> str:
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=True).stdout.lower()
 
 
-def expected(form: Form) -> str:
+@cache
+def expected(mode: Mode) -> str:
+    form = all_orders(mode)
     values = (value_at(form, f, (i * float(STEP), 1.0)) for i in range(POINTS) for f in form.functions)
     return "".join(f"{hexadecimal(v)}\n" for v in values)
 
@@ -86,7 +88,7 @@ def test_all_languages_give_one_hash(language: str, mode: Mode, tmp_path: Path) 
     form = all_orders(mode)
     if mode == "fma" and language in ("numba", "array-api"):
         pytest.skip(f"{language} has no fused operation")
-    found, wanted = bits(language, form, tmp_path), expected(form)
+    found, wanted = bits(language, form, tmp_path), expected(mode)
     ours = [line.replace("fff8000000000000", "7ff8000000000000") for line in found.split()]  # the sign of nan
     assert (
         hashlib.sha256("\n".join(ours).encode()).hexdigest()
@@ -119,7 +121,7 @@ def test_a_changed_constant_fails_the_self_test(tmp_path: Path) -> None:
     assert load((tmp_path / "clock.py").read_text(encoding="utf-8"), tmp_path).self_test() > 0
 
 
-@pytest.mark.parametrize(("mode", "most"), [("strict", 1.3), ("fma", 1.0), ("accurate", 0.5001)])
+@pytest.mark.parametrize(("mode", "most"), [("strict", 1.3), ("fma", 1.0), ("accurate", 0.505)])
 def test_units_in_the_last_place_against_balls(mode: Mode, most: float) -> None:
     """The worst of a grid is below the proved bound, and that is not far from it."""
     series, form = pendulum(12), form_of(pendulum(12), up_to=Fraction("2.36"), mode=mode)
@@ -136,8 +138,8 @@ def test_units_in_the_last_place_against_balls(mode: Mode, most: float) -> None:
 
 def test_single_precision_in_c_and_rust() -> None:
     form = form_of(pendulum(12), up_to=Fraction(2), real="float32")
-    assert "relative error is at most 1." in form.functions[0].notes[0]
-    assert "e-07" in form.functions[0].notes[0]
+    relative = float(form.functions[0].notes[0].split("at most ")[1].split()[0])
+    assert 2.0**-24 <= relative <= 4 * 2.0**-24
     for language in ("c", "rust"):
         if tool_of(language) is not None:
             assert check(form, language).state == "passed"

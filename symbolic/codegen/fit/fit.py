@@ -1,0 +1,241 @@
+"""The exact frequency fitted by a polynomial in A^2 with coefficients of the format, and its error proved."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Final
+
+from flint import arb, arb_poly, ctx, fmpq
+from sympy import Expr
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.balls import ball
+from ridgeback.symbolic.codegen.build import OMEGA0, SCALING, frequency_argument, limit_fact
+from ridgeback.symbolic.codegen.fit.remez import Best, remez
+from ridgeback.symbolic.codegen.fit.surrogate import Surrogate, surrogate
+from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real, fraction, rounded
+from ridgeback.symbolic.codegen.polynomial import K, derivative, polynomial_function
+from ridgeback.symbolic.codegen.program import Argument, Form, Terms
+from ridgeback.symbolic.codegen.proofs.bounds import upper
+from ridgeback.symbolic.codegen.proofs.notes import upwards
+from ridgeback.symbolic.codegen.request import CodeRequest
+from ridgeback.symbolic.enclosure.well import well_of
+from ridgeback.symbolic.expansion.amplitude import MEANINGS
+from ridgeback.symbolic.systems.oscillator import Oscillator
+
+MOST_DEGREE: Final = 40
+HARDLY: Final = Fraction(101, 100)
+"""Coefficients are rounded with care where plain rounding makes the error larger than this share."""
+SHARP: Final = arb("1.002")
+MOST_BOXES: Final = 20000
+
+
+@dataclass(frozen=True)
+class Fit:
+    """omega0 = k (1 + c_1 A^2 + ... + c_d A^(2d)) for |A| <= end; |omega0/k - exact| <= error, proved."""
+
+    system: str
+    scale: Expr
+    end: Fraction
+    coefficients: tuple[Fraction, ...]
+    """c_0 = 1, c_1, ..., c_d, each a number of the format."""
+    error: Fraction
+    optimum: float
+    """The error of the best fit with real coefficients."""
+    real: Real = FLOAT64
+
+    @property
+    def degree(self) -> int:
+        """d, in A^2."""
+        return len(self.coefficients) - 1
+
+    def to_dict(self) -> dict[str, object]:
+        """The public JSON form."""
+        return {
+            "system": self.system,
+            "method": "minimax",
+            "amplitude": "peak",
+            "up_to": str(self.end),
+            "degree": self.degree,
+            "coefficients": [str(c) for c in self.coefficients],
+            "error_bound": float(self.error),
+        }
+
+    def form(self, request: CodeRequest) -> Form:
+        """omega0 and its derivative as code."""
+        terms: Terms = {
+            (2 * n,): Number(fmpq(c.numerator, c.denominator), request.real) for n, c in enumerate(self.coefficients)
+        }
+        domain = request.domain("A")
+        meaning = f"peak amplitude, {MEANINGS['peak']}"
+        arguments = (Argument("A", meaning), frequency_argument(self.scale, request.real))
+        functions = (
+            polynomial_function("omega0", OMEGA0, arguments, ("A",), terms, domain, factor=K, real=request.real),
+            polynomial_function(
+                "omega0_slope",
+                "Derivative of omega0 by A.",
+                arguments,
+                ("A",),
+                derivative(terms),
+                domain,
+                factor=K,
+                real=request.real,
+            ),
+        )
+        facts = (
+            *((f"Equation: {request.equation}.",) if request.equation else ()),
+            f"Method: minimax fit of degree {self.degree} in A^2 to the exact frequency, equal to k at A = 0.",
+            f"Variable A: {meaning}.",
+            f"Fit: for |A| <= {float(self.end)!r} the error of the polynomial against the exact frequency is at most "
+            f"{upwards(self.error, 3)} k, proved over the whole range in ball arithmetic.",
+            SCALING,
+            *limit_fact("A", request.limit),
+            *request.more,
+        )
+        return Form(self.system, f"Fundamental frequency of '{self.system}', fitted", facts, functions)
+
+
+def minimax(
+    oscillator: Oscillator,
+    up_to: Fraction,
+    *,
+    degree: int | None = None,
+    tolerance: Fraction | None = None,
+    real: Real = FLOAT64,
+) -> Fit:
+    """Fit omega0(A) of a conservative oscillator with an even potential for |A| <= up_to.
+
+    Parameters
+    ----------
+    oscillator
+        Its parameters have values.
+    up_to
+        The largest amplitude.
+    degree
+        Degree of the polynomial in A^2.
+    tolerance
+        In place of a degree: the lowest degree is taken whose proved error, relative to k, is at most this.
+    real
+        Format of the coefficients.
+
+    Raises
+    ------
+    InputError
+        For both or none of degree and tolerance, a potential that is not even, a range that cannot be enclosed, and a
+        tolerance that no degree up to 40 meets.
+
+    Examples
+    --------
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> found = minimax(find("duffing"), Fraction(1), degree=4)
+    >>> found.coefficients[0], float(found.error) < 1e-4
+    (Fraction(1, 1), True)
+    """
+    if (degree is None) == (tolerance is None):
+        raise InputError("a fit needs a degree or a tolerance, one of them")
+    if degree is not None and not 1 <= degree <= MOST_DEGREE:
+        raise InputError(f"degree {degree} is not within 1..{MOST_DEGREE}; use e.g. 6")
+    if up_to <= 0:
+        raise InputError(f"the range up to {float(up_to):.6g} is empty; it must end above 0")
+    well = well_of(oscillator)
+    exact = surrogate(well, up_to)
+    reached = "none of them alternates"
+    with ctx.workprec(exact.bits):
+        for d in (degree,) if degree is not None else range(1, MOST_DEGREE + 1):
+            try:
+                best = _best(exact, d)
+            except InputError:
+                if tolerance is None:
+                    raise
+                break  # the fit is as near as the exact frequency is known, and no number of the format is
+            if tolerance is not None and best.size > ball(tolerance):
+                continue
+            values, error = _represented(exact, best, d, real)
+            if tolerance is None or error <= tolerance:
+                return Fit(oscillator.name, well.scale, up_to, values, error, float(best.size), real)
+            reached = f"degree {d} comes to {float(error):.3g}"
+    raise InputError(
+        f"no degree up to {MOST_DEGREE} is within {float(tolerance or 0):.3g} with {real.name} coefficients: {reached}"
+    )
+
+
+def _target(exact: Surrogate) -> Callable[[arb], arb]:
+    """omega0/k - 1 as a function of x = A^2."""
+    half = ball(exact.end) ** 2 / 2
+    return lambda x: exact.polynomial(x / half - 1) - 1
+
+
+def _best(exact: Surrogate, degree: int) -> Best:
+    """The best fit; of a frequency that does not depend on the amplitude, 0."""
+    if all(abs(c) <= exact.remainder for c in (exact.polynomial - 1).coeffs()):
+        return Best((arb(0),) * degree, arb(0), ())
+    return remez(_target(exact), ball(exact.end) ** 2, range(1, degree + 1))
+
+
+def _represented(exact: Surrogate, best: Best, degree: int, real: Real) -> tuple[tuple[Fraction, ...], Fraction]:
+    """Coefficients of the format: each rounded by itself, or one after the other where that loses too much."""
+    plain = (Fraction(1), *(nearest(c, real) for c in best.coefficients))
+    error = proved(exact, plain)
+    if error <= HARDLY * fraction(best.size.fmpq()):
+        return plain, error
+    careful = _one_by_one(exact, best, degree, real)
+    other = proved(exact, careful)
+    return (careful, other) if other < error else (plain, error)
+
+
+def nearest(value: arb, real: Real) -> Fraction:
+    """The number of the format next to the centre of a ball.
+
+    >>> nearest(arb(0.5), FLOAT64)
+    Fraction(1, 2)
+    """
+    return Fraction(rounded(fraction(value.mid().fmpq()), real))
+
+
+def _one_by_one(exact: Surrogate, best: Best, degree: int, real: Real) -> tuple[Fraction, ...]:
+    """Round the coefficient of the lowest power, whose rounding weighs most, fit the others anew, and go on.
+
+    What a rounding did is so made good by the coefficients that are still free, as far as they can.
+    """
+    target, end = _target(exact), ball(exact.end) ** 2
+    fixed: list[Fraction] = []
+    free: Sequence[arb] = best.coefficients
+    for n in range(1, degree + 1):
+        fixed.append(nearest(free[0], real))
+        if n == degree:
+            break
+
+        def rest(x: arb, fixed: tuple[Fraction, ...] = tuple(fixed)) -> arb:
+            return target(x) - sum((ball(c) * x ** (i + 1) for i, c in enumerate(fixed)), arb(0))
+
+        try:
+            free = remez(rest, end, range(n + 1, degree + 1)).coefficients
+        except InputError:
+            free = free[1:]
+    return (Fraction(1), *fixed)
+
+
+def proved(exact: Surrogate, coefficients: Sequence[Fraction]) -> Fraction:
+    """An upper bound of |polynomial - exact frequency over k| over the whole range.
+
+    On each part of it the difference is expanded about the middle, |D(m + r z)| <= sum |d_i| r^i for |z| <= 1.
+    """
+    half = ball(exact.end) ** 2 / 2
+    fitted = arb_poly([ball(c) for c in coefficients])(arb_poly([half, half]))
+    difference = fitted - exact.polynomial
+    count = 8 * len(coefficients)
+    waiting = [(fmpq(2 * i, count) - 1, fmpq(1, count) * 2) for i in range(count)]
+    worst = arb(0)
+    for _ in range(MOST_BOXES):
+        if not waiting:
+            return upper(worst + exact.remainder)
+        left, width = waiting.pop()
+        local = difference(arb_poly([arb(left + width / 2), arb(width / 2)])).coeffs()
+        bound = sum((abs(c) for c in local), arb(0)).upper()
+        if bound <= worst or bound <= exact.remainder or bound <= SHARP * abs(local[0]).lower():
+            worst = arb.max(worst, bound)
+        else:
+            waiting += [(left, width / 2), (left + width / 2, width / 2)]
+    raise InputError("the error of the fit could not be bounded; ask for a lower degree or a shorter range")
