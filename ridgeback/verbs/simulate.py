@@ -76,22 +76,9 @@ def trajectory(
     """
     if digits is not None and method.lower() != "taylor":
         raise click.UsageError(f"--digits belongs to --method taylor; {method} works in double precision")
-    if method.lower() == "heyoka":
-        from ridgeback.compare.binding.heyoka import integrate_heyoka
+    from ridgeback.interface.simulate import simulate
 
-        return integrate_heyoka(oscillator, initial, duration=duration, rate=rate)
-    from ridgeback.compare.binding.bind import bind
-
-    dynamics = bind(oscillator)
-    if method.lower() == "taylor":
-        from ridgeback.numeric.motion.taylor import integrate_taylor
-
-        return integrate_taylor(dynamics, initial, duration=duration, rate=rate, digits=digits or 30)
-    from ridgeback.numeric.motion.trajectory import METHODS, integrate
-
-    if method not in METHODS:
-        raise click.UsageError(f"unknown method {method!r}; use one of {', '.join(METHODS)}, taylor or heyoka")
-    return integrate(dynamics, initial, duration=duration, rate=rate, method=method)
+    return simulate(oscillator, initial, duration=duration, rate=rate, method=method, digits=digits)
 
 
 def printed(system: str, run: Trajectory, style: str) -> str:
