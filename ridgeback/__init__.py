@@ -36,6 +36,8 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.interface.estimate import model_fit as model_fit
     from ridgeback.interface.identify import identify as identify
     from ridgeback.interface.identify import predict as predict
+    from ridgeback.interface.orbits import periodic_orbit as periodic_orbit
+    from ridgeback.interface.orbits import precise_orbit as precise_orbit
     from ridgeback.interface.report import report as report
     from ridgeback.interface.report import study as study
     from ridgeback.interface.simulate import simulate as simulate
@@ -55,8 +57,6 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.numeric.distributions.wigner import wigner as wigner
     from ridgeback.numeric.model_fit.fit import ModelFit as ModelFit
     from ridgeback.numeric.motion.dynamics import Dynamics as Dynamics
-    from ridgeback.numeric.motion.limit_cycle import periodic_orbit as periodic_orbit
-    from ridgeback.numeric.motion.limit_cycle import precise_orbit as precise_orbit
     from ridgeback.numeric.motion.trajectory import Trajectory as Trajectory
     from ridgeback.numeric.recording.recording import Recording as Recording
     from ridgeback.numeric.recording.recording import read_recording as read_recording

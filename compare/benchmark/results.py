@@ -157,9 +157,37 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Benchmark:
-    """Every contender on one motion.
+    """Every contender on one motion, judged on one support against one reference.
 
-    ``time`` and ``errors`` hold the signed relative error of each row along the motion, NaN where it gives nothing.
+    Made by :func:`ridgeback.benchmark`.
+
+    Parameters
+    ----------
+    case : Case
+        The motion.
+    reference : Reference
+        What errors are measured against, and how well that is known.
+    support : (float, float)
+        The times between which errors are taken.
+    rows : tuple of Row
+        One for each contender, best first, its errors relative to the reference.
+    crossings : Crossings
+        Where expansions pass estimates.
+    verdict : Verdict
+        Which is best, at what cost.
+    time : array of float, shape (N,)
+        Times along the motion.
+    amplitude : array of float, shape (N,)
+        Amplitude there, in the unit of u.
+    errors : array of float, shape (R, N)
+        Signed relative error of each row along the motion; NaN where it gives nothing.
+
+    Examples
+    --------
+    >>> import ridgeback
+    >>> found = ridgeback.benchmark("damped-pendulum", initial=(1.0, 0.0), duration=60.0, rate=5.0, orders=(2, 6))
+    >>> found.errors.shape == (len(found.rows), found.time.size)
+    True
     """
 
     case: Case
@@ -171,7 +199,6 @@ class Benchmark:
     time: Array
     amplitude: Array
     errors: Array
-    """Shape ``[row, time]``."""
 
     def __post_init__(self) -> None:
         freeze(self)

@@ -30,11 +30,27 @@ Vectorised = Callable[[ArrayLike], Array]
 def bind(oscillator: OscillatorLike, *, values: Mapping[str, Value] | None = None) -> Dynamics:
     """Turn an oscillator into the functions that the numeric side works with.
 
-    ``values`` replaces parameters by name.  Raises InputError for an unknown parameter, for one that has no number,
-    and for a function that has no float, NumPy or mpmath form.
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        The oscillator, in any of the forms that :func:`ridgeback.oscillator` takes.
+    values : mapping of str to number or str, optional
+        Values of parameters by name, exact as they are written.
 
-    >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> dynamics = bind(find("pendulum"), values={"k": 2})
+    Returns
+    -------
+    Dynamics
+        Force, potential, frequency and Taylor coefficients as functions of floats, arrays and mpmath numbers.
+
+    Raises
+    ------
+    InputError
+        For an unknown parameter, for one that has no number, and for a function that has no float, NumPy or mpmath
+        form.
+
+    Examples
+    --------
+    >>> dynamics = bind("pendulum", values={"k": 2})
     >>> dynamics.natural_frequency, dynamics.force(0.0, 1.0)
     (2.0, 0.0)
     """

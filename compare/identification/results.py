@@ -151,27 +151,64 @@ class Prediction(_Values):
 
 @dataclass(frozen=True, repr=False)
 class Identification(ShownIdentification, _Values):
-    """Candidates, best first, of one recording."""
+    """Candidates, best first, of one recording; ``verdict`` says what follows from them.
+
+    Made by :func:`ridgeback.identify`.
+
+    Parameters
+    ----------
+    source, column : str
+        The file, and the signal in it.
+    unit : str
+        Unit of the signal and of its amplitudes; may be empty.
+    rate : float
+        Samples per time unit.
+    samples : int
+        How many samples were used.
+    effective_samples : float
+        Independent samples in the best candidate's residual; the criterion counts these.
+    criterion_name : str
+        ``"bic"`` or ``"aicc"``.
+    candidates : tuple of Candidate
+        Each with its parameters, their standard deviations, and its backbone curve.
+    data : MeasuredBackbone
+        Frequency and growth rate against amplitude, as measured.
+    unexplained : float
+        What the best candidate leaves, as a share of the signal's rms.
+    indistinguishable : tuple of str
+        Names of the candidates that the data cannot tell apart from the best, which comes first.
+    settings : mapping
+        How it was done, for display.
+    notes : tuple of str
+        What was found on the way.
+    failed : tuple of str
+        Candidates that could not be fitted, each with the reason.
+    prediction : Prediction, optional
+        The rest of the decay from its first cycles, where that was asked for.
+
+    Examples
+    --------
+    >>> import ridgeback
+    >>> t = np.arange(640) / 32.0
+    >>> found = ridgeback.identify(np.exp(-0.05 * t) * np.cos(6.0 * t), 32.0, candidates=["linear"], damping="linear")
+    >>> found.best.name, round(found.rows()[0]["value"], 2)
+    ('linear', 6.0)
+    """
 
     source: str
     column: str
     unit: str
-    """Unit of the signal and of its amplitudes; may be empty."""
     rate: float
     samples: int
     effective_samples: float
-    """Independent samples in the best candidate's residual; the criterion counts these."""
     criterion_name: str
     candidates: tuple[Candidate, ...]
     data: MeasuredBackbone
     unexplained: float
-    """What the best candidate leaves, as a share of the signal's rms."""
     indistinguishable: tuple[str, ...]
-    """Names of the candidates that the data cannot tell apart from the best, which comes first."""
     settings: Mapping[str, object] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     failed: tuple[str, ...] = ()
-    """Candidates that could not be fitted, each with the reason."""
     prediction: Prediction | None = None
 
     @property

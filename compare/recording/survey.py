@@ -262,24 +262,38 @@ def measure_recordings(
 ) -> Survey:
     """Measure every signal and combine their backbones.
 
-    A stretch that cannot be measured is left out by name when another of its signal can; a whole signal that cannot
-    is in ``failed``.
-
     Parameters
     ----------
-    recordings
+    recordings : sequence of Recording
         Signals: channels, runs, and the stretches between gaps.
-    combine_over
-        Which backbones are combined: of the ``runs`` and stretches of each channel, of ``all``, or ``none``.
-    harmonic, halves, **settings
-        As for :func:`measure`.
-    progress
+    combine_over : {"runs", "all", "none"}
+        Which backbones are combined: those of the runs and stretches of each channel, of everything, or none.
+    harmonic : int
+        Which multiple of the fundamental is tracked; above 1 there is an amplitude and no backbone.
+    halves : bool
+        Whether frequency and amplitude are taken half cycle by half cycle.
+    progress : bool or callable, optional
         ``True`` shows a bar; a function is told the share of the work that is done, 0 to 1, and the step.
+    **settings
+        Those of :func:`ridgeback.numeric.estimators.estimate.estimate`.
+
+    Returns
+    -------
+    Survey
+        ``measured``, one for each signal; ``combined`` backbones; ``failed``, the signals that gave nothing; ``notes``,
+        the stretches that were left out where another of the same signal could be measured.
 
     Raises
     ------
     InputError
         When nothing can be measured at all, and when backbones in different units would be combined.
+
+    Examples
+    --------
+    >>> t = np.arange(640) / 32.0
+    >>> runs = [Recording(t, a * np.cos(6.0 * t), 32.0, "u", "mm", f"run{a:g}.csv", "") for a in (1.0, 2.0)]
+    >>> [one.recording.source for one in measure_recordings(runs, method="zero-crossing").measured]
+    ['run1.csv', 'run2.csv']
     """
     if combine_over not in COMBINE:
         raise InputError(f"combine {combine_over!r} is unknown; use one of {', '.join(COMBINE)}")

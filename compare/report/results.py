@@ -58,7 +58,52 @@ class Provenance:
 
 @dataclass(frozen=True, repr=False)
 class Report(ShownReport):
-    """All that the page shows; parts that a run does not have are None."""
+    """All that the page shows; parts that a run does not have are None.
+
+    Made by :func:`ridgeback.report`; ``save(path)`` writes the page.
+
+    Parameters
+    ----------
+    title, lead : str
+        Heading, and the sentence below it.
+    summary : tuple of str
+        What was found, in sentences.
+    cards : tuple of Card
+        The findings at the head of the page.
+    derivation : Derivation, optional
+        The series or slow flow and its certificate.
+    study : Study, optional
+        Error over order and amplitude.
+    ranges : tuple of Range
+        Up to which amplitude each order stays within the target.
+    decay : DecayComparison, optional
+        One motion: expansions and estimates along it.
+    recording : RecordingComparison, optional
+        What was measured of a recording.
+    timings : tuple of Timing
+        Cost of evaluation.
+    provenance : Provenance
+        How to get the same page again.
+    certified : Certified, optional
+        Proved errors of the series and its resummations, where omega0 can be enclosed.
+    estimator_scores : tuple of EstimatorScore
+        Every estimator on the same samples.
+    noise : NoiseStudy, optional
+        The estimators in noise, beside the Cramér-Rao bound.
+    identification : Identification, optional
+        Which oscillator made a recording.
+    csv : mapping of str to str
+        File name to CSV text, for the download links.
+    finding : Range, optional
+        The range of use that the title states and the figures mark; None: the first of ``ranges``.
+
+    Examples
+    --------
+    >>> provenance = Provenance("ridgeback report", {}, {}, "")
+    >>> cards = (Card("Range", "0.5", "up to which order 2 errs by less than 1 %"),)
+    >>> Report("Pendulum", "", (), cards, None, None, (), None, None, (), provenance).findings()
+    (('Range', '0.5', 'up to which order 2 errs by less than 1 %'),)
+    """
 
     title: str
     lead: str
@@ -72,17 +117,11 @@ class Report(ShownReport):
     timings: tuple[Timing, ...]
     provenance: Provenance
     certified: Certified | None = None
-    """Proved errors of the series and its resummations, where omega0 can be enclosed."""
     estimator_scores: tuple[EstimatorScore, ...] = ()
-    """Every estimator on the same samples."""
     noise: NoiseStudy | None = None
-    """The estimators in noise, beside the Cramér-Rao bound."""
     identification: Identification | None = None
-    """Which oscillator made a recording."""
     csv: Mapping[str, str] = field(default_factory=dict)
-    """File name to CSV text, for the download links."""
     finding: Range | None = None
-    """The range of use that the title states and the figures mark; None: the first of ``ranges``."""
 
     def findings(self) -> tuple[tuple[str, str, str], ...]:
         """The cards."""

@@ -67,13 +67,55 @@ class Formula:
 
 @dataclass(frozen=True, repr=False)
 class Study(ShownStudy):
-    """Error of truncated expansions over order and amplitude; grids are ``[order, amplitude]``."""
+    """Error of truncated expansions over order and amplitude; grids are ``[order, amplitude]``.
+
+    Made by :func:`ridgeback.study`.
+
+    Parameters
+    ----------
+    system, title : str
+        Name of the oscillator, and what it is called on a page.
+    method : str
+        The derivation.
+    variable : str
+        ``A`` (amplitude) or ``eps`` (limit cycles): what ``amplitudes`` holds.
+    amplitude_definition, amplitude_unit : str
+        Which amplitude, and its unit.
+    orders : tuple of int
+        Of the truncations, shape (N,).
+    amplitudes : array of float, shape (M,)
+        Amplitudes or values of eps.
+    omega : array of float, shape (N, M)
+        The truncated series, rad per time unit.
+    reference, reference_error : array of float, shape (M,)
+        The exact frequency, rad per time unit, and its relative uncertainty.
+    reference_name : str
+        How the exact frequency was found.
+    relative_error : array of float, shape (N, M)
+        ``omega / reference - 1``, signed.
+    limit : float, optional
+        Where the oscillation itself ends (separatrix).
+    convergence_radius : float, optional
+        Radius of convergence of the series, in the variable.
+    scale : float
+        The natural frequency k, rad per time unit, that omega is printed with.
+    convergence_uncertainty : float, optional
+        Uncertainty of ``convergence_radius``, in the same variable.
+    convergence_note : str
+        Where the radius comes from, or why none is known.
+
+    Examples
+    --------
+    >>> import ridgeback
+    >>> found = ridgeback.study("pendulum", (2, 4), [0.5, 1.0])
+    >>> found.relative_error.shape, f"{found.relative_error[1, 0]:.0e}"
+    ((2, 2), '5e-07')
+    """
 
     system: str
     title: str
     method: str
     variable: str
-    """``A`` (amplitude) or ``eps`` (limit cycles): what ``amplitudes`` holds."""
     amplitude_definition: str
     amplitude_unit: str
     orders: tuple[int, ...]
@@ -81,19 +123,13 @@ class Study(ShownStudy):
     omega: Array
     reference: Array
     reference_error: Array
-    """Relative uncertainty of the reference at each amplitude."""
     reference_name: str
     relative_error: Array
-    """``omega / reference - 1``, signed."""
     limit: float | None
-    """Where the oscillation itself ends (separatrix), or None."""
     convergence_radius: float | None
     scale: float
-    """The natural frequency k that omega is printed with."""
     convergence_uncertainty: float | None = None
-    """Uncertainty of ``convergence_radius``, in the same variable."""
     convergence_note: str = ""
-    """Where the radius comes from, or why none is known."""
 
     @property
     def trend(self) -> Trend:

@@ -46,6 +46,16 @@ class Backbone(ShownBackbone):
         What was left out, and why.
     window_seconds : float, optional
         Width of the fits whose amplitude this is; None where half cycles were counted.
+    units : str
+        Unit of the signal; may be empty.
+
+    Examples
+    --------
+    >>> import ridgeback
+    >>> t = np.arange(640) / 32.0
+    >>> curve = ridgeback.backbone(np.exp(-0.05 * t) * np.cos(6.0 * t), 32.0, method="hilbert")
+    >>> round(float(np.median(curve.omega)), 3), round(float(np.median(curve.growth_rate)), 3)
+    (6.0, -0.05)
     """
 
     time: Array

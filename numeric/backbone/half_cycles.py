@@ -64,6 +64,17 @@ class HalfCycles(ShownBackbone):
         How they were found, for display.
     definition : Definition
         Of the amplitude.
+    units : str
+        Unit of the signal; may be empty.
+    presence : Presence, optional
+        How well noise alone explains the signal.
+
+    Examples
+    --------
+    >>> t = np.arange(640) / 32.0
+    >>> found = half_cycles(np.exp(-0.05 * t) * np.cos(6.0 * t), 32.0)
+    >>> round(float(np.median(found.omega)), 3), round(float(np.nanmedian(found.growth_rate)), 3)
+    (6.0, -0.05)
     """
 
     time: Array
@@ -80,7 +91,6 @@ class HalfCycles(ShownBackbone):
     definition: Definition = Definition.PEAK
     units: str = ""
     presence: Presence | None = None
-    """How well noise alone explains the signal."""
 
     def __post_init__(self) -> None:
         freeze(self)

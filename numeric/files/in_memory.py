@@ -46,6 +46,8 @@ def numbers(x: Samples, name: str) -> Array:
     """
     raw = plain(x)
     if raw.ndim != 1:
+        if not raw.shape:
+            raise InputError(f"{name} is {type(x).__name__}, not samples; give a sequence of numbers, or a file's path")
         raise InputError(f"{name} has shape {raw.shape}; give one column, such as x[:, 0], or name it by column=")
     if raw.dtype.kind in "mM":
         return seconds(raw)

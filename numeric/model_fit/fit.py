@@ -75,6 +75,14 @@ class ModelFit(Displayed):
         Integration steps per sample.
     rate, start : float
         Samples per time unit, and the time of the first.
+
+    Examples
+    --------
+    >>> import ridgeback
+    >>> t = np.arange(320) / 32.0
+    >>> fit = ridgeback.model_fit(np.exp(-0.05 * t) * np.cos(6.0 * t), 32.0, oscillator="linear")
+    >>> fit.theta.shape, round(float(fit.noise), 6)
+    ((5,), 0.0)
     """
 
     family: Family

@@ -25,27 +25,44 @@ from ridgeback.numeric.motion.roots import bracketed_newton
 class Dynamics:
     """The oscillator ``u'' + f(u, u') = 0`` with all its parameters set.
 
+    Made by :func:`ridgeback.bind`.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    force : callable
+        f(u, u') on plain floats.
+    natural_frequency : float
+        k, the frequency of small oscillations without damping, rad per time unit.
+    damping : float
+        mu in the linear damping 2 mu u', per time unit; 0 when there is none or it is of another form.
+    potential : callable, optional
+        V(u), V(0) = 0, of arrays.
+    restoring : callable, optional
+        V'(u), of arrays.
+    closed_form : callable, optional
+        Exact omega0 of the undamped oscillator at the peak amplitude A, of arrays; NaN where there is no oscillation.
+    precise_force : callable, optional
+        f in mpmath arithmetic.
+    jet : callable, optional
+        (u0, u0', degree) to the Taylor coefficients [u0, u0', u''/2!, ...] at mpmath's current precision.
+
+    Examples
+    --------
     >>> pendulum(k=1.0, mu=0.01).force(0.0, 1.0)
     0.02
     """
 
     name: str
     force: Callable[[float, float], float]
-    """f(u, u') on plain floats."""
     natural_frequency: float
-    """k: the frequency of small oscillations without damping."""
     damping: float = 0.0
-    """mu in the linear damping 2 mu u'; 0 when there is none or it is of another form."""
     potential: Callable[[ArrayLike], Array] | None = None
-    """V(u), V(0) = 0, vectorised."""
     restoring: Callable[[ArrayLike], Array] | None = None
-    """V'(u), vectorised."""
     closed_form: Callable[[ArrayLike], Array] | None = None
-    """Exact omega0 of the undamped oscillator at the peak amplitude A; NaN where there is no oscillation."""
     precise_force: Callable[[Precise, Precise], Precise] | None = None
-    """f in mpmath arithmetic."""
     jet: Jet | None = None
-    """(u0, u0', degree) -> Taylor coefficients [u0, u0', u''/2!, ...] at mpmath's current precision."""
 
 
 def agm(a: ArrayLike, b: ArrayLike) -> Array:

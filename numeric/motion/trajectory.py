@@ -71,6 +71,13 @@ class Trajectory(ShownTrajectory):
         The integrator's own times, between which ``at`` is smooth.
     interpolant : callable
         u and u' at any times between.
+
+    Examples
+    --------
+    >>> from ridgeback.numeric.motion.dynamics import pendulum
+    >>> run = integrate(pendulum(), (1.0, 0.0), duration=10.0, rate=8.0)
+    >>> run.u.shape, round(float(run.crossings.time[0]), 4)
+    ((81,), 1.675)
     """
 
     name: str

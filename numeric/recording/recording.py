@@ -60,6 +60,11 @@ class Recording(ShownRecording):
         Clipped samples, and those interpolated across missing ones.
     facts : mapping
         What was found and done, in numbers.
+
+    Examples
+    --------
+    >>> Recording.from_arrays(np.cos(0.3 * np.arange(40)), 10.0, units="mm").time[-1].item()
+    3.9
     """
 
     time: Array
@@ -241,10 +246,35 @@ def recordings_from_arrays(
     fill: float | None = None,
     detrend: str = "none",
 ) -> tuple[Recording, ...]:
-    """Every stretch of samples in memory; parameters and errors as for :meth:`Recording.from_arrays`.
+    """Make recordings of samples in memory: every stretch between gaps, of every signal asked for.
 
-    ``column`` may name several columns of a table, or ``"all"``.
+    Parameters
+    ----------
+    x : array_like, masked array, Series, DataFrame, DataArray or Dataset
+        The samples, real.  NaN, ``None`` and masked samples are missing.
+    rate : float, optional
+        Samples per time unit.
+    time : array_like, optional
+        The time of each sample, numbers or dates, in place of a rate.
+    column : str, int or sequence of them, optional
+        The signals of a table; ``"all"`` takes every one.
+    name, units : str, optional
+        What the samples are called and measured in.
+    resample, fill, detrend : optional
+        As for :func:`read_recordings`.
 
+    Returns
+    -------
+    tuple of Recording
+        Uniformly sampled stretches.
+
+    Raises
+    ------
+    InputError
+        As for :meth:`Recording.from_arrays`.
+
+    Examples
+    --------
     >>> x = np.sin(np.arange(80.0))
     >>> x[40] = np.nan
     >>> [part.values.size for part in recordings_from_arrays(x, 4.0)]

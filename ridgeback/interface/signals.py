@@ -7,10 +7,11 @@ import warnings
 from typing import Any, TypeAlias
 
 from ridgeback.common.errors import InputError
+from ridgeback.numeric.motion.trajectory import Trajectory
 from ridgeback.numeric.recording.recording import Recording, read_recording
 
 SignalLike: TypeAlias = Any
-"""A Recording, a path, or samples: a list, an array, a masked array, a pandas or xarray object."""
+"""A Recording, a path, a Trajectory, or samples: a list, an array, a masked array, a pandas or xarray object."""
 
 
 def as_recording(
@@ -27,9 +28,9 @@ def as_recording(
 
     Parameters
     ----------
-    x : array_like, masked array, Series, DataFrame, DataArray, Dataset, Recording, str or path
+    x : array_like, masked array, Series, DataFrame, DataArray, Dataset, Recording, Trajectory, str or path
         The samples, or the file that holds them (CSV, NPZ, NPY, WAV, MAT, HDF5).  NaN, ``None`` and masked samples are
-        missing.
+        missing.  Of a trajectory it is u.
     rate : float, optional
         Samples per time unit.
     time : array_like, optional
@@ -60,8 +61,11 @@ def as_recording(
     """
     treatment: dict[str, Any] = {"resample": resample, "fill": fill, "detrend": detrend}
     if isinstance(x, Recording):
-        refuse_beside_recording(rate=rate, time=time, column=column, resample=resample, fill=fill)
+        refuse_known("a Recording", rate=rate, time=time, column=column, resample=resample, fill=fill)
         return x
+    if isinstance(x, Trajectory):
+        refuse_known("a Trajectory", rate=rate, time=time, column=column)
+        return Recording.from_arrays(x.u, x.rate, name="u", **treatment)
     if isinstance(x, str | os.PathLike):
         if time is not None:
             raise InputError(f"{os.fspath(x)} has times of its own; leave time out, or name its column when reading it")
@@ -73,8 +77,14 @@ def as_recording(
     return found
 
 
-def refuse_beside_recording(**given: object) -> None:
-    """Refuse what a recording has settled already."""
+def refuse_known(owner: str, **given: object) -> None:
+    """Refuse what a recording or a trajectory has settled already.
+
+    >>> refuse_known("a Recording", rate=32.0)
+    Traceback (most recent call last):
+        ...
+    ridgeback.common.errors.InputError: a Recording has its rate already; leave rate out, or give its values alone
+    """
     settled = [name for name, value in given.items() if value is not None]
     if settled:
-        raise InputError(f"a Recording has its {settled[0]} already; leave {settled[0]} out, or give its values alone")
+        raise InputError(f"{owner} has its {settled[0]} already; leave {settled[0]} out, or give its values alone")

@@ -19,6 +19,7 @@ from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.series.trigonometric import at_zero, harmonic
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, V
 
 FLOW_ORDER = 24
@@ -41,13 +42,13 @@ class Check:
         return {"check": self.name, "passed": self.passed, "statement": self.statement}
 
 
-def certify(oscillator: Oscillator, result: Expansion | SlowFlow) -> tuple[Check, ...]:
+def certify(oscillator: OscillatorLike, result: Expansion | SlowFlow) -> tuple[Check, ...]:
     """Run every independent check that applies to a result.
 
     Parameters
     ----------
-    oscillator : Oscillator
-        Whose result it is.
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Any form of the oscillator whose result it is.
     result : Expansion or SlowFlow
         To be checked.
 
@@ -56,12 +57,17 @@ def certify(oscillator: Oscillator, result: Expansion | SlowFlow) -> tuple[Check
     tuple of Check
         Each with its name, whether it passed (None: does not apply) and a statement.
 
+    Raises
+    ------
+    InputError
+        For what is no oscillator.
+
     Examples
     --------
-    >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> [c.name for c in certify(find("pendulum"), lindstedt(find("pendulum"), 6)) if c.passed]
+    >>> [c.name for c in certify("pendulum", lindstedt("pendulum", 6)) if c.passed]
     ['residual', 'normalisation', 'energy integral', 'multiple scales']
     """
+    oscillator = as_oscillator(oscillator)
     if isinstance(result, SlowFlow):
         return (_flow_residual(result), _guarded("lindstedt", lambda: _flow_against_lindstedt(oscillator, result)))
     if result.waveform is None:

@@ -32,7 +32,20 @@ PROCESS = 0.15
 
 @dataclass(frozen=True)
 class Budget:
-    """How much time (``seconds``) and memory (``gigabytes``) a derivation may take."""
+    """How much time and memory a derivation may take; one that is predicted to need more is refused before it starts.
+
+    Parameters
+    ----------
+    seconds : float
+        Time, 10 minutes by default.
+    gigabytes : float
+        Memory, 4 GB by default.
+
+    Examples
+    --------
+    >>> Budget(seconds=3600.0)
+    Budget(seconds=3600.0, gigabytes=4.0)
+    """
 
     seconds: float = 600.0
     gigabytes: float = 4.0

@@ -51,11 +51,39 @@ class Expansion(ShownExpansion):
     units; a call evaluates the series; ``convert`` changes the amplitude's definition, ``truncated`` the order;
     ``harmonics`` is the waveform; ``residual`` what is left of the equation.
 
+    Parameters
+    ----------
+    system, method : str
+        Names of the oscillator and of the derivation.
+    variable : str
+        ``A`` (amplitude) or ``eps``.
+    amplitude : str
+        Definition of the amplitude: a key of ``ridgeback.symbolic.expansion.amplitude.MEANINGS``.
+    order : int
+        Highest power of the variable kept.
+    scale : sympy.Expr
+        The natural frequency k, in rad per time unit.
+    scaled_variable : bool
+        Whether the series variable is the printed variable divided by k (limit cycles).
+    coefficients : tuple of Scalar
+        c_0 ... c_order in units where k = 1: FLINT rationals, or polynomials in the parameters.
+    waveform : tuple of Trig, optional
+        u_0, u_1, ... as trigonometric polynomials, one order beyond the frequency; None if the method has none.
+    amplitude_coefficients : tuple of Scalar, optional
+        Limit cycles: the amplitude as a series in the variable.
+    residual_of : callable, optional
+        Substitutes the expansion into its equation.
+    names : tuple of str
+        Symbols that the coefficients hold: parameters without a value, and those of ``constants``.
+    constants : mapping of str to sympy.Expr
+        Values of the symbols that stand for irrational numbers and for 1/k^2; see ``oscillator.Normalised``.
+    velocity : bool
+        Whether the force holds u', so that two amplitude definitions do not exist.
+
     Examples
     --------
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
-    >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> pendulum = lindstedt(find("pendulum"), 4)
+    >>> pendulum = lindstedt("pendulum", 4)
     >>> pendulum.frequency, pendulum.amplitude
     ((1, 0, -1/16, 0, 1/3072), 'peak')
     >>> pendulum.residual()
@@ -65,29 +93,17 @@ class Expansion(ShownExpansion):
     system: str
     method: str
     variable: str
-    """``A`` (amplitude) or ``eps``."""
     amplitude: str
-    """Definition of the amplitude: a key of ``ridgeback.symbolic.expansion.amplitude.MEANINGS``."""
     order: int
-    """Highest power of the variable kept."""
     scale: sympy.Expr
-    """The natural frequency k, in rad per time unit."""
     scaled_variable: bool
-    """True when the series variable is the printed variable divided by k (limit cycles)."""
     coefficients: tuple[Scalar, ...]
-    """c_0 ... c_order in units where k = 1: FLINT rationals, or polynomials in the parameters."""
     waveform: tuple[Trig, ...] | None
-    """u_0, u_1, ... as trigonometric polynomials, one order beyond the frequency; None if the method has none."""
     amplitude_coefficients: tuple[Scalar, ...] | None
-    """Limit cycles: the amplitude as a series in the variable."""
     residual_of: Callable[[Expansion], list[int]] | None
-    """Substitutes the expansion into its equation."""
     names: tuple[str, ...] = ()
-    """Symbols that the coefficients hold: parameters without a value, and those of ``constants``."""
     constants: Mapping[str, sympy.Expr] = field(default_factory=dict)
-    """Values of the symbols that stand for irrational numbers and for 1/k^2; see ``oscillator.Normalised``."""
     velocity: bool = False
-    """Whether the force holds u', so that two amplitude definitions do not exist."""
 
     @cached_property
     def frequency(self) -> tuple[sympy.Expr, ...]:

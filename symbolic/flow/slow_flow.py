@@ -34,11 +34,40 @@ class SlowFlow(ShownSlowFlow):
     units, ``frequency_at`` and ``growth_rate_at`` their values, ``expression`` and ``latex`` their formulas,
     ``residual`` what is left of the equation.
 
+    Parameters
+    ----------
+    system : str
+        Name of the oscillator.
+    order : int
+        Highest weighted degree p + w.r kept.
+    weights : mapping of str to int
+        Weight of each small parameter, in the order of ``variables``.
+    scale : sympy.Expr
+        The natural frequency k, in rad per time unit.
+    dimensions : mapping of str to int
+        d of each parameter left symbolic, measured in k^d; the small ones first.
+    omega, delta : tuple of Scalar
+        omega0, and a'/a, by weighted degree in units with k = 1, as polynomials in (y*, small parameters, other
+        parameters).
+    waveform : tuple of Trig
+        u by weighted degree.
+    complete : int, optional
+        Of one small parameter: the highest power of which no term is left out; None when its terms never end.
+    residual_of : callable
+        Substitutes the flow into the equation.
+    constants : mapping of str to sympy.Expr
+        Values of the symbols in ``dimensions`` that stand for what is not polynomial in the parameters.
+    method : str
+        Name of the derivation.
+    amplitude : str
+        Definition of the amplitude.
+    highest : int, optional
+        Terms with a higher power of the one small parameter than this are left out; None keeps all; see ``entire``.
+
     Examples
     --------
     >>> from ridgeback.symbolic.flow.multiple_scales import multiple_scales
-    >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> flow = multiple_scales(find("pendulum"), 4)
+    >>> flow = multiple_scales("pendulum", 4)
     >>> flow.frequency_at(1.0, 0.01)
     0.9384265625
     >>> flow.residual()
@@ -47,27 +76,18 @@ class SlowFlow(ShownSlowFlow):
 
     system: str
     order: int
-    """Highest weighted degree p + w.r kept."""
     weights: Mapping[str, int]
-    """Weight of each small parameter, in the order of ``variables``."""
     scale: sympy.Expr
-    """The natural frequency k, in rad per time unit."""
     dimensions: Mapping[str, int]
-    """d of each parameter left symbolic, measured in k^d; the small ones first."""
     omega: tuple[Scalar, ...]
-    """omega0 by weighted degree, in units with k = 1, as polynomials in (y*, small parameters, other parameters)."""
     delta: tuple[Scalar, ...]
     waveform: tuple[Trig, ...]
-    """u by weighted degree."""
     complete: int | None
-    """Of one small parameter: the highest power of which no term is left out; None when its terms never end."""
     residual_of: Callable[[SlowFlow], list[int]]
     constants: Mapping[str, sympy.Expr] = field(default_factory=dict)
-    """Values of the symbols in ``dimensions`` that stand for what is not polynomial in the parameters."""
     method: str = "multiple-scales"
     amplitude: str = "fundamental"
     highest: int | None = None
-    """Terms with a higher power of the one small parameter than this are left out; None keeps all; see ``entire``."""
 
     def __post_init__(self) -> None:
         for name in ("weights", "dimensions", "constants"):

@@ -21,7 +21,7 @@ from pathlib import Path
 
 from flint import fmpq, fmpz, nmod
 
-from ridgeback.common.progress import Progress, silent
+from ridgeback.common.progress import Progress, Wanted, shown
 from ridgeback.symbolic.expansion.amplitude import check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order, first_harmonic
@@ -84,7 +84,7 @@ def lindstedt_by_primes(
     amplitude: str = "peak",
     executor: Executor | None = None,
     workers: int = 1,
-    progress: Progress = silent,
+    progress: Wanted = None,
     checkpoint: Path | None = None,
     budget: Budget | None = None,
 ) -> Expansion:
@@ -102,8 +102,8 @@ def lindstedt_by_primes(
         Runs the primes; without one they run here, one after the other.
     workers : int, optional
         Primes at a time.
-    progress : callable, optional
-        Told the share that is done, 0 to 1, and the bits of the modulus so far.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share of the work that is done and the bits of the modulus so far.
     checkpoint : Path, optional
         The residues are saved there every minute, on KeyboardInterrupt and at the end, and the work goes on from there
         if the file exists; it is the caller's to remove once the result is stored.
@@ -142,8 +142,9 @@ def lindstedt_by_primes(
     check(law(oscillator), order, budget or Budget(), workers=workers)
     claim, work = identity(oscillator, order, amplitude), partial(residues, oscillator, order, amplitude)
     saved = _resumed(checkpoint, claim, work)
-    gathering = _Collection(work, executor, claim, checkpoint, saved, expected_bits(oscillator, order), progress)
-    found = gathering.rationals(max(2, 2 * workers))
+    with shown(progress) as told:
+        gathering = _Collection(work, executor, claim, checkpoint, saved, expected_bits(oscillator, order), told)
+        found = gathering.rationals(max(2, 2 * workers))
     return Expansion(
         system=oscillator.name,
         method="lindstedt",

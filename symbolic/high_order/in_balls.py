@@ -20,7 +20,7 @@ from typing import Final
 from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.progress import Progress, silent
+from ridgeback.common.progress import Progress, Wanted, shown, silent
 from ridgeback.symbolic.expansion.amplitude import check_amplitude
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, log2, missing_bits
 from ridgeback.symbolic.expansion.cost import Budget, check
@@ -59,7 +59,7 @@ def lindstedt_in_balls(
     digits: int = 30,
     amplitude: str = "peak",
     checkpoint: Path | None = None,
-    progress: Progress = silent,
+    progress: Wanted = None,
     budget: Budget | None = None,
 ) -> BallExpansion:
     """Expand omega0 like ``lindstedt``, with every coefficient in a ball of at least ``digits`` certain digits.
@@ -77,8 +77,8 @@ def lindstedt_in_balls(
     checkpoint : Path, optional
         The state is saved there every minute, on KeyboardInterrupt and at the end, and the recursion goes on from there
         if the file exists, with the same balls bit by bit; it is the caller's to remove once the result is stored.
-    progress : callable, optional
-        Told the share that is done, 0 to 1, and the order about to be found.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share of the work that is done and the order about to be found.
     budget : Budget, optional
         What the derivation may cost; 10 minutes and 4 GB by default.
 
@@ -107,19 +107,24 @@ def lindstedt_in_balls(
     _check_digits(digits)
     require_numbers(oscillator, "balls need")
     check("balls", order, budget or Budget())
-    task = Task(oscillator, order, amplitude, digits, progress)
+    with shown(progress) as told:
+        return enclosed(Task(oscillator, order, amplitude, digits, told), checkpoint)
+
+
+def enclosed(task: Task, checkpoint: Path | None) -> BallExpansion:
+    """Run the recursion, again with more bits where digits are missing, from the checkpoint where there is one."""
     bits = predicted_bits(task)
     saved = resumed(task, checkpoint, bits)
     bits = bits if saved is None else saved.bits
     for _ in range(ATTEMPTS):
         found = _Run(task, bits, checkpoint, saved).result()
-        missing = missing_bits((*found.coefficients, *(found.amplitude_coefficients or ())), digits)
+        missing = missing_bits((*found.coefficients, *(found.amplitude_coefficients or ())), task.digits)
         if not missing:
             return found
         bits, saved = bits + missing + GUARD, None
     raise InputError(
-        f"{oscillator.name}: balls of {bits} bits do not give {digits} digits at order {order}; a coefficient may "
-        "vanish without a symmetry that shows it, so use the exact series"
+        f"{task.oscillator.name}: balls of {bits} bits do not give {task.digits} digits at order {task.order}; a "
+        "coefficient may vanish without a symmetry that shows it, so use the exact series"
     )
 
 

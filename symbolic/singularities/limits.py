@@ -27,7 +27,7 @@ from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.singularities.darboux import Estimate, Point, nearest_singularities
 from ridgeback.symbolic.singularities.dlog_pade import dlog_singularities
-from ridgeback.symbolic.systems.oscillator import Oscillator
+from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
 
 Series: TypeAlias = Expansion | BallExpansion
 
@@ -340,27 +340,33 @@ def _scaled(value: float) -> tuple[float, int]:
     return float(Decimal(value).scaleb(-power)), power
 
 
-def settled_limits(oscillator: Oscillator, expansion: Expansion | BallExpansion) -> Limits:
+def settled_limits(oscillator: OscillatorLike, expansion: Expansion | BallExpansion) -> Limits:
     """Return the limits of an expansion; a short one is settled by the same expansion carried further.
 
     Parameters
     ----------
-    oscillator : Oscillator
-        Whose expansion it is.
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Any form of the oscillator whose expansion it is.
     expansion : Expansion or BallExpansion
         Balls that are too wide are settled by the exact series.
 
     Returns
     -------
     Limits
-        As ``limits`` gives them.
+        ``radius`` with its ``uncertainty``, the ``singularities`` that set it, ``range_of_use``; ``sentence()`` says
+        them.
+
+    Raises
+    ------
+    InputError
+        For what is no oscillator.
 
     Examples
     --------
-    >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> settled_limits(find("pendulum"), lindstedt(find("pendulum"), 8)).sentence()
+    >>> settled_limits("pendulum", lindstedt("pendulum", 8)).sentence()
     'The series converges for |A| < 3.14159 ± ...'
     """
+    oscillator = as_oscillator(oscillator)
     if expansion.names or expansion.order >= _SETTLING:
         found = limits(expansion)
         if found.radius is not None or isinstance(expansion, Expansion):

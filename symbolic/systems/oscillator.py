@@ -75,16 +75,47 @@ class Normalised:
 class Oscillator:
     """A named equation of motion with exact parameters.
 
-    ``force`` is f(U, V, parameters) of u'' + f = 0.  ``parameters`` maps each name to an exact rational, or to None
-    for one that stays symbolic; ``defaults`` is what the catalogue gave.  ``potential`` P(U), with P(0) = 0, belongs
-    to the restoring force f(u, 0) and is None for limit cycles, for forces with conservative velocity terms and
-    where no rule integrates it (``potential_note`` says which).  ``small`` names the expansion parameter of a limit
-    cycle, ``damping`` the mu of a linear damping term 2*mu*u'; each is None when absent.  ``initial`` is (u, u') at
-    time 0.  ``symbol`` is LaTeX, ``unit`` that of u.
+    Made by :func:`ridgeback.oscillator`, :meth:`from_equation` or the catalogue.
 
-    Construction raises InputError when the origin is not an equilibrium with a positive linear restoring force, or f
-    is not analytic there.
+    Parameters
+    ----------
+    name, title : str
+        What it is called in files and on pages.
+    equation : str
+        The equation of motion as text.
+    force : sympy.Expr
+        f(U, V, parameters) of u'' + f = 0, with V = u'.
+    parameters : mapping of str to rational or None
+        The exact value of each parameter; None for one that stays symbolic.
+    defaults : mapping of str to rational or None
+        What the catalogue gave.
+    potential : sympy.Expr, optional
+        P(U), P(0) = 0, of the restoring force f(u, 0); None for limit cycles, for forces with conservative terms in
+        u', and where no rule integrates it.
+    potential_note : str
+        Why there is no potential.
+    small : str, optional
+        The expansion parameter of a limit cycle.
+    damping : str, optional
+        The mu of a linear damping term 2*mu*u'.
+    symbol : str
+        The unknown in LaTeX.
+    unit : str
+        The unit of u, such as ``"rad"``; may be empty.
+    reference, description : str
+        Where it is from, and what it is.
+    initial : (float, float)
+        State (u, u') at time 0, in the unit of u and that per time unit.
+    aliases : tuple of str
+        Other names in the catalogue.
 
+    Raises
+    ------
+    InputError
+        When the origin is not an equilibrium with a positive linear restoring force, or f is not analytic there.
+
+    Examples
+    --------
     >>> Oscillator.from_equation("x'' + 4*x + x**3", name="mine").natural_frequency
     2
     """

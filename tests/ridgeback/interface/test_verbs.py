@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import numpy as np
@@ -181,3 +182,38 @@ def test_a_report_is_saved_whole_or_not_at_all(tmp_path: Path, monkeypatch) -> N
         made.save(place)
     assert place.read_text(encoding="utf-8") == page
     assert [file.name for file in tmp_path.iterdir()] == ["page.html"]
+
+
+def test_a_trajectory_is_a_signal() -> None:
+    run = ridgeback.simulate("pendulum", (1.0, 0.0), duration=40.0, rate=16.0)
+    track = ridgeback.estimate(run, method="zero-crossing", bias=False)
+    assert np.array_equal(track.omega, ridgeback.estimate(run.u, run.rate, method="zero-crossing", bias=False).omega)
+    with pytest.raises(ridgeback.InputError, match="a Trajectory has its rate already"):
+        ridgeback.estimate(run, 8.0)
+
+
+def test_a_single_thing_is_no_signal() -> None:
+    with pytest.raises(ridgeback.InputError, match=r"int, not samples; give a sequence of numbers"):
+        ridgeback.estimate(7, 8.0)
+
+
+def test_checks_limits_and_orbits_take_any_form_of_an_oscillator() -> None:
+    series = ridgeback.derive("pendulum", 6)
+    u = sympy.Symbol("u")
+    assert all(check.passed for check in ridgeback.certify(sympy.sin(u), series))
+    assert ridgeback.limits("u'' + sin(u) = 0", series).radius == pytest.approx(math.pi, abs=1e-3)
+    orbit = ridgeback.periodic_orbit("u'' + eps*(u**2 - 1)*u' + u = 0", parameters={"eps": 1})
+    assert ridgeback.precise_orbit("van_der_pol", digits=15, parameters={"eps": 1}).peak == pytest.approx(orbit.peak)
+
+
+def test_high_orders_tell_their_progress() -> None:
+    seen: list[float] = []
+    ridgeback.lindstedt_in_balls("pendulum", 8, progress=lambda share, _: seen.append(share))
+    assert seen
+    seen.clear()
+    ridgeback.lindstedt_by_primes("pendulum", 8, progress=lambda share, _: seen.append(share))
+    assert seen[-1] == 1
+    assert (
+        ridgeback.lindstedt_by_primes("pendulum", 4, progress=True).frequency
+        == ridgeback.derive("pendulum", 4).frequency
+    )
