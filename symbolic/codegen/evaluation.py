@@ -10,7 +10,7 @@ from functools import partial
 from typing import Final
 
 from ridgeback.symbolic.codegen.number import FLOAT32, FLOAT64, Number, Real, rounded
-from ridgeback.symbolic.codegen.program import Form, Function, Operand, Operation, Step, lowered
+from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operand, Operation, Step, lowered
 
 
 def divided(a: float, b: float) -> float:
@@ -71,9 +71,21 @@ def value_at(form: Form, function: Function, arguments: tuple[float, ...]) -> fl
     def of(operand: Operand) -> float:
         return operand.nearest if isinstance(operand, Number) else known[operand]
 
-    for step in lowered(function.body, form.real):
-        known[step.name] = _step(form, step, [of(o) for o in step.operands], cut)
+    for statement in function.body:
+        if isinstance(statement, Horner) and form.real is FLOAT64 and not form.fused:
+            known[statement.name] = _horner(statement, known[statement.at])
+            continue
+        for step in lowered((statement,), form.real):
+            known[step.name] = _step(form, step, [of(o) for o in step.operands], cut)
     return of(function.result)
+
+
+def _horner(statement: Horner, x: float) -> float:
+    """Horner's rule in doubles; a coefficient that is 0 changes nothing but the sign of a zero."""
+    value, *rest = statement.falling
+    for coefficient in rest:
+        value = value * x + coefficient
+    return value
 
 
 def _step(form: Form, step: Step, x: list[float], cut: Callable[[float], float]) -> float:

@@ -144,10 +144,13 @@ def argument_names(names: Iterable[str]) -> dict[str, str]:
     >>> argument_names(("mu", "Mu", "lambda", "lambda_"))
     {'mu': 'mu', 'Mu': 'Mu_v2', 'lambda': 'lambda_', 'lambda_': 'lambda_v2'}
     """
-    seen: dict[str, int] = {}
+    seen: set[str] = set()
     found = {}
     for name in names:
-        plain = argument_name(name)
-        count = seen[plain.lower()] = seen.get(plain.lower(), 0) + 1
-        found[name] = plain if count == 1 else f"{plain.rstrip('_')}_v{count}"
+        plain, count = argument_name(name), 1
+        while plain.lower() in seen:
+            count += 1
+            plain = f"{argument_name(name).rstrip('_')}_v{count}"
+        seen.add(plain.lower())
+        found[name] = plain
     return found

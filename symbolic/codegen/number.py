@@ -139,5 +139,13 @@ class Number:
             return math.floor(math.log10(abs(float(self.ball))))
         return round((int(self.exact.p).bit_length() - int(self.exact.q).bit_length()) * math.log10(2))
 
+    @cached_property
+    def text(self) -> str:
+        """The exact number as it is written; FLINT prints integers of any length."""
+        return str(self.exact)
+
     def __str__(self) -> str:
-        return str(self.exact)  # FLINT prints integers of any length
+        return self.text
+
+    def __repr__(self) -> str:
+        return f"Number({self.text}, {self.real.name})"

@@ -46,7 +46,7 @@ def nested(steps: Steps, name: str, variables: tuple[str, ...], terms: Mapping[t
     rows = {q: {powers[:-1]: value for powers, value in terms.items() if powers[-1] == q} for q in last}
     if last == [0]:
         return nested(steps, name, variables[:-1], rows[0])
-    inner = {q: nested(steps, f"{name}{q}" if name == "y" else f"{name}_{q}", variables[:-1], rows[q]) for q in last}
+    inner = {q: nested(steps, steps.fresh(), variables[:-1], rows[q]) for q in last}
     return steps.horner(name, variables[-1], inner)
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property
 from typing import Final, Literal, TypeAlias
 
 from flint import fmpq
@@ -62,6 +63,11 @@ class Horner:
     name: str
     at: str
     coefficients: tuple[Number | None, ...]
+
+    @cached_property
+    def falling(self) -> tuple[float, ...]:
+        """The numbers of the format from the highest power down."""
+        return tuple(0.0 if c is None else c.nearest for c in reversed(self.coefficients))
 
     @property
     def loops(self) -> bool:
@@ -238,6 +244,12 @@ class Steps:
         self.taken: list[Statement] = []
         self.real = real
         self.known: set[str] = set()
+        self.count = 0
+
+    def fresh(self) -> str:
+        """A name for a further intermediate result: y1, y2, ..."""
+        self.count += 1
+        return f"y{self.count}"
 
     def number(self, value: int | Exact) -> Number:
         """An exact number in the format of the code."""

@@ -26,6 +26,10 @@ FUSED = """\
   end interface"""
 
 
+LONGEST = 96
+"""Characters of a line, before what continues it; free form has 132."""
+
+
 class Fortran(Language):
     """A Fortran module; as a package one that fpm builds."""
 
@@ -69,7 +73,8 @@ class Fortran(Language):
             self._check(form),
             f"end module {form.name}",
         ]
-        return "\n\n".join(parts) + "\n"
+        source = "\n\n".join(parts) + "\n"
+        return "".join(f"{folded(line)}\n" for line in source.splitlines())
 
     def _table(self, name: str, horner: Horner, form: Form) -> str:
         rows = []
@@ -152,7 +157,7 @@ class Fortran(Language):
             "  ! Number of entries of the self-test tables that do not come out bit for bit.",
             "  function self_test() result(failed)",
             "    integer :: failed, i",
-            "    real(wp) :: p(10), value(1)",
+            f"    real(wp) :: p({max(len(f.arguments) for f in form.functions) + 1}), value(1)",
             "    failed = 0",
         ]
         for function in form.functions:
@@ -189,6 +194,23 @@ class Fortran(Language):
 
     def commands(self, form: Form, tool: str) -> tuple[tuple[str, ...], ...]:
         return ((tool, *FLAGS, "-Werror", "-o", "check", f"src/{form.name}.f90", "test/check.f90"), ("./check",))
+
+
+def folded(line: str) -> str:
+    """A statement in lines of free form, broken behind commas.
+
+    >>> print(folded("call f(" + ", ".join(["argument"] * 12) + ")"))
+    call f(argument, argument, argument, argument, argument, argument, argument, argument, argument, &
+        argument, argument, argument)
+    """
+    parts, here = [], ""
+    for piece in line.split(", "):
+        if here and len(here) + len(piece) > LONGEST:
+            parts.append(f"{here}, &")
+            here = f"    {' ' * (len(line) - len(line.lstrip()))}{piece}"
+        else:
+            here = f"{here}, {piece}" if here else piece
+    return "\n".join([*parts, here]) if not line.lstrip().startswith("!") else line
 
 
 def pieces(name: str, kind: str, rows: Sequence[tuple[str, list[str]]]) -> list[str]:

@@ -167,7 +167,7 @@ class Language(ABC):
         elif len(line) + len(joined := ", ".join(texts)) <= WIDTH:
             yield f"{line}  {self.remark(exact_text(joined))}"
         else:
-            yield from (self.remark(part) for text in texts for part in wrap(exact_text(text), WIDTH))
+            yield from (self.remark(part) for text in texts for part in pieces(exact_text(text)))
             yield line
 
     def remark(self, text: str) -> str:
@@ -220,10 +220,18 @@ def table_name(function: Function, horner: Horner) -> str:
     return f"table_{function.name}_{horner.name}"
 
 
+def pieces(text: str) -> list[str]:
+    """A long number in lines.
+
+    >>> pieces("1" * 101)[1]
+    '1'
+    """
+    return [text[i : i + WIDTH] for i in range(0, len(text), WIDTH)]
+
+
 def needs_note(number: Number) -> bool:
     """Whether the exact number is worth a comment: not when it is a small whole number."""
-    text = str(number)
-    return not (text.lstrip("-").isdigit() and len(text) <= 4)
+    return len(number.text) > 4 or not number.text.lstrip("-").isdigit()
 
 
 def exact_text(text: str) -> str:

@@ -26,6 +26,9 @@ BITS: Final = 128
 WORK: Final = 12000
 """Operations that a bound may cost; short functions are looked at in more and smaller boxes."""
 FEWEST: Final = 8
+KEPT: Final = 24
+"""Coefficients of a long polynomial that are looked at one by one; those of higher powers by their sizes."""
+SLACK: Final = 2.0**-50
 SHARP: Final = arb(1.02)
 """A box whose bound is so near to that at its middle is not halved."""
 
@@ -106,8 +109,34 @@ class _Analysis:
         return Computed(exact, (error + half_spacing(abs(exact) + error, self.real)).upper(), error.upper())
 
     def _horner(self, horner: Horner) -> None:
+        tail = self._tail(horner, self.known[horner.at]) if horner.loops else None
+        if tail is not None and tail.error.is_finite():
+            self.known[horner.name] = tail
+            value: Operand = horner.name
+            for c in reversed(horner.coefficients[:KEPT]):
+                self._step(Step(horner.name, Operation.MULTIPLY_ADD, (value, horner.at, c or Number(fmpq(0)))))
+            return
         for step in horner.steps():
             self._step(step)
+
+    def _tail(self, horner: Horner, x: Computed) -> Computed:
+        """What the high powers of a long polynomial amount to, by sizes alone.
+
+        With T the sum of |c_i| X^i, its computed value is within gamma_(2n + 2) T of the value at the computed x, and
+        that within |x' - x| T' of the value at x; T and T' are summed in floats, whose own errors are a share of
+        gamma_(4n).  ``lost`` counts underflows.
+        """
+        top = float(arb(abs(x.exact) + x.error).upper()) * (1 + SLACK)
+        size = slope = lost = 0.0
+        for c in horner.falling[: len(horner.falling) - KEPT]:
+            slope = slope * top + size
+            size = size * top + abs(c)
+            lost = lost * top + 1.0
+        n = len(horner.falling)
+        grown = arb(1 + 8 * n * SLACK)
+        count = (2 * n + 2) * arb(fmpq(self.real.unit.numerator, self.real.unit.denominator))
+        error = count / (1 - count) * size + x.error * arb(slope) + 2 * n * arb(lost) * arb(2) ** self.real.low
+        return Computed(arb(0, (arb(size) * grown).upper()), (error * grown).upper())
 
     def _step(self, step: Step) -> None:
         operands = [self.of(o) for o in step.operands]
@@ -228,7 +257,7 @@ def exact_value(function: Function, fixed: Mapping[str, Computed], box: arb) -> 
 
 def _over(function: Function, run: Callable[[arb], Computed], real: Real) -> Bound:
     low, high = start(function), Fraction(function.domain.high)
-    length = sum(len(s.coefficients) if isinstance(s, Horner) else 1 for s in function.body) + 1
+    length = sum(_cost(statement) for statement in function.body) + 1
     budget = max(FEWEST, WORK // length)
     boxes: list[tuple[float, Fraction, Fraction, Computed]] = []
 
@@ -251,6 +280,12 @@ def _over(function: Function, run: Callable[[arb], Computed], real: Real) -> Bou
         push(left, middle)
         push(middle, right)
     return _worst(function, [*done, *(box[3] for box in boxes)], real, high)
+
+
+def _cost(statement: Statement) -> int:
+    if not isinstance(statement, Horner):
+        return 1
+    return 2 * KEPT + len(statement.coefficients) // 4 if statement.loops else len(statement.coefficients)
 
 
 def _size(found: Computed) -> float:
