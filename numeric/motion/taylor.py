@@ -11,6 +11,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
+from time import perf_counter
 
 import mpmath as mp
 import numpy as np
@@ -20,6 +21,7 @@ from ridgeback.numeric.arrays import Array, frozen, frozen_mask
 from ridgeback.numeric.motion.dynamics import Dynamics, well
 from ridgeback.numeric.motion.precise_ring import Precise
 from ridgeback.numeric.motion.trajectory import (
+    MEMORY_BUDGET,
     CrossingEvents,
     Interpolant,
     Trajectory,
@@ -30,6 +32,11 @@ from ridgeback.numeric.motion.trajectory import (
 )
 
 _GUARD = 8  # digits carried beyond those asked for, against rounding over many steps
+PILOT = 40
+"""Steps that are timed to see how long the rest takes."""
+SECONDS = 150.0
+"""What an integration may take."""
+_BYTES = 220  # of one coefficient of 30 digits with its object
 _MAX_WORK = 3e8  # steps times degree squared; one unit costs about 0.5 microseconds
 _SUBDIVISIONS = 2  # of each step, when looking for sign changes
 
@@ -180,11 +187,15 @@ def taylor_solution(
         limits = well(dynamics)
         knots: list[Precise] = [time]
         polynomials: list[tuple[Precise, ...]] = []
+        began = perf_counter()
         while time < end:
             c = tuple(jet(u, v, order))
             step = min(_step(c, dynamics.natural_frequency), end - time)
             if not polynomials:
                 _check_work(float(end / step) * order**2, duration)
+                _check_memory(float(end / step) * order, duration)
+            if len(polynomials) == PILOT:
+                check_time((perf_counter() - began) / float(time) * float(end - time), duration)
             polynomials.append(c)
             time = end if step == end - time else time + step
             knots.append(time)
@@ -205,6 +216,30 @@ def _check_work(work: float, duration: float) -> None:
         raise InputError(
             f"Taylor integration over {duration:g} would take about {work * 5e-7:.0f} s; "
             f"use fewer digits or duration <= {duration * _MAX_WORK / work:.3g}"
+        )
+
+
+def _check_memory(coefficients: float, duration: float) -> None:
+    """Refuse what would keep more coefficients than the budget of memory holds."""
+    if coefficients * _BYTES > MEMORY_BUDGET:
+        raise InputError(
+            f"Taylor integration over {duration:g} would keep about {coefficients * _BYTES / 1e9:.2g} GB of "
+            f"coefficients; use fewer digits or duration <= {duration * MEMORY_BUDGET / (coefficients * _BYTES):.3g}"
+        )
+
+
+def check_time(seconds: float, duration: float) -> None:
+    """Refuse what the first steps show to take longer than the budget.
+
+    >>> check_time(1000.0, 5.0)
+    Traceback (most recent call last):
+        ...
+    ridgeback.common.errors.InputError: Taylor integration over 5 would take about 1000 s; use ... duration <= 0.75
+    """
+    if seconds > SECONDS:
+        raise InputError(
+            f"Taylor integration over {duration:g} would take about {seconds:.0f} s; "
+            f"use fewer digits or duration <= {duration * SECONDS / seconds:.3g}"
         )
 
 

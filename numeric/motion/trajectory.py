@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,7 +21,18 @@ from ridgeback.numeric.motion.shown import ShownTrajectory
 Interpolant = Callable[[Array], tuple[Array, Array]]
 
 _SOLVERS: dict[str, Any] = {"DOP853": DOP853, "RK45": RK45, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
-METHODS = tuple(_SOLVERS)
+AUTO = "auto"
+"""DOP853, or Radau where the first steps show that the equation is stiff."""
+METHODS = (AUTO, *_SOLVERS)
+STIFF = 100_000
+"""Evaluations beyond twenty times those of as many cycles by which an equation counts as stiff."""
+PILOT = 400
+"""Steps after which the number of all is foretold."""
+RECENT = 100
+"""Steps by whose mean length it is."""
+MEMORY_BUDGET = 1_000_000_000
+"""Bytes that the steps of a solution may take."""
+_BYTES_PER_STEP = 1_000  # of DOP853 with its dense output
 MAX_SAMPLES = 2**24
 MAX_EVALUATIONS = 20_000_000
 _BYTES_PER_SAMPLE = 24  # time, u and u' in float64
@@ -113,7 +125,7 @@ def integrate(
     *,
     duration: float,
     rate: float,
-    method: str = "DOP853",
+    method: str = AUTO,
     rtol: float = 1e-12,
     atol: float | None = None,
 ) -> Trajectory:
@@ -130,7 +142,8 @@ def integrate(
     rate : float
         Samples per time unit.
     method : str
-        One of METHODS; ``"Radau"`` for stiff equations.
+        One of METHODS; ``"auto"`` is DOP853, or Radau where DOP853's first steps show that it would take too many, as
+        of a stiff equation.
     rtol : float
         Relative tolerance of the solver.
     atol : float, optional
@@ -145,7 +158,7 @@ def integrate(
     ------
     InputError
         For a start at rest in an equilibrium, a motion that leaves the potential well (rotation, escape) or grows
-        without bound, and for work beyond the budget.
+        without bound, and for work or memory that the first few hundred steps show to be beyond the budget.
 
     Examples
     --------
@@ -155,7 +168,7 @@ def integrate(
     (True, 71)
     """
     state = check_request(dynamics, initial, duration=duration, rate=rate)
-    if method not in _SOLVERS:
+    if method not in METHODS:
         raise InputError(f"unknown method {method!r}; use one of {', '.join(METHODS)}")
     if not 1e-13 <= rtol <= 1e-3:
         raise InputError(f"rtol = {rtol!r} is outside 1e-13 to 1e-3, where double precision can follow")
@@ -164,8 +177,18 @@ def integrate(
     absolute = rtol * size if atol is None else atol
     if not (math.isfinite(absolute) and absolute > 0):
         raise InputError(f"atol = {atol!r} must be finite and positive")
-    solve = _Integration(dynamics, method, rtol, np.array([absolute, absolute * k]))
-    return solve.run(state, duration, rate)
+    tolerance = np.array([absolute, absolute * k])
+    if method != AUTO:
+        return _Integration(dynamics, method, rtol, tolerance).run(state, duration, rate)
+    usual = _EVALUATIONS_PER_CYCLE * duration * k / (2 * math.pi)
+    for chosen, most in (("DOP853", min(STIFF + 20.0 * usual, MAX_EVALUATIONS)), ("Radau", MAX_EVALUATIONS)):
+        with suppress(TooManyStepsError):
+            return _Integration(dynamics, chosen, rtol, tolerance, most).run(state, duration, rate)
+    return _Integration(dynamics, "DOP853", rtol, tolerance).run(state, duration, rate)
+
+
+class TooManyStepsError(InputError):
+    """The first steps show that the others would be too many."""
 
 
 def check_request(
@@ -246,8 +269,10 @@ def check_inside(dynamics: Dynamics, u: float, time: float, limits: tuple[float,
 class _Integration:
     """One integration under way: counts evaluations and guards against escape."""
 
-    def __init__(self, dynamics: Dynamics, method: str, rtol: float, atol: Array) -> None:
-        self.dynamics, self.method, self.rtol, self.atol = dynamics, method, rtol, atol
+    def __init__(
+        self, dynamics: Dynamics, method: str, rtol: float, atol: Array, most: float = MAX_EVALUATIONS
+    ) -> None:
+        self.dynamics, self.method, self.rtol, self.atol, self.most = dynamics, method, rtol, atol, most
         self.limits = well(dynamics)
         self.evaluations = 0
 
@@ -295,6 +320,8 @@ class _Integration:
         while solver.status == "running":
             message = solver.step()
             self.guard(solver, message, bound)
+            if len(times) % PILOT == 0:
+                self.foretell(len(times), float(solver.t), float(solver.t) - times[-RECENT], duration)
             times.append(float(solver.t))
             states.append(np.array(solver.y))
             pieces.append(solver.dense_output())
@@ -305,6 +332,23 @@ class _Integration:
             return u, v
 
         return np.array(times), np.array(states), dense
+
+    def foretell(self, steps: int, t: float, recent: float, duration: float) -> None:
+        """Refuse what the last steps show to take too many evaluations or too much memory."""
+        coming = RECENT * (duration - t) / recent if recent > 0.0 else math.inf
+        evaluations, size = self.evaluations * (1.0 + coming / steps), (steps + coming) * _BYTES_PER_STEP
+        if evaluations <= self.most and size <= MEMORY_BUDGET:
+            return
+        advice = (
+            "a shorter duration or a larger rtol"
+            if self.method == "Radau"
+            else ("method Radau if the equation is stiff, a shorter duration or a larger rtol")
+        )
+        raise TooManyStepsError(
+            f"{self.dynamics.name}: {self.method} is at t = {t:.4g} after {steps} steps, and would take about "
+            f"{evaluations:.2g} evaluations and {size / 1e9:.2g} GB, over {self.most:.2g} and "
+            f"{MEMORY_BUDGET / 1e9:.2g} GB; use {advice}"
+        )
 
     def guard(self, solver: Any, message: str | None, bound: float) -> None:
         name, t, u = self.dynamics.name, float(solver.t), float(solver.y[0])

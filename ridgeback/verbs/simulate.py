@@ -27,9 +27,9 @@ COLUMNS = ("time_s", "u", "velocity")
 @click.option("--rate", type=POSITIVE, default="64", show_default=True, metavar="R", help="Samples per time unit.")
 @click.option(
     "--method",
-    default="DOP853",
+    default="auto",
     show_default=True,
-    help="DOP853, RK45, Radau, BDF, LSODA, taylor, or heyoka where that is installed.",
+    help="DOP853, RK45, Radau, BDF, LSODA, taylor, heyoka where it is installed; auto is DOP853, or Radau if stiff.",
 )
 @click.option(
     "--digits", type=click.IntRange(15, 200), default=None, help="Digits that taylor works with.  Default: 30."

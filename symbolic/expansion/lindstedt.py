@@ -22,7 +22,7 @@ from flint import fmpq
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, Wanted, shown
 from ridgeback.symbolic.expansion.amplitude import DEFINITIONS, check_amplitude
-from ridgeback.symbolic.expansion.cost import Budget, check
+from ridgeback.symbolic.expansion.cost import Budget, check, effort_of
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order
 from ridgeback.symbolic.expansion.limit_cycle import limit_cycle
 from ridgeback.symbolic.expansion.recursion import BetweenOrders, Recursion, compiled, no_watch, normalise, residual
@@ -111,7 +111,7 @@ def watching(progress: Progress, order: int) -> BetweenOrders:
 def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Budget, progress: Progress) -> Expansion:
     natural = oscillator.normalised
     force, names = natural.rational, free_names(natural.rational)
-    check("lindstedt", order, budget, parameters=len(names))
+    check("lindstedt", order, budget, parameters=len(names), effort=effort_of(force, U))
     recursion = conservative_recursion(oscillator, order, amplitude, space_for(names), watch=watching(progress, order))
     return Expansion(
         system=oscillator.name,

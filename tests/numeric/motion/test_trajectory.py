@@ -137,7 +137,7 @@ GOOD = {"duration": 1.0, "rate": 10.0}
         ((1.0, 0.0), {"duration": 0.0}, "duration = 0.0"),
         ((1.0, 0.0), {"rate": -1.0}, "rate = -1.0"),
         ((1.0, 0.0), {"rate": math.nan}, "rate = nan"),
-        ((1.0, 0.0), {"method": "Euler"}, "unknown method 'Euler'; use one of DOP853"),
+        ((1.0, 0.0), {"method": "Euler"}, "unknown method 'Euler'; use one of auto, DOP853"),
         ((1.0, 0.0), {"rtol": 1e-20}, "rtol"),
         ((1.0, 0.0), {"atol": -1.0}, "atol"),
         ((1.0, 0.0), {"rate": 1e9}, "use rate <="),
