@@ -89,7 +89,7 @@ def assembled(motion: Motion, contenders: list[Contender]) -> Benchmark:
         case=motion.setting.case(),
         reference=reference,
         support=(float(times[0]), float(times[-1])),
-        rows=rows,
+        contenders=rows,
         crossings=crossings(rows, errors, amplitude, support, cycle, reference),
         verdict=judge(rows, reference),
         time=motion.time,

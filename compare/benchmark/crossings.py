@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ridgeback.compare.benchmark.results import (
+from ridgeback.compare.benchmark.contenders import (
     AmplitudeCrossing,
     Crossings,
     EqualCoefficients,

@@ -14,9 +14,9 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from ridgeback.common.errors import InputError
+from ridgeback.compare.benchmark.contenders import Row
 from ridgeback.compare.benchmark.expansions import Contender, refused
 from ridgeback.compare.benchmark.own_correction import corrected
-from ridgeback.compare.benchmark.results import Row
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.estimate import estimate

@@ -15,7 +15,7 @@ from functools import partial
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.benchmark.results import Kind, Row, Source
+from ridgeback.compare.benchmark.contenders import Kind, Row, Source
 from ridgeback.compare.binding.compiled_code import NotCompiled, compiled
 from ridgeback.compare.binding.generated_code import python_module
 from ridgeback.compare.motion.model_curves import slow_flow_curve

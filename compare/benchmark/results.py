@@ -1,4 +1,4 @@
-"""What a benchmark hands over: one row for each contender, where they cross, and which is best at what cost.
+"""What a benchmark hands over: every contender on one motion.
 
 Errors are relative to the reference omega0(t) and are taken over the support that is named; times are wall times of
 this machine in this run.
@@ -6,157 +6,16 @@ this machine in this run.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
-from typing import Literal
+from dataclasses import dataclass
 
+from ridgeback.compare.benchmark.contenders import Crossings, Reference, Row, Verdict
+from ridgeback.compare.benchmark.shown import ShownBenchmark
 from ridgeback.compare.motion.results import Case
 from ridgeback.numeric.arrays import Array, freeze
 
-Kind = Literal["expansion", "slow-flow", "resummation", "series-model", "closed-form", "averaged", "linear", "estimate"]
-Source = Literal["energy", "action", "fit"]
-"""Where a model takes its amplitude from: A(t) of the instantaneous energy (21), of the averaged action, or of the
-envelope of the turning points."""
-Way = Literal["expansions", "series model", "estimates"]
 
-WAYS: Mapping[Kind, Way | None] = {
-    "expansion": "expansions",
-    "slow-flow": "expansions",
-    "resummation": "expansions",
-    "series-model": "series model",
-    "closed-form": None,
-    "averaged": None,
-    "linear": None,
-    "estimate": "estimates",
-}
-"""The way that a kind belongs to; None for what serves as a yardstick."""
-
-
-@dataclass(frozen=True)
-class Reference:
-    """What errors are measured against, and how well that is known (relative rms over the support)."""
-
-    label: str
-    numerical_error: float
-    definition: float
-    """How far two readings of the same motion differ: below it, omega0(t) of a decay is not defined."""
-
-    @property
-    def floor(self) -> float:
-        """The error below which two contenders cannot be told apart."""
-        return max(self.numerical_error, self.definition)
-
-
-@dataclass(frozen=True)
-class Row:
-    """One contender.  Its errors are None when it was refused; ``refused`` says why."""
-
-    method: str
-    label: str
-    kind: Kind
-    order: int | None = None
-    """Order of an expansion, or number of terms of the series model."""
-    coefficients: int | None = None
-    amplitude_from: Source | None = None
-    language: str | None = None
-    corrected_by: str | None = None
-    relative_rms_error: float | None = None
-    largest: float | None = None
-    mean: float | None = None
-    """Signed: negative means low."""
-    support: tuple[float, float] | None = None
-    coverage: float = 0.0
-    """Share of the interior that the contender itself covers."""
-    ranked: bool = False
-    time_ns_per_value: float | None = None
-    time_s_per_track: float | None = None
-    refused: str | None = None
-
-    def to_dict(self) -> dict[str, object]:
-        """The row as JSON knows it."""
-        return asdict(self)
-
-
-@dataclass(frozen=True)
-class OrderCrossing:
-    """The order from which an expansion stays below the error of an estimate; None in ``after`` when it never does."""
-
-    estimate: str
-    estimate_error: float
-    amplitude_from: Source
-    before: int | None
-    """The last order that errs more; None when the lowest order is better already."""
-    after: int | None
-    settled: bool
-    """Whether the two errors on each side differ by more than the reference leaves open."""
-
-    def sentence(self) -> str:
-        """The crossing in words.
-
-        >>> OrderCrossing("pseudo-wigner", 4.6e-4, "action", 20, 30, True).sentence()
-        'expansion at A(t) from the action passes pseudo-wigner between orders 20 and 30'
-        """
-        head = f"expansion at A(t) from the {self.amplitude_from}"
-        if self.after is None:
-            return f"{head} stays behind {self.estimate} to order {self.before}"
-        if self.before is None:
-            return f"{head} is ahead of {self.estimate} from order {self.after}"
-        return f"{head} passes {self.estimate} between orders {self.before} and {self.after}"
-
-
-@dataclass(frozen=True)
-class AmplitudeCrossing:
-    """The peak amplitude below which an expansion of this order errs less than an estimate along the same decay."""
-
-    estimate: str
-    order: int
-    amplitude_from: Source
-    amplitude: float | None
-    """None: there is no crossing on the support."""
-    uncertainty: float
-    below_everywhere: bool
-    """Without a crossing: whether the expansion is the better one throughout."""
-
-
-@dataclass(frozen=True)
-class EqualCoefficients:
-    """The paper's series and the expansion with as many coefficients, at the same amplitude."""
-
-    coefficients: int
-    terms: int
-    order: int
-    amplitude_from: Source
-    series_error: float
-    expansion_error: float
-
-
-@dataclass(frozen=True)
-class Crossings:
-    """All crossings of a benchmark."""
-
-    orders: tuple[OrderCrossing, ...] = ()
-    amplitudes: tuple[AmplitudeCrossing, ...] = ()
-    equal_coefficients: tuple[EqualCoefficients, ...] = ()
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """Which way is best here, by how much over the best of another way, and what it costs."""
-
-    way: Way
-    best: Row
-    rival_way: Way | None
-    rival: Row | None
-    ratio: float | None
-    """The rival's error over the best's, both no less than the reference's floor."""
-    decided: bool
-    """Whether the difference is more than the reference leaves open."""
-    limit: str
-    """Where the best way ends, in words made from its numbers."""
-
-
-@dataclass(frozen=True)
-class Benchmark:
+@dataclass(frozen=True, repr=False)
+class Benchmark(ShownBenchmark):
     """Every contender on one motion, judged on one support against one reference.
 
     Made by :func:`ridgeback.benchmark`.
@@ -169,7 +28,7 @@ class Benchmark:
         What errors are measured against, and how well that is known.
     support : (float, float)
         The times between which errors are taken.
-    rows : tuple of Row
+    contenders : tuple of Row
         One for each contender, best first, its errors relative to the reference.
     crossings : Crossings
         Where expansions pass estimates.
@@ -186,14 +45,14 @@ class Benchmark:
     --------
     >>> import ridgeback
     >>> found = ridgeback.benchmark("damped-pendulum", initial=(1.0, 0.0), duration=60.0, rate=5.0, orders=(2, 6))
-    >>> found.errors.shape == (len(found.rows), found.time.size)
+    >>> found.errors.shape == (len(found.contenders), found.time.size)
     True
     """
 
     case: Case
     reference: Reference
     support: tuple[float, float]
-    rows: tuple[Row, ...]
+    contenders: tuple[Row, ...]
     crossings: Crossings
     verdict: Verdict
     time: Array
@@ -205,5 +64,4 @@ class Benchmark:
 
     def row(self, method: str) -> Row:
         """The row of this name; KeyError without it."""
-        found = {row.method: row for row in self.rows}
-        return found[method]
+        return {row.method: row for row in self.contenders}[method]

@@ -1,4 +1,4 @@
-"""Which way to omega0(t) is best here: a typed judgement, and its sentence."""
+"""Which way to omega0(t) is best here: a typed judgement."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import relative
-from ridgeback.compare.benchmark.results import WAYS, Reference, Row, Verdict, Way
+from ridgeback.compare.benchmark.contenders import WAYS, Reference, Row, Verdict, Way
 
 
 def judge(rows: Sequence[Row], reference: Reference) -> Verdict:
@@ -55,18 +55,3 @@ def _limit(row: Row) -> str:
     if row.amplitude_from is None:
         return f"it needs the equation, and holds on the limit cycle alone; {largest}"
     return f"it needs the equation and A(t) from the {row.amplitude_from}; {largest}"
-
-
-def sentence(verdict: Verdict, reference: Reference) -> str:
-    """The verdict in words."""
-    head = f"{_named(verdict.best)} errs {relative(_error(verdict.best))} rms"
-    if verdict.rival is None or verdict.ratio is None:
-        return f"{head}; nothing of another way could be ranked"
-    rival = f"{_named(verdict.rival)} ({relative(_error(verdict.rival))})"
-    if not verdict.decided:
-        return f"{head}, and {rival} cannot be told from it: omega0(t) itself is open by {relative(reference.floor)}"
-    return f"{head}, {verdict.ratio:.2g} times less than {rival}"
-
-
-def _named(row: Row) -> str:
-    return row.label[0].upper() + row.label[1:]

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 
-from ridgeback.compare.benchmark.results import WAYS, Benchmark, Row
+from ridgeback.compare.benchmark.contenders import WAYS, Row
+from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.reports.drawing.canvas import Canvas, Line, decades, draw, titles
 from ridgeback.reports.drawing.picture import picture
 from ridgeback.reports.drawing.theme import Variant, sentinel
@@ -33,7 +34,9 @@ def drawn(found: Benchmark) -> Canvas:
     canvas = Canvas(PAGE)
     (axes,) = canvas.grid((1.0,), 1, left=LEFT, right=215.0)
     count = found.time.size
-    rows = [row for row in found.rows if row.ranked and seconds(row, count) is not None and row.relative_rms_error]
+    rows = [
+        row for row in found.contenders if row.ranked and seconds(row, count) is not None and row.relative_rms_error
+    ]
     costs = [float(seconds(row, count) or 0.0) for row in rows]
     errors = [float(row.relative_rms_error or 0.0) for row in rows]
     decades(axes, "x", 0.4 * min(costs), 2.5 * max(costs), ticks=9)
@@ -77,9 +80,9 @@ FAMILIES = (
 
 def joined(axes: Axes, found: Benchmark, count: int) -> None:
     """Join expansions by order and the series model by terms: dashed at A(t) from the energy."""
-    compiled = any(row.language == "c" for row in found.rows)
+    compiled = any(row.language == "c" for row in found.contenders)
     for kind, token, name in FAMILIES:
-        group = [row for row in found.rows if row.kind == kind and row.ranked]
+        group = [row for row in found.contenders if row.kind == kind and row.ranked]
         group = [row for row in group if not (compiled and row.language == "python")]
         sources = list(dict.fromkeys(row.amplitude_from for row in group))
         for source in sources:

@@ -9,8 +9,8 @@ from ridgeback.console.output import json_text
 from ridgeback.console.tables import Row, aligned, csv_text
 
 if TYPE_CHECKING:
+    from ridgeback.compare.benchmark.contenders import Row as Contender
     from ridgeback.compare.benchmark.results import Benchmark
-    from ridgeback.compare.benchmark.results import Row as Contender
 
 COLUMNS = (
     *("method", "kind", "order", "coefficients", "amplitude_from", "language", "corrected_by"),
@@ -25,15 +25,13 @@ def benchmark_text(found: Benchmark, style: str) -> str:
     if style == "json":
         return json_text(record(found))
     if style == "csv":
-        return csv_text(COLUMNS, [flat(row) for row in found.rows])
+        return csv_text(COLUMNS, [flat(row) for row in found.contenders])
     return readable(found)
 
 
 def record(found: Benchmark) -> dict[str, Any]:
     """The benchmark as JSON knows it."""
     from dataclasses import asdict
-
-    from ridgeback.compare.benchmark.verdict import sentence
 
     verdict = found.verdict
     orders = [{"kind": "order", **asdict(c), "sentence": c.sentence()} for c in found.crossings.orders]
@@ -43,7 +41,7 @@ def record(found: Benchmark) -> dict[str, Any]:
         "case": asdict(found.case),
         "reference": {**asdict(found.reference), "floor": found.reference.floor},
         "support": found.support,
-        "rows": [row.to_dict() for row in found.rows],
+        "rows": [row.to_dict() for row in found.contenders],
         "crossings": [*orders, *amplitudes, *equal],
         "verdict": {
             "way": verdict.way,
@@ -53,7 +51,7 @@ def record(found: Benchmark) -> dict[str, Any]:
             "ratio": verdict.ratio,
             "decided": verdict.decided,
             "limit": verdict.limit,
-            "sentence": sentence(verdict, found.reference),
+            "sentence": verdict.sentence(found.reference),
         },
     }
 
@@ -68,8 +66,6 @@ def flat(row: Contender) -> Row:
 
 def readable(found: Benchmark) -> str:
     """The table of what is ranked, best first, then what is not, the crossings and the verdict."""
-    from ridgeback.compare.benchmark.verdict import sentence
-
     ranked = sorted(merged(found), key=lambda r: r[0].relative_rms_error or 0.0)
     begin, end = (number(x) for x in found.support)
     parts = [
@@ -86,7 +82,7 @@ def readable(found: Benchmark) -> str:
         ),
         *equal(found),
         "",
-        f"{sentence(found.verdict, found.reference)}; {found.verdict.limit}.",
+        f"{found.verdict.sentence(found.reference)}; {found.verdict.limit}.",
     ]
     return "\n".join(parts) + "\n"
 
@@ -94,7 +90,7 @@ def readable(found: Benchmark) -> str:
 def merged(found: Benchmark) -> list[list[Contender]]:
     """The ranked rows, those of one formula in several languages together: their values agree to rounding."""
     groups: dict[str, list[Contender]] = {}
-    for row in found.rows:
+    for row in found.contenders:
         if row.ranked:
             groups.setdefault(row.label, []).append(row)
     return list(groups.values())
@@ -116,7 +112,7 @@ def shown(rows: list[Contender]) -> Row:
 
 def unranked(found: Benchmark) -> list[str]:
     """What was refused or covers too little, and why."""
-    left = [row for row in found.rows if not row.ranked]
+    left = [row for row in found.contenders if not row.ranked]
     reasons = [f"  {row.label}: {row.refused or f'covers {row.coverage:.0%} of the interior'}" for row in left]
     return ["", "not ranked:", *dict.fromkeys(reasons)] if left else []
 

@@ -63,6 +63,6 @@ def command(
 
         write_bytes(plot, plot_file(found, plot.rpartition(".")[2].lower()))
     write_text(output, benchmark_text(found, style))
-    failed = [row for row in found.rows if row.refused is not None and row.kind == "estimate"]
+    failed = [row for row in found.contenders if row.refused is not None and row.kind == "estimate"]
     if failed:
         raise PartialError(f"{len(failed)} of the estimates give nothing here; the output says why")

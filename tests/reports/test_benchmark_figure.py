@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ridgeback.compare.benchmark.results import Benchmark, Crossings, Reference, Row
+from ridgeback.compare.benchmark.contenders import Crossings, Reference, Row
+from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import judge
 from ridgeback.compare.motion.results import Case
 from ridgeback.reports.figures.benchmark import apart, drawn, plot_file

@@ -11,10 +11,11 @@ import pytest
 from ridgeback.answers.benchmark_table import COLUMNS, benchmark_text
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.benchmark import benchmark
+from ridgeback.compare.benchmark.contenders import Reference, Row
 from ridgeback.compare.benchmark.crossings import by_order
 from ridgeback.compare.benchmark.own_correction import corrected, described
-from ridgeback.compare.benchmark.results import Benchmark, Reference, Row
-from ridgeback.compare.benchmark.verdict import judge, sentence
+from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.benchmark.verdict import judge
 from ridgeback.compare.motion.motion import setting
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.tracking.track import Track
@@ -38,7 +39,7 @@ def test_every_ranked_row_is_judged_on_the_support_that_is_named(pendulum: Bench
     inside = (pendulum.time >= pendulum.support[0]) & (pendulum.time <= pendulum.support[1])
     assert pendulum.support[0] < 25
     assert pendulum.support[1] > 120
-    for row, error in zip(pendulum.rows, pendulum.errors, strict=True):
+    for row, error in zip(pendulum.contenders, pendulum.errors, strict=True):
         if row.ranked:
             assert row.support == pytest.approx(pendulum.support)
             assert row.relative_rms_error == pytest.approx(float(np.sqrt(np.mean(error[inside] ** 2))))
@@ -61,7 +62,7 @@ def test_expansions_converge_to_the_averaged_action_and_the_series_model_follows
 
 
 def test_generated_c_agrees_with_generated_python_and_both_have_a_cost(pendulum: Benchmark) -> None:
-    rows = {row.method: row for row in pendulum.rows}
+    rows = {row.method: row for row in pendulum.contenders}
     assert rows["lindstedt-8-action"].time_ns_per_value > 0
     if "lindstedt-8-action-c" in rows:
         error = rows["lindstedt-8-action-c"].relative_rms_error
@@ -73,7 +74,7 @@ def test_a_correction_is_by_the_methods_own_track_and_makes_it_better(pendulum: 
         better = pendulum.row(f"{name}-corrected")
         assert better.corrected_by == "its own track"
         assert better.relative_rms_error < 0.5 * pendulum.row(name).relative_rms_error
-    assert {row.corrected_by for row in pendulum.rows} == {None, "its own track"}
+    assert {row.corrected_by for row in pendulum.contenders} == {None, "its own track"}
 
 
 def test_an_outsider_takes_part_and_is_placed_by_its_error(pendulum: Benchmark) -> None:
@@ -86,10 +87,12 @@ def test_an_outsider_takes_part_and_is_placed_by_its_error(pendulum: Benchmark) 
 
 def test_the_verdict_is_made_from_the_rows(pendulum: Benchmark) -> None:
     verdict = pendulum.verdict
-    ranked = [r for r in pendulum.rows if r.ranked and r.kind in ("expansion", "slow-flow", "resummation", "estimate")]
+    ranked = [
+        r for r in pendulum.contenders if r.ranked and r.kind in ("expansion", "slow-flow", "resummation", "estimate")
+    ]
     assert verdict.best.relative_rms_error == min(r.relative_rms_error for r in ranked)
     assert verdict.rival_way != verdict.way
-    assert f"{verdict.best.label[1:]} errs" in sentence(verdict, pendulum.reference)
+    assert f"{verdict.best.label[1:]} errs" in verdict.sentence(pendulum.reference)
 
 
 def test_json_csv_and_text_say_the_same(pendulum: Benchmark) -> None:
@@ -101,7 +104,7 @@ def test_json_csv_and_text_say_the_same(pendulum: Benchmark) -> None:
     lines = benchmark_text(pendulum, "csv").splitlines()
     assert lines[0] == ",".join(COLUMNS)
     assert len(lines) == len(record["rows"]) + 1
-    assert sentence(pendulum.verdict, pendulum.reference) in benchmark_text(pendulum, "text")
+    assert pendulum.verdict.sentence(pendulum.reference) in benchmark_text(pendulum, "text")
 
 
 def test_damping_of_any_form_and_a_motion_without_a_potential() -> None:
@@ -114,7 +117,7 @@ def test_damping_of_any_form_and_a_motion_without_a_potential() -> None:
     found = benchmark(setting(inertial, initial=(0.9, 0.0), duration=120.0, rate=5.0), orders=(2, 8))
     assert found.row("lindstedt-8-fit").relative_rms_error < 2e-4
     assert found.row("multiple-scales-8").refused is None
-    assert next(row for row in found.rows if row.method.startswith("nome")).refused is not None
+    assert next(row for row in found.contenders if row.method.startswith("nome")).refused is not None
 
 
 def test_the_described_signal_has_the_frequency_that_was_asked_and_not_that_of_the_samples() -> None:

@@ -38,6 +38,7 @@ def results() -> dict[str, Displayed]:
         "plane": ridgeback.pseudo_wigner(X[:200], RATE, lag_seconds=2.0),
         "study": ridgeback.study("pendulum", (2, 4, 8), np.linspace(0.2, 2.0, 10)),
         "cycle study": ridgeback.study("van-der-pol", (2, 4), [0.2, 0.4]),
+        "benchmark": ridgeback.benchmark("damped-pendulum", initial=(1.0, 0.0), duration=60.0, rate=5.0, orders=(2, 6)),
         "identification": ridgeback.identify(noisy, RATE, candidates=["linear", "pendulum"], damping="linear"),
         "report": ridgeback.report("linear", duration=60.0, rate=4.0, orders=(2,), amplitudes=[0.5, 1.0], trials=0),
     }
@@ -45,7 +46,7 @@ def results() -> dict[str, Displayed]:
 
 KINDS = (
     *("expansion", "long expansion", "cycle", "flow", "recording", "trajectory", "track", "backbone", "half cycles"),
-    *("fit", "plane", "study", "cycle study", "identification", "report"),
+    *("fit", "plane", "study", "cycle study", "benchmark", "identification", "report"),
 )
 
 

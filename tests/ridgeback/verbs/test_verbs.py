@@ -273,14 +273,6 @@ def test_systems_lists_the_catalogue(ridgeback: Ridgeback) -> None:
     assert one in listed
 
 
-def test_public_names_are_what_they_say() -> None:
-    import ridgeback as package
-
-    for name in package.HOMES:
-        assert getattr(package, name).__name__ == name
-    assert set(package.HOMES) <= set(dir(package))
-
-
 def test_progress_speaks_only_to_terminals() -> None:
     from ridgeback.console.progress import Progress
 
