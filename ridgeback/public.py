@@ -27,7 +27,7 @@ _PLANES = "Time-frequency planes"
 _ESTIMATE = "Estimate from signals"
 _IDENTIFY = "Identify"
 _COMPARE = "Compare and report"
-_VALUES = "What is handed over"
+_VALUES = "Results and values"
 
 PUBLIC: Final = (
     Public("oscillator", "symbolic.systems.door:as_oscillator", _NAME, "from a name, an equation, SymPy or TOML"),

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.progress import Wanted, shown
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.backbone.combined import CombinedBackbone, combine
@@ -299,7 +299,7 @@ def measure_recordings(
         raise InputError(f"combine {combine_over!r} is unknown; use one of {', '.join(COMBINE)}")
     measured: list[Measurement] = []
     refused: list[tuple[Recording, InputError]] = []
-    with shown(progress) as told:
+    with showing(progress) as told:
         for i, recording in enumerate(recordings):
             told(i / len(recordings), f"estimating {recording.label}")
             try:

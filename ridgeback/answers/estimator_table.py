@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ridgeback.common.numbers import uncertain
+from ridgeback.common.progress import showing
 from ridgeback.console.output import json_text, write_text
-from ridgeback.console.progress import Progress
 from ridgeback.console.tables import aligned, csv_text
 from ridgeback.options.budget import checkpoint_path
 
@@ -52,7 +52,7 @@ def estimators_verb(*, trials: int | None, seed: int, checkpoint: str | None, st
     """Run the study and write its table; what an interrupt leaves is written too, and called partial."""
     from ridgeback.compare.noise.estimator_study import TRIALS, estimator_study
 
-    with Progress() as progress:
+    with showing(True) as progress:
         study = estimator_study(
             trials=TRIALS if trials is None else trials, seed=seed, checkpoint=checkpoint, progress=progress
         )

@@ -147,7 +147,7 @@ def limit_cycles(oscillator: Oscillator, flow: SlowFlow) -> str:
 
 
 def cycle_line(point: FixedPoint, at: str) -> str:
-    """One fixed point in words; beyond the reach of the order no number of it is worth printing but its place."""
+    """One fixed point in words; beyond the reach of the order only its place is printed."""
     amplitude = float(point.amplitude.mid())
     if point.reach.beyond:
         return f"\na'/a of this order vanishes at {at}, a = {amplitude:.4g}: beyond its reach, {point.reach.why}\n"

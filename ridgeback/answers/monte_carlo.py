@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ridgeback.common.numbers import uncertain
+from ridgeback.common.progress import showing
 from ridgeback.console.output import json_text, write_text
-from ridgeback.console.progress import Progress
 from ridgeback.console.tables import aligned, csv_text
 from ridgeback.options.arguments import number, shown, written
 
@@ -114,7 +114,7 @@ def monte_carlo_verb(
     oscillator = model.oscillator()
     if source is None and oscillator is not None:
         source = simulated(oscillator)
-    with Progress() as progress, processes(workers) as executor:
+    with showing(True) as progress, processes(workers) as executor:
         study = monte_carlo(
             source,
             methods=METHODS if method == "auto" else tuple(word.strip() for word in method.split(",")),

@@ -84,10 +84,10 @@ def is_notebook(stream: object) -> bool:
 
 
 @contextmanager
-def shown(wanted: Wanted) -> Iterator[Progress]:
+def showing(wanted: Wanted) -> Iterator[Progress]:
     """The function to tell: one's own, a bar that is cleared in the end, or silence.
 
-    >>> with shown(None) as progress:
+    >>> with showing(None) as progress:
     ...     progress(0.5, "halfway")
     """
     if callable(wanted):

@@ -1,4 +1,4 @@
-"""The terminal: output files, progress, failures and exit codes, tables, processes.
+"""The terminal: output files, failures and exit codes, tables, processes.
 
 Knows no oscillator.
 """

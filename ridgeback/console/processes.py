@@ -18,9 +18,9 @@ from ridgeback.console.stops import STOPS
 def processes(workers: int) -> Iterator[Executor | None]:
     """Yield an executor of so many processes; None for one worker, which is the caller itself.
 
-    They are started anew (``spawn``) and leave every request to stop to the caller.  When the block is left by an error
-    or an interrupt, they are ended; futures must not be cancelled before, which their manager takes ill.  Each of them
-    watches its parent and ends when that is gone, even killed.
+    They are started as new interpreters (``spawn``) and leave every request to stop to the caller.  When the block is
+    left by an error or an interrupt, they are ended; futures must not be cancelled before, which breaks their manager.
+    Each of them watches its parent and ends when that is gone, even killed.
 
     >>> with processes(1) as executor:
     ...     executor is None

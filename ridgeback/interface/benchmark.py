@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from ridgeback.common.progress import Wanted, shown
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.benchmark import benchmark as benchmarks
 from ridgeback.compare.benchmark.expansions import ORDERS
 from ridgeback.compare.benchmark.results import Benchmark
@@ -69,7 +69,7 @@ def benchmark(
         as_oscillator(oscillator, parameters=parameters, about=about), initial=initial, duration=duration, rate=rate
     )
     own = {name: partial(_at, rate=chosen.rate, method=method) for name, method in (estimators or {}).items()}
-    with shown(progress) as told:
+    with showing(progress) as told:
         return benchmarks.benchmark(chosen, orders=orders, estimators=own, progress=told)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
-from ridgeback.common.progress import Wanted, shown
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.binding.family import family_of
 from ridgeback.compare.recording.survey import as_tracked, marked, samples_behind
 from ridgeback.interface.signals import SignalLike, as_recording
@@ -131,7 +131,7 @@ def estimate(
     name = chosen(method, ESTIMATORS, "method")
     used = as_recording(x, rate, time=time, column=column, fill=fill, resample=resample, detrend=detrend)
     model = fitted_family(name, oscillator, free, parameters)
-    with shown(progress) as told:
+    with showing(progress) as told:
         return estimators.estimate(
             used.values,
             used.rate,

@@ -8,7 +8,7 @@ from typing import Any
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen, plain
-from ridgeback.common.progress import Wanted, shown
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.identification import identify as identification
 from ridgeback.compare.identification import prediction
 from ridgeback.compare.identification.candidates import LAWS, NAMES
@@ -74,7 +74,7 @@ def identify(
     """
     used = as_recording(x, rate, time=time, column=column)
     wanted = how(candidates, damping, criterion, span)
-    with shown(progress) as told:
+    with showing(progress) as told:
         ahead = None
         if predict_from is not None:
             ahead = prediction.predict(used, cycles=predict_from, progress=told, **wanted)
@@ -95,7 +95,7 @@ def predict(
     span: tuple[float, float] | None = None,
     progress: Wanted = None,
 ) -> Prediction:
-    """Fit the first cycles of a decay and foretell the rest, held against what was measured.
+    """Fit the first cycles of a decay and predict the rest, held against what was measured.
 
     Parameters
     ----------
@@ -124,7 +124,7 @@ def predict(
     True
     """
     used = as_recording(x, rate, time=time, column=column)
-    with shown(progress) as told:
+    with showing(progress) as told:
         wanted = how(candidates, damping, criterion, span)
         return prediction.predict(used, cycles=cycles, progress=told, **wanted)
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
-from ridgeback.common.progress import Wanted, shown
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.motion.motion import Setting, setting
 from ridgeback.compare.motion.paper_case import paper_case
 from ridgeback.compare.report.noise_part import TRIALS
@@ -70,7 +70,7 @@ def study(
     if amplitudes is None:
         raise InputError("a study needs amplitudes; give a list or an array, such as numpy.linspace(0.1, 3, 30)")
     system = as_oscillator(oscillator, parameters=parameters, about=about)
-    with shown(progress) as told:
+    with showing(progress) as told:
         return studies.study(system, orders, amplitudes, method=chosen(method, METHODS, "method"), progress=told)
 
 
@@ -121,7 +121,7 @@ def report(
     target : float, optional
         Relative error aimed at (0.001 by default).
     predict_from : float, optional
-        Number of first cycles of a recording that foretell the rest.
+        Number of first cycles of a recording from which the rest is predicted.
     trials : int
         Noisy records a point of the noise study; 0 leaves it out.
     progress : bool or callable, optional
@@ -143,7 +143,7 @@ def report(
     >>> made.study.orders
     (2, 8)
     """
-    with shown(progress) as told:
+    with showing(progress) as told:
         if recording is not None:
             refuse("a simulation", initial=initial, duration=duration)
             refuse("the study of a system", order=order, orders=orders, amplitudes=amplitudes, target=target)

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import re
-import sys
 import time
 from typing import TYPE_CHECKING, Any, TextIO
 
 import click
 
-from ridgeback.common.progress import is_terminal
+from ridgeback.common.progress import Bar, is_terminal
 from ridgeback.console.failure import say
 from ridgeback.console.output import STDOUT, OutputPath, is_special, open_descriptor, output_path
-from ridgeback.console.progress import Progress
 from ridgeback.options.arguments import shown, written
 from ridgeback.options.shared import Decorated
 
@@ -23,7 +21,7 @@ SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0, "d": 86400.0}
 GIGABYTES = {"MB": 1e-3, "GB": 1.0, "TB": 1e3}
 AMOUNT = re.compile(r"(\d{1,9}(?:\.\d{1,9})?)\s*([A-Za-z]+)", re.ASCII)
 
-WORTH_SAYING = 10.0
+SAID_FROM = 10.0
 """Predicted seconds from which the prediction is said before the work."""
 EVERY = 60.0
 """Seconds between two lines of progress where nobody looks at a terminal."""
@@ -72,18 +70,18 @@ def budget_option(command: Decorated) -> Decorated:
 class Watch:
     """Says how far a derivation is: on a terminal in one line, elsewhere in a plain line a minute.
 
-    >>> watch = Watch("order", None, stream=None)
+    >>> watch = Watch("order", None)
     >>> watch(0.5, "order 5 of 10")
     >>> watch.last
     'order 5 of 10'
     """
 
-    def __init__(self, what: str, cost: Cost | None, *, stream: TextIO | None = sys.stderr) -> None:
-        self.line = Progress(stream)
-        self.plain = stream is not None and not is_terminal(stream)
+    def __init__(self, what: str, cost: Cost | None, *, stream: TextIO | None = None) -> None:
+        self.line = Bar(stream)
+        self.plain = not is_terminal(self.line.stream)
         self.said = self.started = time.monotonic()
         self.last = ""
-        if cost is not None and cost.seconds >= WORTH_SAYING:
+        if cost is not None and cost.seconds >= SAID_FROM:
             from ridgeback.symbolic.expansion.cost import duration
 
             say(f"{what}: about {duration(cost.seconds)} and {cost.gigabytes:.2g} GB are predicted")
@@ -100,4 +98,4 @@ class Watch:
         return self
 
     def __exit__(self, *_: Any) -> None:
-        self.line.show("")
+        self.line.close()

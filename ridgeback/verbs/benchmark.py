@@ -5,9 +5,9 @@ from __future__ import annotations
 import click
 
 from ridgeback.answers.benchmark_table import benchmark_text
+from ridgeback.common.progress import showing
 from ridgeback.console.failure import PartialError
 from ridgeback.console.output import write_bytes, write_text
-from ridgeback.console.progress import Progress
 from ridgeback.console.verb import Verb
 from ridgeback.options.arguments import ORDERS, PAIR, POSITIVE
 from ridgeback.options.plot import plot_option
@@ -54,7 +54,7 @@ def command(
     """
     from ridgeback.interface.benchmark import benchmark
 
-    with Progress() as progress:
+    with showing(True) as progress:
         found = benchmark(
             choice.oscillator(), initial=initial, duration=duration, rate=rate, orders=orders, progress=progress
         )

@@ -10,9 +10,9 @@ import click
 
 from ridgeback.answers.monte_carlo import monte_carlo_options, monte_carlo_verb, trials_and_file
 from ridgeback.answers.survey_text import asides, misfit, survey_text
+from ridgeback.common.progress import showing
 from ridgeback.console.failure import PartialError, say
 from ridgeback.console.output import write_bytes, write_text
-from ridgeback.console.progress import Progress
 from ridgeback.console.verb import Verb
 from ridgeback.options.estimator import Estimator, estimator_options
 from ridgeback.options.model import MODEL_FIT, Model, model_options
@@ -161,7 +161,7 @@ def surveyed(
     from ridgeback.compare.recording.survey import measure_recordings
 
     recordings = reading.all(files)
-    with Progress() as progress:
+    with showing(True) as progress:
         return measure_recordings(
             recordings,
             combine_over=combine,

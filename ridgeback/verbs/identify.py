@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from ridgeback.common.progress import Progress, showing
 from ridgeback.console.failure import PartialError
 from ridgeback.console.output import json_text, write_text
-from ridgeback.console.progress import Progress
 from ridgeback.console.tables import aligned, csv_text, readable
 from ridgeback.console.verb import Verb
 from ridgeback.options.arguments import POSITIVE, pair, shown, written
@@ -98,7 +98,7 @@ def command(
     ridgeback identify decay.csv --span 0,40 --predict-from 20
     """
     recording = Reading(column, time_column, rate, treatment=treatment).one(file)
-    with Progress() as progress:
+    with showing(True) as progress:
         found = identified(
             recording,
             chosen=names(candidates),

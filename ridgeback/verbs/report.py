@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from ridgeback.common.progress import Progress, showing
 from ridgeback.console.failure import PartialError, say
 from ridgeback.console.output import STDOUT, json_text, output_path, write_text
-from ridgeback.console.progress import Progress
 from ridgeback.console.verb import Verb
 from ridgeback.options.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
 from ridgeback.options.recording import Reading, Treatment, treatment_options
@@ -133,7 +133,7 @@ def command(
     motion = Motion(choice, initial, duration, rate)
     scope = Scope(order, orders, amplitudes, target, trials)
     shown = as_typed(context.find_root().obj or ("report",))
-    with Progress() as progress:
+    with showing(True) as progress:
         if recording is None:
             belonging = {"--column": column, "--time-column": time_column, "--predict-from": predict_from}
             treating = {f"--{name}": value for name, value in treatment.given().items()}

@@ -213,15 +213,15 @@ def slow_function(
     arguments: tuple[Argument, ...],
     domain: Domain,
     flow: SlowFlow,
-    grades: Sequence[Any],
+    by_degree: Sequence[Any],
     real: Real = FLOAT64,
 ) -> Function:
     """One side of the slow flow, in units where k = 1: each symbol enters over its power of k."""
     count, weights = len(flow.names), tuple(flow.weights.values())
     called = argument_names(symbol for symbol in flow.names if symbol not in UNITS)
     terms: Terms = {}
-    for n, grade in enumerate(grades):
-        for powers, value in rows(grade, count).items():
+    for n, coefficient in enumerate(by_degree):
+        for powers, value in rows(coefficient, count).items():
             degree = sum(w * r for w, r in zip(weights, powers, strict=False))
             terms[n - degree, *powers] = Number(value, real)
     units = {f"({s})" if s in UNITS else called[s]: d for s, d in flow.dimensions.items()}

@@ -20,7 +20,7 @@ from __future__ import annotations
 from flint import fmpq
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.progress import Progress, Wanted, shown
+from ridgeback.common.progress import Progress, Wanted, showing
 from ridgeback.symbolic.expansion.amplitude import DEFINITIONS, check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check, effort_of
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order
@@ -86,7 +86,7 @@ def lindstedt(
     order = check_order(order)
     check_amplitude(oscillator, amplitude, DIRECT if oscillator.kind == "limit-cycle" else DEFINITIONS)
     budget = budget or Budget()
-    with shown(progress) as told:
+    with showing(progress) as told:
         if oscillator.kind == "limit-cycle":
             check("limit-cycle", order, budget)
             return limit_cycle(oscillator, order, amplitude, watch=watching(told, order))

@@ -27,7 +27,7 @@ from typing import Final
 import sympy
 from flint import fmpq
 
-from ridgeback.common.progress import Wanted, shown
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.symbolic.expansion.amplitude import check_name
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import check_order
@@ -108,7 +108,7 @@ def multiple_scales(
     check("multiple-scales", order, budget or Budget(), weights=counted)
     frame = _Frame(natural, Parametric(natural.names))
     recursion = _Recursion(frame)
-    with shown(progress) as told:
+    with showing(progress) as told:
         for n in range(2, order + 2):
             told((n / (order + 1)) ** STEEPNESS, f"weighted degree {min(n, order)} of {order}")
             recursion.step(n)

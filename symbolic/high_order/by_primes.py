@@ -21,7 +21,7 @@ from pathlib import Path
 
 from flint import fmpq, fmpz, nmod
 
-from ridgeback.common.progress import Progress, Wanted, shown
+from ridgeback.common.progress import Progress, Wanted, showing
 from ridgeback.symbolic.expansion.amplitude import check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order, first_harmonic
@@ -142,7 +142,7 @@ def lindstedt_by_primes(
     check(law(oscillator), order, budget or Budget(), workers=workers)
     claim, work = identity(oscillator, order, amplitude), partial(residues, oscillator, order, amplitude)
     saved = _resumed(checkpoint, claim, work)
-    with shown(progress) as told:
+    with showing(progress) as told:
         gathering = _Collection(work, executor, claim, checkpoint, saved, expected_bits(oscillator, order), told)
         found = gathering.rationals(max(2, 2 * workers))
     return Expansion(

@@ -20,7 +20,7 @@ from typing import Final
 from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.progress import Progress, Wanted, shown, silent
+from ridgeback.common.progress import Progress, Wanted, showing, silent
 from ridgeback.symbolic.expansion.amplitude import check_amplitude
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, log2, missing_bits
 from ridgeback.symbolic.expansion.cost import Budget, check
@@ -107,7 +107,7 @@ def lindstedt_in_balls(
     _check_digits(digits)
     require_numbers(oscillator, "balls need")
     check("balls", order, budget or Budget())
-    with shown(progress) as told:
+    with showing(progress) as told:
         return enclosed(Task(oscillator, order, amplitude, digits, told), checkpoint)
 
 

@@ -195,7 +195,7 @@ def nearest(value: arb, real: Real) -> Fraction:
 
 
 def _one_by_one(exact: Surrogate, best: Best, degree: int, real: Real) -> tuple[Fraction, ...]:
-    """Round the coefficient of the lowest power, whose rounding weighs most, fit the others anew, and go on.
+    """Round the coefficient of the lowest power, whose rounding weighs most, fit the others again, and go on.
 
     What a rounding did is so made good by the coefficients that are still free, as far as they can.
     """

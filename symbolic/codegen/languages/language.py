@@ -230,7 +230,7 @@ def pieces(text: str) -> list[str]:
 
 
 def needs_note(number: Number) -> bool:
-    """Whether the exact number is worth a comment: not when it is a small whole number."""
+    """Whether the exact number stands in a comment: not when it is a small whole number."""
     return len(number.text) > 4 or not number.text.lstrip("-").isdigit()
 
 

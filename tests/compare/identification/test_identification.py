@@ -148,7 +148,7 @@ def test_tables_are_fine_up_to_their_end_next_to_the_separatrix() -> None:
 
 
 def test_effective_number_of_a_narrow_band() -> None:
-    """White noise kept in a tenth of the band is worth a tenth of its samples, wherever the band lies."""
+    """White noise kept in a tenth of the band counts as a tenth of its samples, wherever the band lies."""
     rng = np.random.default_rng(5)
     spectrum = np.fft.rfft(rng.normal(size=8000))
     for first in (0, 1500):

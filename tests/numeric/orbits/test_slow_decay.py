@@ -56,7 +56,7 @@ def test_velocity_means_are_those_of_the_orbit() -> None:
 
 
 def test_bilinear_table_agrees_with_the_smooth_quadrature() -> None:
-    """The general table does not see the corner, whence 1e-4 with 64 nodes."""
+    """The general table does not see the corner, so 1e-4 with 64 nodes."""
     oscillator = Bilinear(1.0, 1.6, 0.4)
     ours = bilinear_table(oscillator, [0.3, 0.8, 1.5])
     general = orbit_table(as_dynamics(oscillator), [0.3, 0.8, 1.5])

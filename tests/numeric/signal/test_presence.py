@@ -1,4 +1,4 @@
-"""Whether there is an oscillation: noise is not vouched for, a tone at 0 dB and a sweep in noise are found."""
+"""Whether there is an oscillation: noise is not taken for one, a tone at 0 dB and a sweep in noise are found."""
 
 from __future__ import annotations
 

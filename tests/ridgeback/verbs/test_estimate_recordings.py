@@ -240,7 +240,7 @@ def test_what_a_table_has_no_room_for_is_said(ridgeback: Ridgeback, tmp_path: Pa
     assert "No amplitude: " in public["notes"][-1]
     reason = public["settings"]["no_interval"]
     done = ridgeback("estimate", path, *BAND, "--format", "csv")
-    assert done.code == 3  # noise: no sample that the estimator vouches for
+    assert done.code == 3  # noise: no sample is valid
     wanted = [*public["notes"], f"No interval: {reason}."]
     *said, last = done.err.splitlines()
     assert said == [f"ridgeback: a.csv, u: {note}" for note in wanted]
@@ -265,7 +265,7 @@ def test_a_stretch_without_a_backbone_is_a_note(ridgeback: Ridgeback, tmp_path: 
     x[251:] = np.random.default_rng(1).standard_normal(T.size - 251)
     path = written(tmp_path / "a.csv", t=T, u=x)
     done = ridgeback("estimate", path, *BAND, "--backbone", "--format", "csv")
-    assert done.code == 3  # the noise of the second stretch is not vouched for
+    assert done.code == 3  # the noise of the second stretch gives no valid value
     assert "a.csv, u, stretch 2: No amplitude: " in done.err
     assert "a.csv, u: no backbone" not in done.err
 

@@ -274,7 +274,7 @@ def test_systems_lists_the_catalogue(ridgeback: Ridgeback) -> None:
 
 
 def test_progress_speaks_only_to_terminals() -> None:
-    from ridgeback.console.progress import Progress
+    from ridgeback.common.progress import Bar
 
     class Terminal(io.StringIO):
         def isatty(self) -> bool:
@@ -282,10 +282,12 @@ def test_progress_speaks_only_to_terminals() -> None:
 
     terminal, pipe = Terminal(), io.StringIO()
     for stream in (terminal, pipe):
-        with Progress(stream) as progress:
-            progress(0.5, "Wigner distribution")
-    assert "50%  Wigner" in terminal.getvalue()
-    assert terminal.getvalue().endswith("\x1b[2K")
+        bar = Bar(stream)
+        bar(0.5, "Wigner distribution")
+        bar.close()
+    assert " 50% " in terminal.getvalue()
+    assert terminal.getvalue().count("Wigner") == 1
+    assert terminal.getvalue().endswith(" \r")
     assert pipe.getvalue() == ""
 
 

@@ -54,7 +54,7 @@ def slow_twin(force: sympy.Expr, k: int, weights: dict[str, int], order: int) ->
     """h of z' = z h by undetermined monomials z^p zbar^q m^r, k written out; theory: normal form of a centre."""
     names = sorted(s.name for s in force.free_symbols - {U, V})
     ring, (z, w, t, *parameters) = xring(["z", "w", "t", *names], sympy.QQ_I)  # w = conj(z), t counts degrees
-    graded = {n: p * t ** weights.get(n, 0) for n, p in zip(names, parameters, strict=True)}
+    weighted = {n: p * t ** weights.get(n, 0) for n, p in zip(names, parameters, strict=True)}
     terms = sympy.Poly(force, U, V, *map(symbol, names)).terms()
     i, u, h, conjugate_h = ring(sympy.I), t * (z + w), ring(sympy.I * k), ring(-sympy.I * k)
 
@@ -69,7 +69,7 @@ def slow_twin(force: sympy.Expr, k: int, weights: dict[str, int], order: int) ->
         total = rate(v)
         for powers, value in terms:
             product = ring(value)
-            for factor, power in zip((u, v, *graded.values()), powers, strict=True):
+            for factor, power in zip((u, v, *weighted.values()), powers, strict=True):
                 for _ in range(power):
                     product = cut(product * factor)
             total += product
@@ -352,7 +352,7 @@ def test_no_secular_term_survives_and_a_wrong_number_is_noticed(equation: str) -
     ("equation", "weights", "order", "slope"),
     [
         ("u'' + c*u' + u + u**3", {"c": 2}, 3, 5),
-        ("u'' + c*u' + u + u**3", {"c": 2}, 4, 7),  # odd force and even weights: there are odd grades only
+        ("u'' + c*u' + u + u**3", {"c": 2}, 4, 7),  # odd force and even weights: there are odd weighted degrees only
         ("u'' + c*u' + d*u'**3 + u + u**2 + u**3", {"c": 2, "d": 1}, 3, 5),
         ("u'' + c*u' + d*u'**3 + 4*u + u**2", {"c": 1, "d": 1}, 2, 4),
     ],
@@ -402,7 +402,7 @@ def test_flow_and_waveform_follow_the_motion(order: int) -> None:
 
 
 def test_harmonics_of_the_damped_duffing_oscillator() -> None:
-    # At grade 3: u_3 = a^3 cos(3 phi)/32 (Nayfeh and Mook 1979, 2.3); damping brings a sine at grade 5.
+    # At weighted degree 3: u_3 = a^3 cos(3 phi)/32 (Nayfeh and Mook 1979, 2.3); damping brings a sine at degree 5.
     wave = Reconstruction(multiple_scales(make("u'' + c*u' + 4*u + 4*u**3"), 4))
     third = next(h for h in wave.harmonics if h.multiple == 3)
     assert third.cosine[0].powers == (3, 0)
