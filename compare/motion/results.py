@@ -11,9 +11,6 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Literal
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ridgeback.numeric.arrays import Array, Mask
 
 Kind = Literal["reference", "model", "expansion", "estimate"]
@@ -163,7 +160,7 @@ class Image:
     name: str
     time: Array
     omega: Array
-    level_db: NDArray[np.float64]
+    level_db: Array
     floor_db: float
     overlays: tuple[Curve, ...] = ()
     note: str = ""

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import matplotlib.style
 import numpy as np
 
-from ridgeback.reports.drawing.canvas import Array, Canvas, Trace
+from ridgeback.numeric.arrays import Array
+from ridgeback.reports.drawing.canvas import Canvas, Trace
 from ridgeback.reports.drawing.svg import to_svg
 from ridgeback.reports.drawing.theme import DRAWING, NARROW, WIDE, Variant
 

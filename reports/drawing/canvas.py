@@ -12,12 +12,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
-from numpy.typing import NDArray
 
 from ridgeback.common.numbers import number, power_of_ten
+from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.theme import Variant, sentinel
-
-Array = NDArray[np.float64]
 
 TOP, BOTTOM, LEFT, RIGHT, GAP = 26.0, 34.0, 46.0, 18.0, 34.0
 

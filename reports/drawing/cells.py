@@ -11,7 +11,8 @@ import itertools
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ridgeback.numeric.arrays import Array
+
 Bands = NDArray[np.int64]
 
 # |relative error| up to which a cell belongs to the band; beyond the last is band 5.

@@ -12,12 +12,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
 from matplotlib.text import Text
-from numpy.typing import NDArray
 
+from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.canvas import Line
 from ridgeback.reports.drawing.theme import sentinel
 
-Array = NDArray[np.float64]
 Box = tuple[float, float, float, float]
 
 HEIGHT = 13.0

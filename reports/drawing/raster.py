@@ -9,11 +9,13 @@ import zlib
 import numpy as np
 from numpy.typing import NDArray
 
+from ridgeback.numeric.arrays import Array
+
 LEVELS = 48
 MAX_ROWS, MAX_COLUMNS = 320, 480
 
 
-def shrink(values: NDArray[np.float64], rows: int, columns: int) -> NDArray[np.float64]:
+def shrink(values: Array, rows: int, columns: int) -> Array:
     """Reduce a plane by the maximum over blocks, so that a thin ridge is never lost.
 
     >>> shrink(np.array([[1.0, 2.0], [3.0, 4.0]]), 1, 2).tolist()
@@ -27,7 +29,7 @@ def shrink(values: NDArray[np.float64], rows: int, columns: int) -> NDArray[np.f
     return values
 
 
-def grey(level_db: NDArray[np.float64], floor_db: float) -> NDArray[np.uint8]:
+def grey(level_db: Array, floor_db: float) -> NDArray[np.uint8]:
     """Map levels from ``floor_db`` (0) to 0 dB (255) onto a few grey steps; what is not finite is floor.
 
     >>> grey(np.array([[0.0, -60.0, np.nan]]), -60.0).tolist()
@@ -55,7 +57,7 @@ def _chunk(kind: bytes, body: bytes) -> bytes:
     return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
 
-def plane_uri(level_db: NDArray[np.float64], floor_db: float) -> str:
+def plane_uri(level_db: Array, floor_db: float) -> str:
     """Return the ``data:`` URI of a plane ``level[frequency, time]``, low frequencies at the bottom.
 
     >>> plane_uri(np.zeros((2, 2)), -60.0)[:22]

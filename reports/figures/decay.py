@@ -9,8 +9,9 @@ from matplotlib.axes import Axes
 
 from ridgeback.common.numbers import listing, number, relative
 from ridgeback.compare.motion.results import BudgetRow, Curve, DecayComparison
+from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.block import Block, Readout, Toggle, block
-from ridgeback.reports.drawing.canvas import Array, Canvas, Line, decades, draw, linear, padded, shade, titles
+from ridgeback.reports.drawing.canvas import Canvas, Line, decades, draw, linear, padded, shade, titles
 from ridgeback.reports.drawing.labels import measured, place
 from ridgeback.reports.drawing.theme import SERIES, sentinel
 from ridgeback.reports.figures.over_time import Clock, curve_line, relative_to, traces_of, usable

@@ -8,8 +8,9 @@ import numpy as np
 
 from ridgeback.common.numbers import number, relative
 from ridgeback.compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
+from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.block import Block, Readout, block
-from ridgeback.reports.drawing.canvas import Array, Canvas, Line, draw, linear, padded, titles
+from ridgeback.reports.drawing.canvas import Canvas, Line, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.theme import SERIES, sentinel
 from ridgeback.reports.figures.over_time import Clock, traces_of

@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ridgeback.compare.recording.survey import Measurement, Survey
-from ridgeback.reports.drawing.canvas import Array, Canvas, Line, draw, linear, padded, titles
+from ridgeback.numeric.arrays import Array
+from ridgeback.reports.drawing.canvas import Canvas, Line, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.picture import picture
 from ridgeback.reports.drawing.theme import SERIES, Variant, sentinel

@@ -6,8 +6,9 @@ import numpy as np
 
 from ridgeback.common.numbers import NONE, number, relative, uncertain
 from ridgeback.compare.noise.results import OUTLIER, NoiseCell, NoiseStudy
+from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.block import Block, Readout, block
-from ridgeback.reports.drawing.canvas import Array, Canvas, Line, Trace, decades, draw, linear, titles
+from ridgeback.reports.drawing.canvas import Canvas, Line, Trace, decades, draw, linear, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.theme import SERIES, sentinel
 from ridgeback.reports.text.tables import Row, Table

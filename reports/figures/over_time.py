@@ -9,8 +9,9 @@ import numpy as np
 
 from ridgeback.common.numbers import decibels, number
 from ridgeback.compare.motion.results import Curve, Image
+from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.block import Block, Key, Readout, block
-from ridgeback.reports.drawing.canvas import Array, Canvas, Line, Trace, draw, linear, padded, titles
+from ridgeback.reports.drawing.canvas import Canvas, Line, Trace, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.raster import plane_uri
 from ridgeback.reports.drawing.theme import SERIES

@@ -6,8 +6,9 @@ import numpy as np
 
 from ridgeback.common.numbers import number
 from ridgeback.compare.recording.results import RecordingComparison
+from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.block import Block, Readout, block
-from ridgeback.reports.drawing.canvas import Array, Canvas, Line, Trace, draw, linear, padded, titles
+from ridgeback.reports.drawing.canvas import Canvas, Line, Trace, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.theme import sentinel
 from ridgeback.reports.figures.over_time import Clock, plane_block, traces_of, tracks_block

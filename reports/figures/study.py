@@ -12,10 +12,10 @@ from matplotlib.axes import Axes
 from ridgeback.common.numbers import listing, number, relative, rounded_down, threshold
 from ridgeback.compare.study.results import Range, Study, Trend
 from ridgeback.compare.study.study import order_needed as smallest_orders
+from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing import cells
 from ridgeback.reports.drawing.block import Block, Key, Readout, Toggle, block
 from ridgeback.reports.drawing.canvas import (
-    Array,
     Canvas,
     Line,
     Trace,
