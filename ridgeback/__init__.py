@@ -23,7 +23,7 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.compare.benchmark.results import Benchmark as Benchmark
     from ridgeback.compare.binding.bind import bind as bind
     from ridgeback.compare.identification.results import Identification as Identification
-    from ridgeback.compare.recording.survey import measure_recordings as measure_recordings
+    from ridgeback.compare.recording.measurements import measure_recordings as measure_recordings
     from ridgeback.compare.report.results import Report as Report
     from ridgeback.compare.study.certified import certified_rows as certified_rows
     from ridgeback.compare.study.results import Study as Study
@@ -79,8 +79,8 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls as lindstedt_in_balls
     from ridgeback.symbolic.resummation.by_name import resum as resum
     from ridgeback.symbolic.singularities.limits import settled_limits as limits  # noqa: F401
+    from ridgeback.symbolic.systems.any_form import as_oscillator as oscillator  # noqa: F401
     from ridgeback.symbolic.systems.catalogue import catalogue as catalogue
-    from ridgeback.symbolic.systems.door import as_oscillator as oscillator  # noqa: F401
     from ridgeback.symbolic.systems.oscillator import Oscillator as Oscillator
 
     __version__: str

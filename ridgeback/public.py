@@ -30,7 +30,7 @@ _COMPARE = "Compare and report"
 _VALUES = "Results and values"
 
 PUBLIC: Final = (
-    Public("oscillator", "symbolic.systems.door:as_oscillator", _NAME, "from a name, an equation, SymPy or TOML"),
+    Public("oscillator", "symbolic.systems.any_form:as_oscillator", _NAME, "from a name, an equation, SymPy or TOML"),
     Public("catalogue", "symbolic.systems.catalogue", _NAME, "the oscillators that have names"),
     Public("Oscillator", "symbolic.systems.oscillator", _NAME, "an equation of motion with exact parameters"),
     Public("derive", "interface.derive", _DERIVE, "the exact series of the frequency, by the method that suits"),
@@ -71,7 +71,7 @@ PUBLIC: Final = (
     Public("backbone", "interface.estimate", _ESTIMATE, "frequency and growth rate against amplitude"),
     Public("half_cycles", "interface.estimate", _ESTIMATE, "frequency, amplitude, growth rate of each half cycle"),
     Public("model_fit", "interface.estimate", _ESTIMATE, "an oscillator's own solutions fitted to samples"),
-    Public("measure_recordings", "compare.recording.survey", _ESTIMATE, "tracks and backbones of many recordings"),
+    Public("measure_recordings", "compare.recording.measurements", _ESTIMATE, "tracks and backbones of recordings"),
     Public("identify", "interface.identify", _IDENTIFY, "which oscillator made a decay"),
     Public("predict", "interface.identify", _IDENTIFY, "the rest of a decay from its first cycles"),
     Public("study", "interface.report", _COMPARE, "the error of each order at each amplitude"),
@@ -100,7 +100,7 @@ def home(entry: Public) -> tuple[str, str]:
     """Module and attribute of a public name.
 
     >>> home(BY_NAME["oscillator"])
-    ('ridgeback.symbolic.systems.door', 'as_oscillator')
+    ('ridgeback.symbolic.systems.any_form', 'as_oscillator')
     """
     module, _, attribute = entry.home.partition(":")
     return f"ridgeback.{module}", attribute or entry.name

@@ -20,7 +20,7 @@ from ridgeback.compare.binding.taylor_jet import force_jet
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics, duffing_frequency, pendulum_frequency
 from ridgeback.symbolic.arithmetic.closures import evaluator
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.elliptic import cubic_force, sine_force
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V, Value
 

@@ -14,7 +14,7 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.model_fit.family import Family, Scalars
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.symbolic.arithmetic.closures import evaluator
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 
 START = 1.0

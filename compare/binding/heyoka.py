@@ -25,7 +25,7 @@ from ridgeback.numeric.motion.trajectory import (
     check_request,
     sample_times,
 )
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 
 TOLERANCE = 1e-16

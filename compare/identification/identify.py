@@ -1,4 +1,4 @@
-"""The door: which oscillator made this decay?  Every candidate fitted, ranked, and told apart or not."""
+"""Which oscillator made this decay?  Every candidate fitted, ranked, and told apart or not."""
 
 from __future__ import annotations
 

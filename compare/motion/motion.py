@@ -23,7 +23,7 @@ from ridgeback.numeric.motion.trajectory import Trajectory, integrate
 from ridgeback.numeric.orbits.averaging import AveragedDecay, averaged_decay
 from ridgeback.numeric.orbits.energy import amplitude_from_energy, energy_of
 from ridgeback.numeric.orbits.period import exact_frequency
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.elliptic import sine_force
 from ridgeback.symbolic.systems.oscillator import Oscillator, V
 

@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Any
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.hashed_lines import reading_signed, write_signed
 from ridgeback.common.progress import Progress, silent
-from ridgeback.common.signed import reading_signed, write_signed
 from ridgeback.compare.noise.monte_carlo import monte_carlo
 from ridgeback.compare.noise.results import NoiseCell, NoiseStudy, read_study
 from ridgeback.compare.noise.truth import Truth, dynamics_truth

@@ -19,7 +19,7 @@ from ridgeback.compare.report.recording_summary import recording_cards, recordin
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.report.stages import Stopwatch
 from ridgeback.numeric.recording.recording import Recording, read_recording
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 

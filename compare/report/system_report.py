@@ -30,7 +30,7 @@ from ridgeback.compare.study.study import ranges, study_of
 from ridgeback.compare.study.timing import timings
 from ridgeback.compare.study.truncations import already_derived
 from ridgeback.numeric.arrays import Array
-from ridgeback.symbolic.systems.door import OscillatorLike
+from ridgeback.symbolic.systems.any_form import OscillatorLike
 
 ORDERS = (2, 4, 6, 8, 10, 12, 16, 20, 30, 40)
 CYCLE_ORDERS = (2, 4, 6, 8, 12, 16, 20, 30, 48)

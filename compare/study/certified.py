@@ -13,7 +13,7 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.certificates.accuracy import Accuracy, Ball, accuracy
 from ridgeback.symbolic.enclosure.enclosure import enclose, separatrix
 from ridgeback.symbolic.expansion.expansion import Expansion
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 SHARES = (0.25, 0.5, 0.7, 0.9, 0.95)

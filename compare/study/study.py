@@ -32,7 +32,7 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.symbolic.enclosure.enclosure import separatrix
 from ridgeback.symbolic.enclosure.well import well_of
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, V, Value
 
 MAX_CELLS = 200_000

@@ -1,4 +1,4 @@
-"""Tracks of the fundamental: one file for each method, `auto`, which chooses, and `estimate`, the one door.
+"""Tracks of the fundamental: one file for each method, `auto`, which chooses, and `estimate`, which calls any of them.
 
 Knows distributions, harmonic models and tracks.
 """

@@ -1,4 +1,4 @@
-"""One door to every estimator of the fundamental frequency: ``estimate(x, rate, method=...)`` gives a Track."""
+"""One function for every estimator of the fundamental frequency: ``estimate(x, rate, method=...)`` gives a Track."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
-from ridgeback.compare.recording.survey import Measurement, Survey
+from ridgeback.compare.recording.measurements import Measurement, Measurements
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.canvas import Canvas, Line, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
@@ -41,7 +41,7 @@ def band_of(line: Line, deviation: Array) -> Band:
     return Band(line, line.y - TWO_SIDED * deviation, line.y + TWO_SIDED * deviation)
 
 
-def plot_file(found: Survey, kind: str) -> bytes:
+def plot_file(found: Measurements, kind: str) -> bytes:
     """The picture of what was measured: signal and amplitude, frequency, backbone and growth rate.
 
     Parameters
@@ -54,12 +54,12 @@ def plot_file(found: Survey, kind: str) -> bytes:
     Returns
     -------
     bytes
-        The file; the same survey gives the same bytes.
+        The file; the same measurements give the same bytes.
     """
     return picture(lambda: drawn(found), kind)
 
 
-def drawn(found: Survey) -> Canvas:
+def drawn(found: Measurements) -> Canvas:
     """Draw the four panels."""
     canvas = Canvas(PAGE)
     panels = canvas.grid((1.0, 1.0), 2, left=LEFT, gap=GAP)
@@ -138,7 +138,7 @@ def track_band(one: Measurement, label: str, token: str) -> Band:
     return Band(line, along.low * CLOCK.factor, along.high * CLOCK.factor)
 
 
-def curve_panel(axes: Axes, found: Survey, what: str) -> None:
+def curve_panel(axes: Axes, found: Measurements, what: str) -> None:
     """Frequency or growth rate against amplitude: each signal, and what they have in common."""
     shown = found.measured[: len(SERIES)]
     factor = CLOCK.factor if what == "omega" else 1.0

@@ -12,7 +12,7 @@ from ridgeback.compare.benchmark.expansions import ORDERS
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.motion import setting
 from ridgeback.numeric.tracking.track import Track
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
 

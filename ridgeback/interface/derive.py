@@ -22,7 +22,7 @@ from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.resummation.by_name import resum
 from ridgeback.symbolic.resummation.resummation import Resummation
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 from ridgeback.symbolic.systems.parameters import Value
 

@@ -10,7 +10,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.binding.family import family_of
-from ridgeback.compare.recording.survey import as_tracked, marked, samples_behind
+from ridgeback.compare.recording.measurements import as_tracked, marked, samples_behind
 from ridgeback.interface.signals import SignalLike, as_recording
 from ridgeback.numeric.backbone import backbone as along
 from ridgeback.numeric.backbone import half_cycles as cycles
@@ -22,7 +22,7 @@ from ridgeback.numeric.model_fit.family import Family
 from ridgeback.numeric.model_fit.fit import ModelFit
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.tracking.track import Track
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
 ESTIMATORS = (*estimators.METHODS, estimators.MODEL_FIT)

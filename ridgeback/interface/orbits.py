@@ -8,7 +8,7 @@ from ridgeback.compare.binding.bind import bind
 from ridgeback.numeric.motion import limit_cycle
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.motion.limit_cycle import PeriodicOrbit, PreciseOrbit
-from ridgeback.symbolic.systems.door import OscillatorLike
+from ridgeback.symbolic.systems.any_form import OscillatorLike
 from ridgeback.symbolic.systems.parameters import Value
 
 

@@ -17,7 +17,7 @@ from ridgeback.compare.report.system_report import ORDER, TARGET, system_report
 from ridgeback.compare.study import study as studies
 from ridgeback.compare.study.results import Study
 from ridgeback.interface.signals import SignalLike, as_recording
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
 ORDERS = (2, 4, 8, 16)

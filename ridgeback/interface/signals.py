@@ -1,4 +1,4 @@
-"""The door for signals: arrays, tables, recordings and files become a ``Recording`` here."""
+"""Signals as they come in: arrays, tables, recordings and files become a ``Recording`` here."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from ridgeback.compare.binding.heyoka import integrate_heyoka
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.motion.taylor import integrate_taylor
 from ridgeback.numeric.motion.trajectory import METHODS, Trajectory, integrate
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
 ALL = (*METHODS, "taylor", "heyoka")

@@ -46,7 +46,7 @@ class Choice:
             return from_text(self.equation, about=self.about or "0", parameters=values)
         if self.system is None:
             raise click.UsageError("name a SYSTEM (ridgeback systems lists them), a TOML file, or give --equation")
-        from ridgeback.symbolic.systems.door import as_oscillator
+        from ridgeback.symbolic.systems.any_form import as_oscillator
 
         return as_oscillator(self.system, parameters=values, about=self.about)
 

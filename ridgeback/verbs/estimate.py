@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from ridgeback.answers.measurements_text import asides, measurements_text, misfit
 from ridgeback.answers.monte_carlo import monte_carlo_options, monte_carlo_verb, trials_and_file
-from ridgeback.answers.survey_text import asides, misfit, survey_text
 from ridgeback.common.progress import showing
 from ridgeback.console.failure import PartialError, say
 from ridgeback.console.output import write_bytes, write_text
@@ -21,7 +21,7 @@ from ridgeback.options.recording import Reading, reading_options
 from ridgeback.options.shared import format_option, output_option
 
 if TYPE_CHECKING:
-    from ridgeback.compare.recording.survey import Survey
+    from ridgeback.compare.recording.measurements import Measurements
 
 
 @click.command("estimate", cls=Verb, short_help="Estimate the frequency of a recording over time.")
@@ -122,14 +122,14 @@ def command(
     estimator = replace(estimator, model=model)
     if estimator.method == MODEL_FIT:
         refuse_beside(estimator, "--method model-fit", "method", "band", "family")
-    found = surveyed(files, reading, estimator, combine=combine, harmonic=harmonic, halves=half_cycles)
+    found = measured_files(files, reading, estimator, combine=combine, harmonic=harmonic, halves=half_cycles)
     if backbone_wanted:
         check_backbones(found)
     if plot is not None:
         from ridgeback.reports.figures.measurement import plot_file
 
         write_bytes(plot, plot_file(found, plot.rpartition(".")[2].lower()))
-    write_text(output, survey_text(found, style, backbone=backbone_wanted))
+    write_text(output, measurements_text(found, style, backbone=backbone_wanted))
     if style == "csv":
         tell(found)
     refuse_empty(found, backbone=backbone_wanted)
@@ -154,11 +154,11 @@ def check_fit(harmonic: int, estimator: Estimator, *, half_cycles: bool, backbon
         raise click.UsageError(f"--half-cycles are those of the signal, not of harmonic {harmonic}; leave one out")
 
 
-def surveyed(
+def measured_files(
     files: tuple[str, ...], reading: Reading, estimator: Estimator, *, combine: str, harmonic: int, halves: bool
-) -> Survey:
+) -> Measurements:
     """Every signal of the files, measured."""
-    from ridgeback.compare.recording.survey import measure_recordings
+    from ridgeback.compare.recording.measurements import measure_recordings
 
     recordings = reading.all(files)
     with showing(True) as progress:
@@ -172,7 +172,7 @@ def surveyed(
         )
 
 
-def check_backbones(found: Survey) -> None:
+def check_backbones(found: Measurements) -> None:
     """Refuse when there is no backbone at all, for the reason that the first signal gives."""
     from ridgeback.common.errors import InputError
 
@@ -180,7 +180,7 @@ def check_backbones(found: Survey) -> None:
         raise InputError(found.measured[0].notes[-1].rstrip("."))
 
 
-def tell(found: Survey) -> None:
+def tell(found: Measurements) -> None:
     """Say on standard error what a table of numbers has no room for."""
     for one in found.measured:
         for note in asides(one):
@@ -189,7 +189,7 @@ def tell(found: Survey) -> None:
         say(note)
 
 
-def refuse_empty(found: Survey, *, backbone: bool) -> None:
+def refuse_empty(found: Measurements, *, backbone: bool) -> None:
     """Raise PartialError where a signal gave nothing, or nothing that its estimator can bound the error of."""
     reasons = [f"{one.recording.label}: {said.rstrip('.')}" for one in found.measured for said in misfit(one)]
     reasons += [
@@ -207,9 +207,9 @@ def refuse_empty(found: Survey, *, backbone: bool) -> None:
         raise PartialError("; ".join(reasons))
 
 
-def without_backbone(found: Survey) -> Iterator[str]:
+def without_backbone(found: Measurements) -> Iterator[str]:
     """Every signal of which no stretch gave a backbone, with the reason."""
-    from ridgeback.compare.recording.survey import signal_of
+    from ridgeback.compare.recording.measurements import signal_of
 
     given = {signal_of(one.recording) for one in found.measured if one.backbone is not None}
     for one in found.measured:

@@ -16,7 +16,7 @@ from ridgeback.symbolic.enclosure.enclosure import Enclosure, enclose, rounded_u
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, ball_row
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.resummation import Resummation
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 Formula: TypeAlias = Expansion | BallExpansion | Resummation

@@ -27,7 +27,7 @@ from ridgeback.symbolic.enclosure.turning_points import Orbit, orbit
 from ridgeback.symbolic.enclosure.walk import UndecidedError, decided
 from ridgeback.symbolic.enclosure.well import Well, well_of
 from ridgeback.symbolic.grammar.tokens import parse_number
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 
 __all__ = ["Amplitude", "Enclosure", "Separatrix", "enclose", "separatrix"]
 

@@ -24,7 +24,7 @@ from ridgeback.symbolic.series.program import Program
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Scalar, space_for
 from ridgeback.symbolic.series.trigonometric import constant
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import U, V
 from ridgeback.symbolic.systems.structure import free_names
 

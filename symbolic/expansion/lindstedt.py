@@ -28,7 +28,7 @@ from ridgeback.symbolic.expansion.limit_cycle import limit_cycle
 from ridgeback.symbolic.expansion.recursion import BetweenOrders, Recursion, compiled, no_watch, normalise, residual
 from ridgeback.symbolic.series.spaces import Space, is_zero, space_for
 from ridgeback.symbolic.series.trigonometric import constant, cosine, solve_oscillator
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 from ridgeback.symbolic.systems.structure import free_names
 

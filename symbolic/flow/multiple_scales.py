@@ -37,7 +37,7 @@ from ridgeback.symbolic.series.program import Program
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Parametric, Scalar
 from ridgeback.symbolic.series.trigonometric import Trig, constant, cosine, harmonic, sine, solve_oscillator
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import U, V
 
 COEFFICIENT: Final = 2

@@ -31,7 +31,7 @@ from ridgeback.symbolic.high_order.numbers_only import identity, require_numbers
 from ridgeback.symbolic.high_order.residues import Gathered, Residues, check_numbers, read, write
 from ridgeback.symbolic.series.spaces import Modular, Scalar
 from ridgeback.symbolic.series.trigonometric import at_zero
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 CHECKS = 2

@@ -15,7 +15,7 @@ from typing import Any, Final
 from flint import arb, arb_poly
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.signed import reading_signed, write_signed
+from ridgeback.common.hashed_lines import reading_signed, write_signed
 from ridgeback.symbolic.series.relaxed_product import waiting_orders
 from ridgeback.symbolic.series.spaces import Parts
 

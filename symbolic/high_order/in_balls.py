@@ -35,7 +35,7 @@ from ridgeback.symbolic.series.harmonic_basis import Balls
 from ridgeback.symbolic.series.relaxed_product import RelaxedProduct, Waiting
 from ridgeback.symbolic.series.spaces import Parts
 from ridgeback.symbolic.series.trigonometric import at_zero
-from ridgeback.symbolic.systems.door import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 GUARD: Final = 40

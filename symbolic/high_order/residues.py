@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Final
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.signed import reading_signed, write_signed
+from ridgeback.common.hashed_lines import reading_signed, write_signed
 from ridgeback.symbolic.high_order.checkpoint import check_identity
 
 FORMAT: Final = "ridgeback residues of primes"

@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from ridgeback.compare.recording.survey import Survey, measure_recordings
+from ridgeback.compare.recording.measurements import Measurements, measure_recordings
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.reports.drawing.canvas import Canvas
 from ridgeback.reports.drawing.labels import measured
@@ -27,12 +27,12 @@ def decay(size: float, name: str = "u", run: str = "", stretch: int = 0) -> Reco
 
 
 @pytest.fixture(scope="module")
-def one() -> Survey:
+def one() -> Measurements:
     return measure_recordings([decay(1.0)], method="pseudo-wigner", bias=False)
 
 
 @pytest.fixture(scope="module")
-def several() -> Survey:
+def several() -> Measurements:
     runs = [decay(1.0, run="first.csv"), decay(0.8, run="second <b>.csv")]
     return measure_recordings(runs, method="pseudo-wigner", bias=False)
 
@@ -71,7 +71,7 @@ def test_no_text_is_cut_off_or_covers_another(which: str, request: pytest.Fixtur
             assert apart, (words, other)
 
 
-def test_axes_are_named_with_their_units(one: Survey) -> None:
+def test_axes_are_named_with_their_units(one: Measurements) -> None:
     words = [element.text for element in texts(plot_file(one, "svg"))]
     assert words.count("t / s") == 2
     assert words.count("ω₀/2π / Hz, 95 % band") == 2
@@ -80,14 +80,14 @@ def test_axes_are_named_with_their_units(one: Survey) -> None:
     assert "u [mm]" in words
 
 
-def test_runs_and_their_common_curve_are_told_apart(several: Survey) -> None:
+def test_runs_and_their_common_curve_are_told_apart(several: Measurements) -> None:
     words = [element.text for element in texts(plot_file(several, "svg"))]
     assert words.count("combined") == 2
     assert "first.csv" in words
     assert "second <b>.csv" in words
 
 
-def test_the_curves_are_the_values(one: Survey) -> None:
+def test_the_curves_are_the_values(one: Measurements) -> None:
     """The backbone's panel spans the amplitudes measured, and its curve is there in data units."""
     panel = drawn(one).panels[2]
     curve = one.measured[0].backbone
@@ -99,7 +99,7 @@ def test_the_curves_are_the_values(one: Survey) -> None:
     assert low < expected[:, 1].min() < expected[:, 1].max() < high
 
 
-def test_a_picture_has_the_pages_colours_and_no_stand_ins(one: Survey) -> None:
+def test_a_picture_has_the_pages_colours_and_no_stand_ins(one: Measurements) -> None:
     picture = plot_file(one, "svg").decode()
     assert not any(stand_in in picture for stand_in in SENTINELS)
     assert "#0f3c6e" in picture.lower()
@@ -109,7 +109,9 @@ def test_a_picture_has_the_pages_colours_and_no_stand_ins(one: Survey) -> None:
 
 
 @pytest.mark.parametrize(("kind", "begins"), [("png", b"\x89PNG\r\n\x1a\n"), ("pdf", b"%PDF-")])
-def test_the_other_forms_are_what_they_are_called_and_the_same_each_time(kind: str, begins: bytes, one: Survey) -> None:
+def test_the_other_forms_are_what_they_are_called_and_the_same_each_time(
+    kind: str, begins: bytes, one: Measurements
+) -> None:
     picture = plot_file(one, kind)
     assert picture.startswith(begins)
     assert picture == plot_file(one, kind)

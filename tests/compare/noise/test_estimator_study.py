@@ -12,7 +12,7 @@ from scipy.special import ellipk
 
 from ridgeback.answers.estimator_table import row_of, study_text
 from ridgeback.common.errors import InputError
-from ridgeback.common.signed import write_signed
+from ridgeback.common.hashed_lines import write_signed
 from ridgeback.compare.noise.estimator_study import AXES, Case, CaseResult, cases, estimator_study
 from ridgeback.compare.noise.results import Trial, cell_of
 

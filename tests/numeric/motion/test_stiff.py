@@ -12,7 +12,7 @@ from ridgeback.compare.binding.bind import bind
 from ridgeback.numeric.motion.dynamics import pendulum
 from ridgeback.numeric.motion.taylor import integrate_taylor
 from ridgeback.numeric.motion.trajectory import TooManyStepsError, integrate
-from ridgeback.symbolic.systems.door import as_oscillator
+from ridgeback.symbolic.systems.any_form import as_oscillator
 
 
 def test_an_overdamped_pendulum_creeps_as_its_slow_equation_says() -> None:

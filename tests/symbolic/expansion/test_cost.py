@@ -8,8 +8,8 @@ from ridgeback.symbolic.expansion.cost import Budget, effort_of, predict
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.systems.any_form import as_oscillator
 from ridgeback.symbolic.systems.catalogue import find
-from ridgeback.symbolic.systems.door import as_oscillator
 
 
 @pytest.mark.parametrize("derive", [lindstedt, energy_integral, multiple_scales])

@@ -16,8 +16,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.hashed_lines import write_signed
 from ridgeback.common.progress import Progress
-from ridgeback.common.signed import write_signed
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, holds, missing_bits
 from ridgeback.symbolic.expansion.cost import Budget, predict
 from ridgeback.symbolic.expansion.lindstedt import lindstedt

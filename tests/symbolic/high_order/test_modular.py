@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.signed import write_signed
+from ridgeback.common.hashed_lines import write_signed
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes, primes, rational, residues
 from ridgeback.symbolic.systems.catalogue import find

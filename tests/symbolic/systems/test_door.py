@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.grammar.to_sympy import U, V
+from ridgeback.symbolic.systems.any_form import as_oscillator
 from ridgeback.symbolic.systems.catalogue import find
-from ridgeback.symbolic.systems.door import as_oscillator
 
 t, k, mu, c = sympy.symbols("t k mu c")
 u = sympy.Function("u")

@@ -9,14 +9,14 @@ from ridgeback.console.output import json_text
 from ridgeback.console.tables import aligned, csv_text, readable
 
 if TYPE_CHECKING:
-    from ridgeback.compare.recording.survey import Common, Measurement, Survey
+    from ridgeback.compare.recording.measurements import Common, Measurement, Measurements
     from ridgeback.numeric.recording.recording import Recording
 
 COMBINED = "combined"
 
 
-def survey_text(found: Survey, style: str, *, backbone: bool) -> str:
-    """All signals of a survey in the form asked for, tracks or backbones."""
+def measurements_text(found: Measurements, style: str, *, backbone: bool) -> str:
+    """All signals that were measured in the form asked for, tracks or backbones."""
     if style == "json":
         return json_text(as_json(found, backbone=backbone))
     if style == "csv":
@@ -34,7 +34,7 @@ def rows_of(one: Measurement, *, backbone: bool) -> list[dict[str, Any]]:
     return [dict(row) for row in one.backbone.rows()] if one.backbone is not None else []
 
 
-def as_json(found: Survey, *, backbone: bool) -> dict[str, Any]:
+def as_json(found: Measurements, *, backbone: bool) -> dict[str, Any]:
     """One signal as it is, several in a list, with their combined backbones."""
     signals = [one_json(one, backbone=backbone) for one in found.measured]
     if len(signals) == 1 and not found.failed and not found.notes:
@@ -96,7 +96,7 @@ def asides(one: Measurement) -> list[str]:
     return [*one.notes, *([] if reason is None else [f"No interval: {reason}."])]
 
 
-def as_csv(found: Survey, *, backbone: bool) -> str:
+def as_csv(found: Measurements, *, backbone: bool) -> str:
     """One table; with several signals each row says which, and a combined backbone is one more run."""
     tables = [(named(one.recording), rows_of(one, backbone=backbone)) for one in found.measured]
     if backbone:

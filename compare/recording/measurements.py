@@ -106,7 +106,7 @@ class Common:
 
 
 @dataclass(frozen=True)
-class Survey:
+class Measurements:
     """All that was measured; ``failed`` says which whole signals gave nothing, ``notes`` which stretches did."""
 
     measured: tuple[Measurement, ...]
@@ -259,7 +259,7 @@ def measure_recordings(
     halves: bool = False,
     progress: Wanted = None,
     **settings: object,
-) -> Survey:
+) -> Measurements:
     """Measure every signal and combine their backbones.
 
     Parameters
@@ -279,7 +279,7 @@ def measure_recordings(
 
     Returns
     -------
-    Survey
+    Measurements
         ``measured``, one for each signal; ``combined`` backbones; ``failed``, the signals that gave nothing; ``notes``,
         the stretches that were left out where another of the same signal could be measured.
 
@@ -309,7 +309,7 @@ def measure_recordings(
     if not measured:
         raise refused[0][1]
     good = {signal_of(m.recording) for m in measured}
-    return Survey(
+    return Measurements(
         measured=tuple(measured),
         combined=tuple(common(measured, combine_over)),
         failed=tuple(f"{r.label}: {error}" for r, error in refused if signal_of(r) not in good),
