@@ -17,6 +17,7 @@ from ridgeback.common.progress import Wanted, showing
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.backbone.combined import CombinedBackbone, combine
+from ridgeback.numeric.backbone.damping import growth_columns
 from ridgeback.numeric.backbone.half_cycles import HalfCycles, half_cycles
 from ridgeback.numeric.estimators.amplitude import amplitude_of, estimate_amplitude
 from ridgeback.numeric.estimators.estimate import Estimation, estimation
@@ -128,8 +129,7 @@ def amplitude_columns(curve: Backbone, time: Array) -> Mapping[str, Array]:
     return {
         "amplitude": along(curve.amplitude),
         "amplitude_standard_deviation": along(curve.amplitude_sd),
-        "growth_rate_per_s": along(curve.growth_rate),
-        "growth_rate_standard_deviation_per_s": along(curve.growth_rate_sd),
+        **growth_columns(*(along(v) for v in (curve.growth_rate, curve.growth_rate_sd, curve.omega, curve.omega_sd))),
     }
 
 

@@ -8,8 +8,9 @@ from numpy.typing import ArrayLike, NDArray
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.backbone.curve import Backbone, Crowding, Points, assemble
+from ridgeback.numeric.backbone.local_rates import local_rates
 from ridgeback.numeric.estimators.higher_harmonics import carrier
-from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
+from ridgeback.numeric.harmonics.local_fit import choose_multiples
 from ridgeback.numeric.signal.samples import TWO_PI, checked_rate, checked_real_samples
 from ridgeback.numeric.signal.windows import half_width
 from ridgeback.numeric.tracking.track import Track
@@ -17,7 +18,6 @@ from ridgeback.numeric.tracking.track import Track
 __all__ = ["Backbone", "backbone"]
 
 WINDOW_CYCLES = 4.0
-POINTS_PER_CYCLE = 4.0
 CLEAR = 5.0
 """A point is used where the amplitude exceeds its own standard deviation this many times."""
 
@@ -33,8 +33,8 @@ def backbone(
 ) -> Backbone:
     """Measure amplitude and growth rate along a frequency track, and set omega0 against amplitude.
 
-    Amplitude and its logarithmic slope come from local harmonic least squares, started from the track; omega comes from
-    the track itself.
+    Amplitude and its logarithmic slope come from local harmonic least squares, started from the track, in windows that
+    follow the local rate of change; omega comes from the track itself.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def backbone(
     start : float, optional
         Time of the first sample; by default as the track noted it.
     window_seconds : float, optional
-        Width of the local fits, in time units; four cycles by default.
+        Width of the local fits, in time units; by default 3 to 32 cycles, as amplitude and frequency change.
     exclude : array of bool, shape (N,), optional
         Samples that are not to be used (clipped ones): points whose window holds one are left out.
 
@@ -78,24 +78,30 @@ def backbone(
     seconds = WINDOW_CYCLES * cycle if window_seconds is None else window_seconds
     half = half_width(seconds, rate, name="window_seconds", longest=samples.size)
     real = samples - offset
-    shape = Shape(choose_multiples(real, rate, base.omega, half=half))
-    centres = np.arange(0, samples.size, max(1, round(cycle * rate / POINTS_PER_CYCLE)))
-    fit = harmonic_fit(real, rate, base.omega, half=half, shape=shape, start_time=first, centres=centres)
-    seen = fit.settled if track.used.one_sided_borders else fit.valid & base.valid[centres]
-    clean = ~touched(samples.size, centres, half, exclude)
+    multiples = choose_multiples(real, rate, base.omega, half=half)
+    found = local_rates(real, rate, base.omega, multiples, half=half, start=first, fixed=window_seconds is not None)
+    fit, centres = found.fine, found.centre
+    seen = fit.settled if track.used.one_sided_borders else fit.settled & base.valid[centres]
+    clean = ~touched(found.begin, found.half, exclude)
     usable = seen & clean & (fit.amplitude > CLEAR * fit.amplitude_sd)
     check_enough(usable, clean)
     omega = base.omega[centres]
     total = total_deviation(track)
     omega_sd = fit.standard_deviation if total is None else np.interp(fit.time, track.time, total)
     points = Points(fit.time, fit.amplitude, fit.amplitude_sd, omega, omega_sd, fit.growth, fit.growth_sd).at(usable)
-    spacing = float(np.median(np.diff(fit.time)))
-    window = max(1.0, fit.window_seconds / spacing)
+    spacing, width = float(np.median(np.diff(fit.time))), 2.0 * float(np.median(found.half[usable])) / rate
+    window = max(1.0, width / spacing)
     crowding = Crowding(amplitude=window, omega=max(window, resolution(track, cycle) / spacing))
-    settings = {"track": track.method, "harmonics": (1, *shape.multiples)}
+    settings = {"track": track.method, "harmonics": (1, *multiples)}
     notes = [f"The mean of the samples, {offset:.4g}, was removed.", *left_out_notes(usable, clean)]
     return assemble(
-        points, crowding=crowding, offset=offset, settings=settings, notes=notes, window_seconds=fit.window_seconds
+        points,
+        crowding=crowding,
+        offset=offset,
+        settings=settings,
+        notes=notes,
+        window_seconds=width,
+        local=found.at(usable),
     )
 
 
@@ -130,17 +136,16 @@ def total_deviation(track: Track) -> Array | None:
     return np.asarray(np.sqrt(track.standard_deviation**2 + left**2 + unsure**2))
 
 
-def touched(size: int, centres: NDArray[np.intp], half: int, exclude: Mask | None) -> Mask:
-    """Which of the windows of harmonic least squares round ``centres`` hold an excluded sample.
+def touched(begin: NDArray[np.intp], half: NDArray[np.intp], exclude: Mask | None) -> Mask:
+    """Which windows, of 2 ``half`` + 1 samples from ``begin`` on, hold an excluded sample.
 
-    >>> touched(9, np.array([1, 4, 7]), 1, np.arange(9) == 6).tolist()
+    >>> touched(np.array([0, 3, 6]), np.array([1, 1, 1]), np.arange(9) == 6).tolist()
     [False, False, True]
     """
     if exclude is None:
-        return np.zeros(centres.size, dtype=np.bool_)
+        return np.zeros(begin.size, dtype=np.bool_)
     before = np.concatenate([[0], np.cumsum(exclude)])
-    begins = np.clip(centres - half, 0, size - 2 * half - 1)
-    return np.asarray(before[begins + 2 * half + 1] > before[begins])
+    return np.asarray(before[begin + 2 * half + 1] > before[begin])
 
 
 def left_out_notes(usable: Mask, clean: Mask) -> list[str]:

@@ -19,6 +19,7 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, as_rows, freeze
 from ridgeback.numeric.backbone.curve import MOST_BINS, Backbone
+from ridgeback.numeric.backbone.damping import growth_columns
 from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.choices import Definition
@@ -73,8 +74,7 @@ class CombinedBackbone(ShownBackbone):
             "frequency_hz": self.omega / TWO_PI,
             "omega_standard_deviation_rad_s": self.omega_sd,
             "omega_between_runs_rad_s": self.omega_between,
-            "growth_rate_per_s": self.growth_rate,
-            "growth_rate_standard_deviation_per_s": self.growth_rate_sd,
+            **growth_columns(self.growth_rate, self.growth_rate_sd, self.omega, self.omega_sd),
             "growth_rate_between_runs_per_s": self.growth_rate_between,
             "runs": self.runs,
         }

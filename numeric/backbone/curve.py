@@ -10,6 +10,8 @@ from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 from ridgeback.numeric.arrays import Array, Mask, as_rows, freeze
+from ridgeback.numeric.backbone.damping import damping_sentence, growth_columns
+from ridgeback.numeric.backbone.local_rates import LocalRates
 from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.choices import Definition
@@ -31,8 +33,8 @@ class Backbone(ShownBackbone):
         Frequency in rad per time unit; the deviation holds the track's bias too.
     growth_rate, growth_rate_sd : array of float, shape (M,)
         a'/a per time unit, negative in a decay.
-    curve_amplitude : array of float, shape (B,)
-        The curve: mean amplitude in each bin, rising.
+    curve_amplitude, curve_amplitude_sd : array of float, shape (B,)
+        The curve: mean amplitude in each bin, rising, and the standard deviation of that mean.
     curve_omega, curve_omega_sd, curve_growth_rate, curve_growth_rate_sd : array of float, shape (B,)
         Means over the bins, all weighted by the precision of omega; the deviation that the estimates state, that of the
         scatter in the bin where it is larger, and the amplitude's own.
@@ -66,6 +68,7 @@ class Backbone(ShownBackbone):
     growth_rate: Array
     growth_rate_sd: Array
     curve_amplitude: Array
+    curve_amplitude_sd: Array
     curve_omega: Array
     curve_omega_sd: Array
     curve_growth_rate: Array
@@ -86,14 +89,14 @@ class Backbone(ShownBackbone):
         return Curve(self.curve_amplitude, self.curve_omega, self.curve_omega_sd)
 
     def rows(self) -> list[dict[str, float]]:
-        """One row per point of the curve: amplitude, omega, frequency, growth rate, with standard deviations."""
+        """One row per point of the curve: amplitude, omega, frequency, growth rate, damping ratio, with deviations."""
         columns = {
             "amplitude": self.curve_amplitude,
+            "amplitude_standard_deviation": self.curve_amplitude_sd,
             "omega_rad_s": self.curve_omega,
             "frequency_hz": self.curve_omega / TWO_PI,
             "omega_standard_deviation_rad_s": self.curve_omega_sd,
-            "growth_rate_per_s": self.curve_growth_rate,
-            "growth_rate_standard_deviation_per_s": self.curve_growth_rate_sd,
+            **growth_columns(self.curve_growth_rate, self.curve_growth_rate_sd, self.curve_omega, self.curve_omega_sd),
         }
         return as_rows(columns)
 
@@ -139,29 +142,44 @@ def assemble(
     definition: Definition = Definition.FUNDAMENTAL,
     fewest: int = 1,
     window_seconds: float | None = None,
+    local: LocalRates | None = None,
 ) -> Backbone:
     """Put points into a Backbone and bin them over amplitude, at least ``fewest`` in a bin.
 
-    The bands hold the amplitude's own error too, times the slope of the curve.
+    The bands hold the amplitude's own error too, times the slope of the curve.  With ``local``, the fits that the
+    points are of, errors of amplitude and growth rate are those of the means themselves.
     """
     a, w, s = points.amplitude, points.omega, points.omega_sd
     weights = 1.0 / np.maximum(s, 1e-9 * w.max()) ** 2
     of = bins(a, fewest)
 
-    def means(values: Array, deviations: Array, crowd: float, ends: float = 0.0) -> Array:
-        found = [pooled(a[i], values[i], deviations[i], weights[i], crowd, ends=ends) for i in of]
+    known = [(None, None) if local is None else local.mean_deviation(i, weights[i] / weights[i].sum()) for i in of]
+    of_level, of_growth = zip(*known, strict=True)
+
+    def means(
+        values: Array,
+        deviations: Array,
+        crowd: float,
+        ends: float = 0.0,
+        stated: Sequence[float | None] = (None,) * len(of),
+    ) -> Array:
+        found = [
+            pooled(a[i], values[i], deviations[i], weights[i], crowd, ends=ends, stated=s)
+            for i, s in zip(of, stated, strict=True)
+        ]
         return np.array(found).T
 
-    centre, unsure = means(a, points.amplitude_sd, crowding.amplitude)
+    centre, unsure = means(a, points.amplitude_sd, crowding.amplitude, stated=of_level)
     omega, omega_sd = means(w, s, crowding.omega, crowding.omega_ends)
     growth_rate, growth_rate_sd = means(
-        points.growth_rate, points.growth_rate_sd, crowding.amplitude, crowding.growth_ends
+        points.growth_rate, points.growth_rate_sd, crowding.amplitude, crowding.growth_ends, of_growth
     )
     omega_sd = np.hypot(omega_sd, unsure * slope_at(centre, a, w, s))
     growth_rate_sd = np.hypot(growth_rate_sd, unsure * slope_at(centre, a, points.growth_rate, points.growth_rate_sd))
     return Backbone(
         **{item.name: getattr(points, item.name) for item in fields(points)},
         curve_amplitude=centre,
+        curve_amplitude_sd=unsure,
         curve_omega=omega,
         curve_omega_sd=omega_sd,
         curve_growth_rate=growth_rate,
@@ -169,7 +187,7 @@ def assemble(
         offset=offset,
         definition=definition,
         settings=settings,
-        notes=tuple(notes),
+        notes=(*notes, damping_sentence(centre, growth_rate, growth_rate_sd, omega, omega_sd)),
         window_seconds=window_seconds,
     )
 
@@ -214,12 +232,20 @@ def merged(bins: list[NDArray[np.intp]], fewest: int) -> list[NDArray[np.intp]]:
 # A straight line within the bin, so that the backbone's own slope is not taken for scatter; as in Birge's ratio
 # (Phys. Rev. 40 (1932) 207), the scatter counts where it is more than the estimates' own deviations allow.
 def pooled(
-    a: Array, values: Array, deviations: Array, weights: Array, crowding: float, *, ends: float = 0.0
+    a: Array,
+    values: Array,
+    deviations: Array,
+    weights: Array,
+    crowding: float,
+    *,
+    ends: float = 0.0,
+    stated: float | None = None,
 ) -> tuple[float, float]:
     """Weighted mean and its standard deviation, when ``crowding`` neighbouring values share one window.
 
     What the deviations state, and what the scatter about a line in the amplitude ``a`` shows beyond that.  With
-    ``ends`` the errors that are stated cancel among neighbours, to that number of n independent ones.
+    ``ends`` the errors that are stated cancel among neighbours, to that number of n independent ones.  ``stated`` is
+    the deviation of the mean where it is known as such.
 
     >>> pooled(np.arange(4.0), 2.0 + 0.5 * np.arange(4.0), np.full(4, 0.1), np.ones(4), 2.0)
     (2.75, 0.07071067811865477)
@@ -230,7 +256,10 @@ def pooled(
     lined = n > 2 and width > 0.0
     slope = float((share * (a - centre) * (values - mean)).sum()) / width if lined else 0.0
     freedom = max(1, n - (2 if lined else 1))
-    scatter = float((share * (values - mean - slope * (a - centre)) ** 2).sum()) * n / freedom
+    # Two values, which lie on a line, show none.
+    scatter = float((share * (values - mean - slope * (a - centre)) ** 2).sum()) * n / freedom if n > 2 else 0.0
     excess = max(0.0, scatter - float((share * deviations**2).sum()))
-    stated = float((share**2 * deviations**2).sum()) * (min(1.0, ends / n) if ends else min(crowding, n))
-    return mean, float(np.sqrt(stated + float((share**2).sum()) * excess * min(crowding, n)))
+    if stated is None:
+        shared = min(1.0, ends / n) if ends else min(crowding, n)
+        stated = float(np.sqrt(float((share**2 * deviations**2).sum()) * shared))
+    return mean, float(np.sqrt(stated**2 + float((share**2).sum()) * excess * min(crowding, n)))

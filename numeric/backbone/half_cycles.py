@@ -25,6 +25,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask, as_rows, freeze
 from ridgeback.numeric.backbone.backbone import CLEAR
 from ridgeback.numeric.backbone.curve import Backbone, Crowding, Points, assemble
+from ridgeback.numeric.backbone.damping import growth_columns
 from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.estimators.zero_crossing import crossing_samples, dead_zone, interpolate
 from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
@@ -112,8 +113,7 @@ class HalfCycles(ShownBackbone):
             "omega_standard_deviation_rad_s": self.omega_sd,
             "amplitude": self.amplitude,
             "amplitude_standard_deviation": self.amplitude_sd,
-            "growth_rate_per_s": self.growth_rate,
-            "growth_rate_standard_deviation_per_s": self.growth_rate_sd,
+            **growth_columns(self.growth_rate, self.growth_rate_sd, self.omega, self.omega_sd),
             "side": self.side,
         }
         return as_rows(columns)

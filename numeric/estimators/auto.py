@@ -87,7 +87,10 @@ def for_auto(request: Request) -> tuple[str, Request]:
 
 
 def candidates_of(request: Request) -> Iterator[Candidate]:
-    """Harmonic least squares, global and local, and the pseudo-Wigner peak, each over its best window."""
+    """Harmonic least squares, global and local, and the pseudo-Wigner peak, each over its best window.
+
+    The peak gives nothing within half a window of either end: its error counts per share of the record that it covers.
+    """
     models = request.models
     known = replace(request, known_models=models)
     if not request.lag_given:
@@ -109,7 +112,8 @@ def candidates_of(request: Request) -> Iterator[Candidate]:
         half = min(halves, key=lambda half: peak_error(models.best, request, half))
         peak = with_plan(known, lag_seconds=2.0 * half / request.signal.rate)
         words = f"pseudo-Wigner over {peak.plan.lag_seconds:.3g}"
-        yield Candidate("pseudo-wigner", peak, peak_error(models.best, request, half), words)
+        covered = max(1.0 - peak.plan.lag_seconds * request.signal.rate / request.signal.x.size, 1e-3)
+        yield Candidate("pseudo-wigner", peak, peak_error(models.best, request, half) / covered, words)
 
 
 def peak_error(model: SplineModel, request: Request, half: int) -> float:

@@ -12,6 +12,8 @@ from ridgeback.numeric.tracking.request import Request
 from ridgeback.numeric.tracking.track import Track
 from ridgeback.numeric.tracking.uncertainty import moving_mean, room_of_definition
 
+ONE_MODEL = "models of the whole signal settle on one number of knots only: nothing shows their bias"
+
 
 def by_harmonic_splines(request: Request) -> Track:
     """The best model's frequency, at all samples: a spline fit is one-sided at the borders by itself."""
@@ -43,6 +45,8 @@ def with_spline_interval(track: Track, request: Request) -> Track:
     """The same track with the difference from the finer model as its bias, and the interval that the finer one has."""
     models = request.models
     best, fine, coarse = models.best, models.fine, models.coarse
+    if fine is coarse:
+        return replace(track, no_interval=ONE_MODEL)
     correction = np.maximum(fine.omega_deviation**2 - best.omega_deviation**2, 0.0)
     left = surplus(coarse.omega - fine.omega, fine.omega_deviation, coarse.omega_deviation, request)
     ambiguous, room = room_of_definition(fine.omega, fine.time, best)

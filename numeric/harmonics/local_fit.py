@@ -3,9 +3,11 @@
 In a window of n samples, with s = -1 .. 1 across it,
 
     x = a(s) cos phi + sum over h of [b_h(s) cos h phi + c_h(s) sin h phi] + d + d' s + noise,
-    phi = p_0 + p_1 s + .. + p_D s^D,      a, b_h, c_h polynomials in s,
+    phi = p_0 + p_1 s + .. + p_D s^D,      a, b_h, c_h polynomials in s times one exponential e^(g s),
 
-so phi is by definition the phase of the fundamental, the higher harmonics may drift against it, and omega = phi'.
+with g such that a / e^(g s) is level in the middle: a plain damped oscillation is in the model at any damping, and the
+polynomial has only what changes in its growth rate to follow.  So phi is by definition the phase of the fundamental,
+the higher harmonics may drift against it, and omega = phi'.
 For white Gaussian noise this is maximum likelihood, and the standard deviation is the Cramer-Rao bound of this model
 with the residual variance put in (Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993, ch. 3).
 All windows have the same length; near the border they stop moving and omega is read off-centre, one-sidedly.
@@ -26,8 +28,10 @@ from ridgeback.numeric.signal.samples import checked_work
 
 PHASE_DEGREE = 3
 AMPLITUDE_DEGREE = 2
-ITERATIONS = 8
+ITERATIONS, SETTLED = 8, 1e-3
 MOST_HARMONICS = 12
+MOST_GROWTH = 2.0
+"""Bound of g: from one end of a window to the other the exponential changes by a factor of e^4 at most."""
 BLOCK_VALUES = 2_000_000
 """Jacobian entries that one block of windows may hold (16 MB)."""
 
@@ -88,9 +92,9 @@ def slopes(s: Array, degree: int) -> Array:
     return np.asarray(orders * s[..., None] ** np.maximum(orders - 1, 0), dtype=np.float64)
 
 
-def linear_columns(s: Array, phase: Array, shape: Shape) -> Array:
+def linear_columns(s: Array, phase: Array, shape: Shape, growth: Array) -> Array:
     """Model columns that enter linearly, for all windows: amplitude, harmonics, offset; ``(windows, n, columns)``."""
-    slow = powers(s, shape.amplitude_degree)
+    slow = np.exp(np.multiply.outer(growth, s))[..., None] * powers(s, shape.amplitude_degree)
     parts = [slow * np.cos(phase)[..., None]]
     for h in shape.multiples:
         parts += [slow * np.cos(h * phase)[..., None], slow * np.sin(h * phase)[..., None]]
@@ -125,10 +129,14 @@ def start(s: Array, x: Array, guide: Array, shape: Shape) -> tuple[Array, Array]
 
 @dataclass(frozen=True)
 class Solution:
-    """Coefficients of all windows: phase ``p``, amplitude ``a``, offset ``d``, covariances (per unit variance), fit."""
+    """Coefficients of all windows: phase ``p``, amplitude ``a`` times e^(``growth`` s), offset ``d``; covariances.
+
+    The covariances are per unit ``variance``, that of the residual.
+    """
 
     p: Array
     a: Array
+    growth: Array
     d: Array
     p_covariance: Array
     a_covariance: Array
@@ -137,21 +145,29 @@ class Solution:
 
 
 def gauss_newton(s: Array, x: Array, guide: Array, shape: Shape) -> Solution:
-    """Fit every window ``x[window, n]`` from its guide phase; at most ITERATIONS steps, each half a radian at most."""
+    """Fit every window ``x[window, n]`` from its guide phase; at most ITERATIONS steps, each half a radian at most.
+
+    It has settled when the last step moved the phase by less than SETTLED radians, weighted with the amplitude: where a
+    decay has sunk into the noise its phase goes on wandering.
+    """
     p, a = start(s, x, guide, shape)
     phase_powers, amplitude_powers = powers(s, shape.phase_degree), powers(s, shape.amplitude_degree)
-    last = np.full(x.shape[0], np.inf)
+    last, growth, steeper = np.full(x.shape[0], np.inf), np.zeros(x.shape[0]), np.zeros(x.shape[0])
     for _ in range(ITERATIONS):
-        phase = p @ phase_powers.T
-        linear = linear_columns(s, phase, shape)
-        turning = -((a @ amplitude_powers.T) * np.sin(phase))[..., None] * phase_powers
+        growth = np.clip(growth + steeper, -MOST_GROWTH, MOST_GROWTH)
+        phase, grown = p @ phase_powers.T, np.exp(np.multiply.outer(growth, s))
+        linear = linear_columns(s, phase, shape, growth)
+        turning = -((a @ amplitude_powers.T) * grown * np.sin(phase))[..., None] * phase_powers
         jacobian = np.concatenate([linear, turning], axis=2)
         coefficients, inverse = solve(jacobian, x)
         step = coefficients[:, linear.shape[2] :]
-        last = np.abs(step @ phase_powers.T).max(axis=1)
-        p = p + step * np.minimum(1.0, 0.5 / np.maximum(last, 1e-300))[:, None]
+        moved = np.abs(step @ phase_powers.T)
+        p = p + step * np.minimum(1.0, 0.5 / np.maximum(moved.max(axis=1), 1e-300))[:, None]
         a = coefficients[:, : shape.amplitude_degree + 1]
-        if last.max() < 1e-10:
+        size = np.abs(a @ amplitude_powers.T) * grown
+        last = (moved * size).max(axis=1) / np.maximum(size.max(axis=1), np.finfo(float).tiny)
+        steeper = steepening(a)
+        if max(last.max(), np.abs(steeper).max()) < 1e-10:
             break
     residual = x - np.einsum("wnp,wp->wn", jacobian, coefficients)
     freedom = max(1, x.shape[1] - shape.size)
@@ -159,12 +175,24 @@ def gauss_newton(s: Array, x: Array, guide: Array, shape: Shape) -> Solution:
     return Solution(
         p,
         a,
+        growth,
         coefficients[:, begin - 2 : begin],
         inverse[:, begin:, begin:],
         inverse[:, :width, :width],
         (residual**2).sum(axis=1) / freedom,
-        last < 1e-3,
+        last < SETTLED,
     )
+
+
+def steepening(a: Array) -> Array:
+    """What g lacks, a_1 / a_0, half at most in a step.
+
+    >>> steepening(np.array([[2.0, 0.2, 0.0], [0.1, -3.0, 0.0]])).tolist()
+    [0.1, -0.5]
+    """
+    if a.shape[1] < 2:
+        return np.zeros(a.shape[0])
+    return np.clip(a[:, 1] / np.where(a[:, 0] == 0.0, np.inf, a[:, 0]), -0.5, 0.5)
 
 
 def quadratic_form(vector: Array, matrix: Array) -> Array:
@@ -255,17 +283,19 @@ def read_off(
     settled = np.concatenate([part.settled for part in parts])
     phase_slope, value = slopes(at, shape.phase_degree) * (rate / half), powers(at, shape.amplitude_degree)
     amplitude_slope = slopes(at, shape.amplitude_degree) * (rate / half)
-    amplitude = (value * a).sum(axis=1)
-    safe = np.where(amplitude == 0.0, 1.0, amplitude)
-    growth = (amplitude_slope * a).sum(axis=1) / safe
+    exponent = np.concatenate([part.growth for part in parts])
+    grown = np.exp(exponent * at)
+    level = (value * a).sum(axis=1)
+    safe = np.where(level == 0.0, 1.0, level)
+    steeper = (amplitude_slope * a).sum(axis=1) / safe
     return HarmonicFit(
         time=start_time + centres / rate,
         omega=(phase_slope * p).sum(axis=1),
         standard_deviation=np.sqrt(variance * quadratic_form(phase_slope, p_cov)),
-        amplitude=amplitude,
-        amplitude_sd=np.sqrt(variance * quadratic_form(value, a_cov)),
-        growth=growth,
-        growth_sd=np.sqrt(variance * quadratic_form(amplitude_slope - growth[:, None] * value, a_cov)) / np.abs(safe),
+        amplitude=grown * level,
+        amplitude_sd=grown * np.sqrt(variance * quadratic_form(value, a_cov)),
+        growth=exponent * (rate / half) + steeper,
+        growth_sd=np.sqrt(variance * quadratic_form(amplitude_slope - steeper[:, None] * value, a_cov)) / np.abs(safe),
         offset=(powers(at, 1) * d).sum(axis=1),
         noise=np.sqrt(variance),
         settled=settled,

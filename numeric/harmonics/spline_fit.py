@@ -35,7 +35,8 @@ from ridgeback.numeric.signal.windows import window
 
 ITERATIONS = 15
 SETTLED = 1e-4
-"""Radians by which the last step may still have moved the phase."""
+"""Radians by which the last step may still have moved the phase, weighted with the amplitude: under the noise, at the
+end of a decay, it goes on wandering."""
 FINEST_CYCLES = 2.0
 """Closer knots would let the amplitude's spline imitate harmonics."""
 GROWTH = 1.5
@@ -155,10 +156,11 @@ def fit_on(
         equations = normal_equations(basis, weights_of(basis.values @ p, amplitude, multiples))
         c = equations.solve(x)
         amplitude = basis.values @ c[:, 0]
-        before, step = step, float(np.abs(basis.values @ c[:, -1]).max())
+        turn, size = np.abs(basis.values @ c[:, -1]), np.abs(amplitude)
+        before, step = step, float((turn * size).max() / max(float(size.max()), np.finfo(float).tiny))
         if step < 1e-10 or (step < SETTLED and step > 0.5 * before):
             break
-        p = p + c[:, -1] * min(1.0, 0.5 / step)
+        p = p + c[:, -1] * min(1.0, 0.5 / float(turn.max()))
     residual = x - equations.model(c)
     c[:, -1] = p
     noise = math.sqrt(float((residual**2).sum()) / max(1, x.size - c.size))

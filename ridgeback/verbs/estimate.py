@@ -71,13 +71,17 @@ def command(
     "valid" is false near the borders, where it does not see a whole window.
 
     --backbone gives rows of amplitude (of the first harmonic, in the unit of the samples; the turning point with
-    --half-cycles), omega_rad_s, frequency_hz, omega_standard_deviation_rad_s, growth_rate_per_s (a'/a, negative in a
-    decay) and growth_rate_standard_deviation_per_s instead: means over bins of amplitude, with everything that is known
-    of their error.  These are the columns in CSV too; with several signals run, channel and stretch come first, and
-    combined backbones follow as the run "combined", with runs (how many reach there) and the scatter between them,
-    omega_between_runs_rad_s and growth_rate_between_runs_per_s.  JSON has the rows under "backbone", beside "method",
-    "settings", "recording" (gaps, clipping, interpolation, drift), "notes", "offset" and "amplitude_definition", and
-    without --backbone also "track"; several signals are "signals", and "combined" follows.
+    --half-cycles) with amplitude_standard_deviation, omega_rad_s, frequency_hz, omega_standard_deviation_rad_s,
+    growth_rate_per_s (a'/a, negative in a decay) with growth_rate_standard_deviation_per_s,
+    growth_rate_low_95_per_s and growth_rate_high_95_per_s, and damping_ratio, -a'/(a omega), with
+    damping_ratio_standard_deviation instead: means over bins of amplitude, with everything that is known of their
+    error. A note gives the damping ratio, Q = 1 / (2 zeta) and the logarithmic decrement 2 pi zeta at both ends.
+    These are the columns in CSV too; with several signals run, channel and stretch come first, and combined
+    backbones follow as the run "combined", with runs (how many reach there) and the scatter between them,
+    omega_between_runs_rad_s and growth_rate_between_runs_per_s. JSON has the rows under "backbone", beside
+    "method", "settings", "recording" (gaps, clipping, interpolation, drift), "notes", "offset" and
+    "amplitude_definition", and without --backbone also "track"; several signals are "signals", and "combined"
+    follows.
 
     Several FILEs, or the values of --run-column, are runs.  A signal is cut where values or times are missing, and
     each stretch taken by itself; uneven times, clipped samples and drift are named, and treated as the options say.

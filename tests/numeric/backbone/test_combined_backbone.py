@@ -27,6 +27,7 @@ def curve(omega: float, sd: float, low: float, high: float, definition: str = "f
         curve_amplitude=a,
         curve_omega=omega - 0.1 * a**2,
         curve_omega_sd=flat,
+        curve_amplitude_sd=flat,
         curve_growth_rate=-0.05 * np.ones(12),
         curve_growth_rate_sd=flat,
         offset=0.0,

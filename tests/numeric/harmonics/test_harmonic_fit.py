@@ -20,11 +20,12 @@ OMEGA = 2 * np.pi * (1.2 + 0.04 * T)
 
 
 def test_exact_where_the_model_holds_up_to_the_very_ends() -> None:
-    x = (2.0 - 0.05 * T) * np.cos(PHASE + 0.4) + (0.2 + 0.01 * T) * np.cos(3 * PHASE - 1.0) + 0.7 - 0.02 * T
+    decay = np.exp(-0.05 * T)
+    x = decay * (2.0 * np.cos(PHASE + 0.4) + (0.2 + 0.01 * T) * np.cos(3 * PHASE - 1.0)) + 0.7 - 0.02 * T
     fit = harmonic_fit(x, RATE, OMEGA * 1.01, half=50, shape=Shape((3,)), start_time=5.0)
     assert np.abs(fit.omega - OMEGA).max() < 1e-7
-    assert np.abs(fit.amplitude - (2.0 - 0.05 * T)).max() < 1e-8
-    assert np.abs(fit.growth + 0.05 / (2.0 - 0.05 * T)).max() < 1e-7
+    assert np.abs(fit.amplitude - 2.0 * decay).max() < 1e-8
+    assert np.abs(fit.growth + 0.05).max() < 1e-7
     assert np.abs(fit.offset - (0.7 - 0.02 * T)).max() < 1e-8
     assert fit.settled.all()
     assert fit.valid.sum() == T.size - 100
@@ -36,13 +37,13 @@ def test_columns_are_the_derivatives_of_the_model() -> None:
     p, a = np.array([0.3, 12.0, 1.0, 0.2]), np.array([1.0, 0.1, -0.05])
 
     def model(phase: np.ndarray) -> np.ndarray:
-        return (powers(s, 2) @ a) * np.cos(powers(s, 3) @ phase)
+        return np.exp(0.3 * s) * (powers(s, 2) @ a) * np.cos(powers(s, 3) @ phase)
 
-    turning = -((powers(s, 2) @ a) * np.sin(powers(s, 3) @ p))[:, None] * powers(s, 3)
+    turning = -(np.exp(0.3 * s) * (powers(s, 2) @ a) * np.sin(powers(s, 3) @ p))[:, None] * powers(s, 3)
     for j in range(4):
         step = 1e-6 * np.eye(4)[j]
         assert np.abs((model(p + step) - model(p - step)) / 2e-6 - turning[:, j]).max() < 1e-8
-    linear = linear_columns(s, (powers(s, 3) @ p)[None], shape)[0]
+    linear = linear_columns(s, (powers(s, 3) @ p)[None], shape, np.array([0.3]))[0]
     assert np.abs(linear[:, :3] @ a - model(p)).max() < 1e-14
     assert linear.shape == (61, shape.size - 4)
 
