@@ -79,7 +79,11 @@ def backbone(
     half = half_width(seconds, rate, name="window_seconds", longest=samples.size)
     real = samples - offset
     multiples = choose_multiples(real, rate, base.omega, half=half)
-    found = local_rates(real, rate, base.omega, multiples, half=half, start=first, fixed=window_seconds is not None)
+    fixed, unclipped = (
+        window_seconds is not None,
+        np.ones(samples.size, dtype=np.bool_) if exclude is None else ~exclude,
+    )
+    found = local_rates(real, rate, base.omega, multiples, half=half, start=first, fixed=fixed, clean=unclipped)
     fit, centres = found.fine, found.centre
     seen = fit.settled if track.used.one_sided_borders else fit.settled & base.valid[centres]
     clean = ~touched(found.begin, found.half, exclude)

@@ -129,7 +129,15 @@ def joined(fits: Sequence[HarmonicFit]) -> HarmonicFit:
 
 
 def local_rates(
-    real: Array, rate: float, omega: Array, multiples: tuple[int, ...], *, half: int, start: float, fixed: bool
+    real: Array,
+    rate: float,
+    omega: Array,
+    multiples: tuple[int, ...],
+    *,
+    half: int,
+    start: float,
+    fixed: bool,
+    clean: Mask,
 ) -> LocalRates:
     """Fit along a frequency, in windows of 2 ``half`` + 1 samples if ``fixed``, else in those that a first fit allows.
 
@@ -149,6 +157,8 @@ def local_rates(
         Time of the first sample.
     fixed : bool
         Whether that is the window of all fits.
+    clean : array of bool, shape (N,)
+        False at samples that no wide window should hold.
 
     Returns
     -------
@@ -161,7 +171,7 @@ def local_rates(
     if not fixed:
         sparse = np.arange(0, real.size, max(1, half // 2))
         pilot = harmonic_fit(real, rate, omega, half=half, shape=Shape(multiples, *COARSE), centres=sparse)
-        halves = half_widths(pilot, omega, rate, fewest=needed)
+        halves = half_widths(pilot, omega, rate, fewest=needed, clean=clean)
     centres = np.arange(0, real.size, spacing(halves, cycle, rate))
     halves = halves[centres]
     degrees = FINE if 2 * int(halves.min()) + 1 >= needed else COARSE

@@ -13,9 +13,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import maximum_filter1d, uniform_filter1d
+from scipy.ndimage import distance_transform_edt, maximum_filter1d, uniform_filter1d
 
-from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.harmonics.local_fit import HarmonicFit
 from ridgeback.numeric.signal.samples import TWO_PI
 
@@ -54,18 +54,20 @@ def beyond(values: Array, deviation: Array) -> Array:
     return np.maximum(np.abs(values) - SURE * deviation, 0.0)
 
 
-def half_widths(pilot: HarmonicFit, omega: Array, rate: float, *, fewest: int) -> NDArray[np.intp]:
+def half_widths(pilot: HarmonicFit, omega: Array, rate: float, *, fewest: int, clean: Mask) -> NDArray[np.intp]:
     """Half width in samples, at each sample, of the widest window of the LADDER that may be used there.
 
-    ``fewest`` is the number of samples that the model in a window needs.
+    ``fewest`` is the number of samples that the model in a window needs; wider windows than the narrowest keep to the
+    ``clean`` samples.
     """
     time = pilot.time[0] + np.arange(omega.size) / rate
     reach = np.interp(time, pilot.time, furthest(pilot))
     cycle = TWO_PI / float(np.median(omega))
+    free = np.full(omega.size, np.inf) if clean.all() else distance_transform_edt(clean)
     found = np.full(omega.size, round(0.5 * LADDER[0] * cycle * rate))
     for cycles in LADDER[1:]:
         half = round(0.5 * cycles * cycle * rate)
-        allowed = (half / rate <= reach) & (2 * half + 1 <= MOST_SHARE * omega.size)
+        allowed = (half / rate <= reach) & (half < free) & (2 * half + 1 <= MOST_SHARE * omega.size)
         found = np.where((2 * found + 1 < fewest) | allowed, half, found)
     return np.asarray(np.minimum(found, (omega.size - 1) // 2), dtype=np.intp)
 

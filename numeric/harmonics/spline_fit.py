@@ -39,6 +39,7 @@ SETTLED = 1e-4
 end of a decay, it goes on wandering."""
 FINEST_CYCLES = 2.0
 """Closer knots would let the amplitude's spline imitate harmonics."""
+CLEAR = 5.0
 GROWTH = 1.5
 """From one number of knot intervals to the next that is tried."""
 GUIDE_CYCLES = (4.0, 3.0)
@@ -129,6 +130,12 @@ class SplineModel:
         """What small noise in the samples does to the coefficients, and the part of the noise that the fit takes up."""
         change = self.equations.solve(noise)
         return change, self.equations.model(change)
+
+    @cached_property
+    def clear(self) -> bool:
+        """Whether the amplitude rises out of the noise anywhere, CLEAR times its own deviation."""
+        deviation = self.noise * np.sqrt(self.equations.variance(self.basis.values, 0))
+        return bool((np.abs(self.amplitude) > CLEAR * deviation).any())
 
     @cached_property
     def omega_deviation(self) -> Array:
@@ -228,7 +235,7 @@ def until_no_better(models: Iterator[SplineModel]) -> list[SplineModel]:
     """The models that settled, in order, until the criterion has failed to improve twice."""
     found: list[SplineModel] = []
     for model in models:
-        if model.settled:
+        if model.settled and model.clear:
             found.append(model)
         if len(found) > 2 and min(m.criterion for m in found[-2:]) > min(m.criterion for m in found[:-2]):
             break

@@ -91,7 +91,7 @@ def test_windows_follow_the_local_rate_of_change() -> None:
     a = 0.6 / (8.6 * np.exp(0.6 * t) - 8.0)
     guide = np.full(t.size, OMEGA)
     pilot = harmonic_fit(a * np.cos(OMEGA * t), RATE, guide, half=40, shape=Shape(), centres=np.arange(0, 2400, 20))
-    halves = half_widths(pilot, guide, RATE, fewest=20)
+    halves = half_widths(pilot, guide, RATE, fewest=20, clean=guide > 0)
     assert halves[0] == 30  # three cycles where the amplitude halves in two
     assert halves[-1] >= 160  # sixteen and more in the tail
     assert np.all(np.diff(halves) >= 0)
