@@ -14,6 +14,7 @@ from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.estimators.auto import for_auto, for_least_squares
 from ridgeback.numeric.estimators.global_harmonics import by_harmonic_splines, with_spline_interval
 from ridgeback.numeric.estimators.higher_harmonics import harmonic_with_interval, locked_track
+from ridgeback.numeric.estimators.memory import check_memory, without_room
 from ridgeback.numeric.estimators.peak import by_pseudo_wigner, by_smoothed_pseudo_wigner, by_spectrogram, by_wigner
 from ridgeback.numeric.estimators.phase import by_harmonic_least_squares, by_hilbert, by_zero_crossing
 from ridgeback.numeric.estimators.polynomial_peak import by_polynomial_wigner
@@ -234,6 +235,11 @@ def estimation(
     search = None
     if method == "auto":
         samples, search = decimated(samples, band=options.band, per_cycle=max(PER_CYCLE, 4.0 * harmonic))
+    check_memory(method, samples.x.size)
+    no_room = without_room(samples.x.size) if options.bias else None
+    if no_room is not None and remove_bias:
+        raise InputError(no_room)
+    options = options if no_room is None else replace(options, bias=False)
     request = prepared(samples, options, search=search)
     noise = request.presence
     if not noise.found:  # then there is no bias to be estimated
@@ -251,6 +257,7 @@ def estimation(
     progress(1.0, "done")
     if harmonic > 1:
         track = of_harmonic(harmonic, request, track, remove_bias)
+    track = track if no_room is None else replace(track, no_interval=no_room)
     return Estimation(track.held_against(noise), samples, request)
 
 
