@@ -23,6 +23,7 @@ from ridgeback.symbolic.codegen.program import MODES, Form, Mode
 from ridgeback.symbolic.codegen.proofs.notes import annotated
 from ridgeback.symbolic.codegen.request import CodeRequest
 from ridgeback.symbolic.codegen.resummations import resummation_form
+from ridgeback.symbolic.codegen.splitting import split
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.resummation.resummation import Resummation
@@ -153,6 +154,8 @@ def finished(form: Form, request: CodeRequest) -> Form:
     plain = replace(form, name=name, mode=request.mode, real=request.real, version=_version())
     if request.mode == "accurate":
         plain = replace(plain, functions=tuple(accurate(plain, f) for f in plain.functions))
+    else:
+        plain = replace(plain, functions=tuple(map(split, plain.functions)))
     made = annotated(plain)
     return replace(made, digest=hashlib.sha256(repr(made).encode()).hexdigest()[:DIGEST])
 

@@ -21,7 +21,7 @@ from ridgeback.symbolic.codegen.number import FLOAT64, Exact, Number, Real
 Operand: TypeAlias = "str | Number"
 Mode: TypeAlias = Literal["strict", "fma", "accurate"]
 MODES: Final[tuple[Mode, ...]] = ("strict", "fma", "accurate")
-LOOP: Final = 48
+LOOP: Final = 128
 """A polynomial of more coefficients is a loop over a table: longer chains of statements are vectorised badly."""
 
 

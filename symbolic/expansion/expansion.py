@@ -194,11 +194,23 @@ class Expansion(ShownExpansion):
         """
         if isinstance(value, Fraction | sympy.Rational):
             return sum((c * sympy.Rational(value) ** n for n, c in enumerate(self.frequency)), sympy.S.Zero)
-        convert = type(value) if type(value).__module__.startswith("mpmath") else None
         result: Any = value * 0
-        for c in reversed(self.frequency):
-            result = result * value + (nearest(c) if convert is None else convert(c.p) / convert(c.q))
+        if type(value).__module__.startswith("mpmath"):
+            convert = type(value)
+            for c in reversed(self.frequency):
+                result = result * value + convert(c.p) / convert(c.q)
+            return result
+        falling, even = self._rounded
+        x = value * value if even else value
+        for rounded in falling:
+            result = result * x + rounded
         return result
+
+    @cached_property
+    def _rounded(self) -> tuple[tuple[float, ...], bool]:
+        """The coefficients as floats from the highest down; of even powers only where the others vanish."""
+        even = all(c == 0 for c in self.frequency[1::2])
+        return tuple(nearest(c) for c in reversed(self.frequency[:: 2 if even else 1])), even
 
     def truncated(self, order: int) -> Expansion:
         """Keep the terms up to a lower order.

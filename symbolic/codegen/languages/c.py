@@ -22,6 +22,8 @@ GUARD = """\
 #elif defined(__GNUC__)
 #pragma GCC optimize("fp-contract=off")
 #endif"""
+BLOCK = 64
+"""Values that an array is worked on in at a time."""
 FLAGS = ("-std=c99", "-O3", "-ffp-contract=off", "-Wall", "-Wextra", "-Wmissing-prototypes", "-pedantic")
 
 
@@ -64,11 +66,11 @@ class C(Language):
 
     def loop(self, horner: Horner, table: str, *, first: bool, form: Form) -> list[str]:
         length = len(horner.coefficients)
-        term = f"{table}[i]"
+        term = f"{table}[n]"
         step = self.fused(horner.name, horner.at, term, form) if form.fused else f"{horner.name}*{horner.at} + {term}"
         return [
             self.assign(horner.name, f"{table}[0]", first=first, form=form),
-            f"for (int i = 1; i < {length}; i++)",
+            f"for (int n = 1; n < {length}; n++)",
             f"    {horner.name} = {step};",
         ]
 
@@ -113,7 +115,7 @@ class C(Language):
         kind, name = self.kind(form), self.called(function, form)
         plain = ", ".join(f"{kind} {a.name}" for a in function.arguments)
         others = "".join(f", {kind} {a.name}" for a in function.arguments[1:])
-        array = f"void {name}_array(const {kind} *{function.arguments[0].name}, {kind} *out, size_t count{others})"
+        array = f"void {name}_array(const {kind} *values, {kind} *out, size_t count{others})"
         return f"{kind} {name}({plain})", f"{kind} {name}_unchecked({plain})", array
 
     def _table(self, name: str, horner: Horner, form: Form) -> str:
@@ -124,23 +126,49 @@ class C(Language):
         checked, plain, array = self.signatures(function, form)
         names = ", ".join(a.name for a in function.arguments)
         comment = "\n".join(self.remark(line) for line in self.about(function))
-        unread = [f"    (void){name};" for name in self.unread(function)]
+        unread = [f"    {self.ignored(name)}" for name in self.unread(function)]
         body = [f"    {line}" for line in self.body(function, form)]
-        called, first, others = self.called(function, form), function.arguments[0].name, names.partition(", ")[2]
-        inner = ", ".join(part for part in (f"{first}[i]", others) if part)
+        called = self.called(function, form)
         return [
             f"{comment}\n" + "\n".join(f"{s};" for s in (checked, plain, array)),
             "\n".join([plain, "{", *unread, *body, f"    return {self.operand(function.result, form)};", "}"]),
             f"{checked}\n{{\n    return {self.inside(function, form)} ? {called}_unchecked({names}) : NAN;\n}}",
-            f"{array}\n{{\n    for (size_t i = 0; i < count; i++) {{\n"
-            f"        const {self.kind(form)} value = {called}_unchecked({inner});\n"
-            f"        out[i] = {self.inside(function, form, index='[i]')} ? value : NAN;\n    }}\n}}",
+            f"{array}\n{self.array_body(function, form)}",
         ]
 
-    def inside(self, function: Function, form: Form, index: str = "") -> str:
+    def array_body(self, function: Function, form: Form, size: str = "size_t") -> str:
+        """Blocks of values, then what lies outside the domain: so that compilers vectorise both loops."""
+        kind, first = self.kind(form), function.arguments[0].name
+        take = f"const {kind} {first} = values[start + i];"
+        unread = [self.ignored(name) for name in self.unread(function)]
+        body = [*unread, *self.body(function, form), f"block[i] = {self.operand(function.result, form)};"]
+        domain_first = function.domain.argument == first
+        lines = [
+            "{",
+            f"    {kind} block[{BLOCK}];",
+            f"    for ({size} start = 0; start < count; start += {BLOCK}) {{",
+            f"        const {size} stop = count - start < {BLOCK} ? count - start : {BLOCK};",
+            f"        for ({size} i = 0; i < stop; i++) {{",
+            f"            {take}",
+            *(f"            {line}" for line in body),
+            "        }",
+            f"        for ({size} i = 0; i < stop; i++) {{",
+            *([f"            {take}"] if domain_first else []),
+            f"            out[start + i] = {self.inside(function, form)} ? block[i] : {self.literal(math.nan, form)};",
+            "        }",
+            "    }",
+            "}",
+        ]
+        return "\n".join(lines)
+
+    def ignored(self, name: str) -> str:
+        """A statement that keeps a compiler from warning of an argument that is not read."""
+        return f"(void){name};"
+
+    def inside(self, function: Function, form: Form) -> str:
         """The condition that the argument lies in the domain; false for what is not a number."""
         domain = function.domain
-        at = domain.argument + (index if domain.argument == function.arguments[0].name else "")
+        at = domain.argument
         if domain.low == -domain.high:
             return f"fabs{self.letter(form)}({at}) <= {self.literal(domain.high, form)}"
         return f"({at} >= {self.literal(domain.low, form)}) & ({at} <= {self.literal(domain.high, form)})"

@@ -65,29 +65,30 @@ class Cpp(C):
             for a in function.arguments
         )
         names = ", ".join(a.name for a in function.arguments)
-        first, others = function.arguments[0].name, given.partition(", ")[2]
-        unread = [f"    static_cast<void>({name});" for name in self.unread(function)]
+        others = given.partition(", ")[2]
+        unread = [f"    {self.ignored(name)}" for name in self.unread(function)]
         body = [f"    {line}" for line in self.body(function, form)]
         result = self.operand(function.result, form)
         yield "\n".join(
             [f"inline double {function.name}_unchecked({given})", "{", *unread, *body, f"    return {result};", "}"]
         )
         nan = self.literal(math.nan, form)
-        inside = self.inside(function, form).replace("fabs", "std::fabs")
+        inside = self.inside(function, form)
         yield (
             f"{comment}\ninline double {function.name}({given})\n{{\n"
             f"    return {inside} ? {function.name}_unchecked({names}) : {nan};\n}}"
         )
-        each = self.inside(function, form, index="[i]").replace("fabs", "std::fabs")
-        inner = ", ".join(part for part in (f"{first}[i]", names.partition(", ")[2]) if part)
         yield (
-            f"// The same for an array; out may be {first} itself.\n"
-            f"inline void {function.name}_array(const double *{first}, double *out, std::size_t count"
-            f"{', ' + others if others else ''})\n{{\n    for (std::size_t i = 0; i < count; i++) {{\n"
-            f"        const double value = {function.name}_unchecked({inner});\n"
-            f"        out[i] = {each} ? value : {nan};\n"
-            "    }\n}"
+            "// The same for an array; out may be values itself.\n"
+            f"inline void {function.name}_array(const double *values, double *out, std::size_t count"
+            f"{', ' + others if others else ''})\n{self.array_body(function, form, 'std::size_t')}"
         )
+
+    def ignored(self, name: str) -> str:
+        return f"static_cast<void>({name});"
+
+    def inside(self, function: Function, form: Form) -> str:
+        return super().inside(function, form).replace("fabs", "std::fabs")
 
     def _check(self, form: Form) -> str:
         lines = [
