@@ -130,7 +130,7 @@ OPTIONS = (
         type=written(rational),
         default=None,
         metavar="E",
-        help="With --fit: the lowest degree whose error, relative to k, is at most this.",
+        help="With --fit: the lowest degree whose relative error is at most this.",
     ),
     click.option(
         "--up-to",

@@ -30,6 +30,7 @@ SCALING = "The coefficients hold in units where k = 1: another k rescales time, 
 SMALL = "the small parameter of the equation"
 A_SMALL = "a small parameter of the equation"
 PARAMETER = "a parameter of the equation"
+A_RATE = "Rate of change of the amplitude, a', per unit of time: with omega0 = phi' the slow flow's right-hand side."
 OMEGA0 = "Fundamental angular frequency, in radians per unit of time."
 
 
@@ -178,6 +179,7 @@ def slow_flow_form(flow: SlowFlow, request: CodeRequest) -> Form:
     functions = (
         slow_function("omega0", OMEGA0, arguments, domain, flow, flow.omega, request.real),
         slow_function("growth_rate", rate, arguments, domain, flow, flow.delta, request.real),
+        slow_function("amplitude_rate", A_RATE, arguments, domain, flow, flow.delta, request.real, more=1),
     )
     facts = (
         *common_facts(flow.method, request.equation),
@@ -215,15 +217,17 @@ def slow_function(
     flow: SlowFlow,
     by_degree: Sequence[Any],
     real: Real = FLOAT64,
+    *,
+    more: int = 0,
 ) -> Function:
-    """One side of the slow flow, in units where k = 1: each symbol enters over its power of k."""
+    """One side of the slow flow, times a^more, in units where k = 1: each symbol enters over its power of k."""
     count, weights = len(flow.names), tuple(flow.weights.values())
     called = argument_names(symbol for symbol in flow.names if symbol not in UNITS)
     terms: Terms = {}
     for n, coefficient in enumerate(by_degree):
         for powers, value in rows(coefficient, count).items():
             degree = sum(w * r for w, r in zip(weights, powers, strict=False))
-            terms[n - degree, *powers] = Number(value, real)
+            terms[n - degree + more, *powers] = Number(value, real)
     units = {f"({s})" if s in UNITS else called[s]: d for s, d in flow.dimensions.items()}
     kept = terms or {(0,) * (count + 1): Number(fmpq(0), real)}
     return polynomial_function(name, summary, arguments, ("a", *units), kept, domain, factor=K, units=units, real=real)

@@ -50,7 +50,8 @@ _PYTHON: Final = """
 math np numpy xp numba njit float len list range type isinstance array print self None True False nan inf
 """
 _OWN: Final = """
-k omega0 omega0_slope amplitude growth_rate a A out count index table values motion mean t i j n w
+k omega0 omega0_slope amplitude
+amplitude_rate growth_rate growth_rate a A out count index table values motion mean t i j n w
 result quotient k_inverse k_squared_inverse scaled rest root fall rise inner moved distance vanishing grown half_angle
 total gap area ratio m ell q theta theta_squared turn taken pairs odd sign even uneven cosine sine twice u high low
 high_share low_share high_inside low_inside rounded product lost sum_low share head fraction block

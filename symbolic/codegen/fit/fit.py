@@ -34,7 +34,7 @@ MOST_BOXES: Final = 20000
 
 @dataclass(frozen=True)
 class Fit:
-    """omega0 = k (1 + c_1 A^2 + ... + c_d A^(2d)) for |A| <= end; |omega0/k - exact| <= error, proved."""
+    """omega0 = k (1 + c_1 A^2 + ... + c_d A^(2d)) for |A| <= end; relative error at most ``error``, proved."""
 
     system: str
     scale: Expr
@@ -43,7 +43,7 @@ class Fit:
     """c_0 = 1, c_1, ..., c_d, each a number of the format."""
     error: Fraction
     optimum: float
-    """The error of the best fit with real coefficients."""
+    """The relative error of the best fit with real coefficients."""
     real: Real = FLOAT64
 
     @property
@@ -88,8 +88,8 @@ class Fit:
             *((f"Equation: {request.equation}.",) if request.equation else ()),
             f"Method: minimax fit of degree {self.degree} in A^2 to the exact frequency, equal to k at A = 0.",
             f"Variable A: {meaning}.",
-            f"Fit: for |A| <= {float(self.end)!r} the error of the polynomial against the exact frequency is at most "
-            f"{upwards(self.error, 3)} k, proved over the whole range in ball arithmetic.",
+            f"Fit: for |A| <= {float(self.end)!r} the relative error of the polynomial against the exact frequency is at "
+            f"most {upwards(self.error, 3)}, proved over the whole range in ball arithmetic.",
             SCALING,
             *limit_fact("A", request.limit),
             *request.more,
@@ -116,7 +116,7 @@ def minimax(
     degree
         Degree of the polynomial in A^2.
     tolerance
-        In place of a degree: the lowest degree is taken whose proved error, relative to k, is at most this.
+        In place of a degree: the lowest degree is taken whose proved relative error is at most this.
     real
         Format of the coefficients.
 
@@ -171,7 +171,8 @@ def _best(exact: Surrogate, degree: int) -> Best:
     """The best fit; of a frequency that does not depend on the amplitude, 0."""
     if all(abs(c) <= exact.remainder for c in (exact.polynomial - 1).coeffs()):
         return Best((arb(0),) * degree, arb(0), ())
-    return remez(_target(exact), ball(exact.end) ** 2, range(1, degree + 1))
+    target = _target(exact)
+    return remez(target, ball(exact.end) ** 2, range(1, degree + 1), lambda x: 1 + target(x))
 
 
 def _represented(exact: Surrogate, best: Best, degree: int, real: Real) -> tuple[tuple[Fraction, ...], Fraction]:
@@ -211,16 +212,17 @@ def _one_by_one(exact: Surrogate, best: Best, degree: int, real: Real) -> tuple[
             return target(x) - sum((ball(c) * x ** (i + 1) for i, c in enumerate(fixed)), arb(0))
 
         try:
-            free = remez(rest, end, range(n + 1, degree + 1)).coefficients
+            free = remez(rest, end, range(n + 1, degree + 1), lambda x: 1 + target(x)).coefficients
         except InputError:
             free = free[1:]
     return (Fraction(1), *fixed)
 
 
 def proved(exact: Surrogate, coefficients: Sequence[Fraction]) -> Fraction:
-    """An upper bound of |polynomial - exact frequency over k| over the whole range.
+    """An upper bound of |polynomial - exact|/exact over the whole range, exact being the frequency over k.
 
-    On each part of it the difference is expanded about the middle, |D(m + r z)| <= sum |d_i| r^i for |z| <= 1.
+    On each part of it difference and frequency are expanded about the middle: |D(m + r z)| <= sum |d_i| r^i and
+    exact(m + r z) >= e_0 - sum |e_i| r^i for |z| <= 1.
     """
     half = ball(exact.end) ** 2 / 2
     fitted = arb_poly([ball(c) for c in coefficients])(arb_poly([half, half]))
@@ -230,12 +232,16 @@ def proved(exact: Surrogate, coefficients: Sequence[Fraction]) -> Fraction:
     worst = arb(0)
     for _ in range(MOST_BOXES):
         if not waiting:
-            return upper(worst + exact.remainder)
+            return upper(worst)
         left, width = waiting.pop()
-        local = difference(arb_poly([arb(left + width / 2), arb(width / 2)])).coeffs()
-        bound = sum((abs(c) for c in local), arb(0)).upper()
-        if bound <= worst or bound <= exact.remainder or bound <= SHARP * abs(local[0]).lower():
-            worst = arb.max(worst, bound)
+        part = arb_poly([arb(left + width / 2), arb(width / 2)])
+        middle, *others = difference(part).coeffs() or [arb(0)]
+        value, *slopes = exact.polynomial(part).coeffs()
+        least = value - sum(map(abs, slopes), arb(0)) - exact.remainder
+        bound = arb((abs(middle) + sum(map(abs, others), arb(0)) + exact.remainder) / least).upper()
+        small = bound <= 4 * exact.remainder or bound <= SHARP * abs(middle / value).lower()
+        if least > 0 and (bound <= worst or small):
+            worst = arb(arb.max(worst, bound))
         else:
             waiting += [(left, width / 2), (left + width / 2, width / 2)]
     raise InputError("the error of the fit could not be bounded; ask for a lower degree or a shorter range")

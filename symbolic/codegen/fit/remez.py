@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, TypeAlias
 
 from flint import arb, arb_mat, arb_poly
 
 from ridgeback.common.errors import InputError
 
+Function: TypeAlias = Callable[[arb], arb]
 LEVEL: Final = arb("1e-4")
 """The extrema are level when they differ by less than this share."""
 ROUNDS: Final = 40
@@ -31,10 +32,11 @@ class Best:
     reference: tuple[arb, ...]
 
 
-def remez(target: Callable[[arb], arb], end: arb, powers: Sequence[int], start: Sequence[arb] | None = None) -> Best:
+def remez(target: Function, end: arb, powers: Sequence[int], weight: Function | None = None) -> Best:
     """The best fit of a function on (0, end] by the powers given, to the working precision's centre values.
 
-    Raises InputError when the exchange does not settle.
+    Errors are measured in units of ``weight``, a positive function; 1 when there is none.  Raises InputError when the
+    exchange does not settle.
 
     >>> found = remez(lambda x: x * x, arb(1), (1,))      # x^2 by c x: c = 2 (sqrt(2) - 1)
     >>> abs(float(found.coefficients[0]) - 2 * (2**0.5 - 1)) < 1e-4
@@ -45,19 +47,20 @@ def remez(target: Callable[[arb], arb], end: arb, powers: Sequence[int], start: 
         end * (1 + arb.cos_pi(arb(DENSITY * count - j) / (DENSITY * count))) / 2 for j in range(1, DENSITY * count + 1)
     ]
     grid = [x.mid() for x in grid]
-    wanted = [target(x).mid() for x in grid]
-    reference = list(start) if start is not None and len(start) == count else _first(end, count)
+    unit = weight or (lambda _: arb(1))
+    wanted = [(target(x).mid(), unit(x).mid()) for x in grid]
+    reference = _first(end, count)
     for _ in range(ROUNDS):
-        best = _level(target, powers, reference)
+        best = _level(target, unit, powers, reference)
         fitted = _polynomial(powers, best.coefficients)
-        errors = [(w - fitted(x)).mid() for x, w in zip(grid, wanted, strict=True)]
+        errors = [((value - fitted(x)) / size).mid() for x, (value, size) in zip(grid, wanted, strict=True)]
         extrema = _alternating(_extrema(grid, errors), errors, count)
         if extrema is None:
             raise InputError(f"no fit of {len(powers)} coefficients alternates; ask for a lower degree")
         reference = [_peak(grid, errors, i) for i in extrema]
-        sizes = [abs(target(x) - fitted(x)).mid() for x in reference]
+        sizes = [abs((target(x) - fitted(x)) / unit(x)).mid() for x in reference]
         if max(sizes) - min(sizes) < LEVEL * max(sizes):
-            return _level(target, powers, reference)
+            return _level(target, unit, powers, reference)
     raise InputError("the exchange of points does not settle; ask for a lower degree or a shorter range")
 
 
@@ -67,9 +70,9 @@ def _first(end: arb, count: int) -> list[arb]:
     return [*inner, end.mid()]
 
 
-def _level(target: Callable[[arb], arb], powers: Sequence[int], reference: Sequence[arb]) -> Best:
-    """The fit whose error on the reference is +E, -E, +E, ..."""
-    rows = [[x**p for p in powers] + [arb((-1) ** i)] for i, x in enumerate(reference)]
+def _level(target: Function, unit: Function, powers: Sequence[int], reference: Sequence[arb]) -> Best:
+    """The fit whose error on the reference is +E, -E, +E, ... units."""
+    rows = [[x**p for p in powers] + [unit(x) * (-1) ** i] for i, x in enumerate(reference)]
     solved = arb_mat(rows).solve(arb_mat([[target(x)] for x in reference]))
     values = [solved[i, 0].mid() for i in range(len(reference))]
     return Best(tuple(values[:-1]), abs(values[-1]), tuple(reference))

@@ -203,6 +203,8 @@ def folded(line: str) -> str:
     call f(argument, argument, argument, argument, argument, argument, argument, argument, argument, &
         argument, argument, argument)
     """
+    if "!" in line:
+        return line  # a comment, or a short statement with one
     parts, here = [], ""
     for piece in line.split(", "):
         if here and len(here) + len(piece) > LONGEST:
@@ -210,7 +212,7 @@ def folded(line: str) -> str:
             here = f"    {' ' * (len(line) - len(line.lstrip()))}{piece}"
         else:
             here = f"{here}, {piece}" if here else piece
-    return "\n".join([*parts, here]) if not line.lstrip().startswith("!") else line
+    return "\n".join([*parts, here])
 
 
 def pieces(name: str, kind: str, rows: Sequence[tuple[str, list[str]]]) -> list[str]:

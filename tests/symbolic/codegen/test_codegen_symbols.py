@@ -71,7 +71,7 @@ def test_a_slow_flow_with_any_symbols_is_within_its_proved_bound(equation: str, 
         names = [n for n in flow.dimensions if not n.endswith("*")]
         natural = values["w"] if "w" in values else float(flow.scale)
         arguments = [a, *(values[name] for name in names), natural]
-        for made, terms in zip(form.functions, (flow.frequency, flow.growth_rate), strict=True):
+        for made, terms in zip(form.functions[:2], (flow.frequency, flow.growth_rate), strict=True):
             true, size = exact_sum(flow, terms, exact)
             error = abs(Fraction(getattr(module, made.name)(*arguments)) - true)
             assert error <= gamma(roundings_of(made)) * size

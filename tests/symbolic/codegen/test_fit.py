@@ -22,6 +22,7 @@ from ridgeback.symbolic.codegen.fit.remez import remez
 from ridgeback.symbolic.codegen.fit.surrogate import surrogate
 from ridgeback.symbolic.codegen.number import FLOAT32, rounded
 from ridgeback.symbolic.codegen.proofs.gappa import gappa_script
+from ridgeback.symbolic.codegen.proofs.notes import upwards
 from ridgeback.symbolic.enclosure.enclosure import enclose
 from ridgeback.symbolic.enclosure.well import well_of
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
@@ -64,22 +65,24 @@ def test_the_surrogate_holds_the_exact_frequency(equation: str, end: str) -> Non
 
 @pytest.mark.parametrize(("degree", "sollya"), [(6, 3.2e-7), (12, 1.05e-11)])
 def test_the_pendulum_is_fitted_as_well_as_known(degree: int, sollya: float) -> None:
-    """The figures are those of Sollya's fpminimax; the series of the same degree errs by 4.8e-4 and 7.5e-6."""
+    """Known without the condition omega0(0) = k, which costs a few per cent; the series err by 4.8e-4 and 7.5e-6."""
     fit = minimax(PENDULUM, END, degree=degree)
-    assert float(fit.error) <= 1.05 * sollya
+    assert float(fit.error) <= 1.06 * sollya
     assert fit.optimum <= float(fit.error) <= 1.01 * fit.optimum
     assert fit.coefficients[0] == 1
     with ctx.workprec(200):
         for i in range(1, 60):
             amplitude = END * i / 59
-            assert abs(value(fit, amplitude) - enclose(PENDULUM, amplitude, bits=100).omega) <= ball(fit.error)
+            assert abs(value(fit, amplitude) / enclose(PENDULUM, amplitude, bits=100).omega - 1) <= ball(fit.error)
 
 
 def test_the_error_alternates() -> None:
     """De la Vallée Poussin: d + 1 extrema of one size and alternating sign, so that no polynomial is better."""
     fit, signs = minimax(PENDULUM, END, degree=5), []
     with ctx.workprec(120):
-        errors = [value(fit, END * i / 400) - enclose(PENDULUM, END * i / 400, bits=80).omega for i in range(1, 401)]
+        errors = [
+            value(fit, END * i / 400) / enclose(PENDULUM, END * i / 400, bits=80).omega - 1 for i in range(1, 401)
+        ]
     for error in map(float, errors):
         if abs(error) > 0.98 * fit.optimum and (not signs or (error > 0) != signs[-1]):
             signs.append(error > 0)
@@ -120,8 +123,9 @@ def test_a_frequency_that_is_constant_is_fitted_by_itself() -> None:
 
 
 def test_code_of_a_fit_keeps_k_and_its_bound() -> None:
-    form = form_of(minimax(PENDULUM, END, degree=12), up_to=END)
-    assert "at most 8.54e-12 k, proved" in " ".join(form.facts)
+    fit = minimax(PENDULUM, END, degree=12)
+    form = form_of(fit, up_to=END)
+    assert f"at most {upwards(fit.error, 3)}, proved" in " ".join(form.facts)
     for k in (1.0, 4.0, 12.566370614359172):
         assert value_at(form, form.functions[0], (0.0, k)) == k
 
@@ -150,8 +154,8 @@ def test_sollya_finds_no_better_fit(tmp_path: Path) -> None:
     for _ in range(5):
         mean, geometric = f"(({mean})+({geometric}))/2", f"sqrt(({mean})*({geometric}))"
     script = (
-        "prec = 200!; f = " + mean + ";\np = remez(f - 1, [|2, 4, 6, 8, 10, 12|], [1b-40; 2.36]);\n"
-        "display = decimal!; print(dirtyinfnorm(f - 1 - p, [1b-40; 2.36]));\nquit;\n"
+        "prec = 200!; f = " + mean + ";\np = remez(1 - 1/f, [|2, 4, 6, 8, 10, 12|], [1b-40; 2.36], 1/f);\n"
+        "display = decimal!; print(dirtyinfnorm((f - 1 - p)/f, [1b-40; 2.36]));\nquit;\n"
     )
     (tmp_path / "fit.sollya").write_text(script, encoding="utf-8")
     done = subprocess.run(
