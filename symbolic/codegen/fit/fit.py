@@ -88,7 +88,7 @@ class Fit:
             *((f"Equation: {request.equation}.",) if request.equation else ()),
             f"Method: minimax fit of degree {self.degree} in A^2 to the exact frequency, equal to k at A = 0.",
             f"Variable A: {meaning}.",
-            f"Fit: for |A| <= {float(self.end)!r} the relative error of the polynomial against the exact frequency is at "
+            f"Fit: for |A| <= {float(self.end)!r} the relative error against the exact frequency is at "
             f"most {upwards(self.error, 3)}, proved over the whole range in ball arithmetic.",
             SCALING,
             *limit_fact("A", request.limit),
