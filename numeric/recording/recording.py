@@ -25,7 +25,7 @@ from ridgeback.numeric.files.column_choice import (
 from ridgeback.numeric.files.in_memory import Samples, columns_of
 from ridgeback.numeric.recording.file_signals import Signal, Wanted, signals, stamps
 from ridgeback.numeric.recording.shown import ShownRecording
-from ridgeback.numeric.recording.stretches import stamped
+from ridgeback.numeric.recording.stretches import Stamped, stamped, within
 from ridgeback.numeric.recording.treatment import FEWEST_SAMPLES, Treatment, treated
 from ridgeback.numeric.signal.samples import checked_swing
 
@@ -102,6 +102,7 @@ class Recording(ShownRecording):
         resample: float | None = None,
         fill: float | None = None,
         detrend: str = "none",
+        span: tuple[float, float] | None = None,
     ) -> Recording:
         """Make a recording of samples in memory; of a signal with gaps the longest stretch, and ``notes`` says so.
 
@@ -118,7 +119,7 @@ class Recording(ShownRecording):
             The signal of a DataFrame or Dataset with several.
         name, units : str, optional
             What the samples are called and measured in.
-        resample, fill, detrend : optional
+        resample, fill, detrend, span : optional
             As for :func:`read_recordings`.
 
         Returns
@@ -149,6 +150,7 @@ class Recording(ShownRecording):
                 resample=resample,
                 fill=fill,
                 detrend=detrend,
+                span=span,
             )
         )
 
@@ -174,6 +176,7 @@ def read_recording(
     resample: float | None = None,
     fill: float | None = None,
     detrend: str = "none",
+    span: tuple[float, float] | None = None,
 ) -> Recording:
     r"""Read one signal from a CSV (.csv, .txt, .tsv, .dat), NPZ, NPY, WAV, MAT or HDF5 (.h5, .hdf5) file.
 
@@ -196,6 +199,8 @@ def read_recording(
         Interpolate missing values where neighbouring samples are at most so many time units apart.
     detrend : str
         ``"none"``, ``"linear"`` or ``"slow"``.
+    span : (float, float), optional
+        First and last time to keep, such as the free decay after a release.
 
     Returns
     -------
@@ -220,7 +225,14 @@ def read_recording(
     ('u', 'mm', 10.0, [0.0, 1.0, 2.0, 0.0])
     """
     found = read_recordings(
-        [path], columns=column, time_column=time_column, rate=rate, resample=resample, fill=fill, detrend=detrend
+        [path],
+        columns=column,
+        time_column=time_column,
+        rate=rate,
+        resample=resample,
+        fill=fill,
+        detrend=detrend,
+        span=span,
     )
     return longest_of(found)
 
@@ -245,6 +257,7 @@ def recordings_from_arrays(
     resample: float | None = None,
     fill: float | None = None,
     detrend: str = "none",
+    span: tuple[float, float] | None = None,
 ) -> tuple[Recording, ...]:
     """Make recordings of samples in memory: every stretch between gaps, of every signal asked for.
 
@@ -260,7 +273,7 @@ def recordings_from_arrays(
         The signals of a table; ``"all"`` takes every one.
     name, units : str, optional
         What the samples are called and measured in.
-    resample, fill, detrend : optional
+    resample, fill, detrend, span : optional
         As for :func:`read_recordings`.
 
     Returns
@@ -291,7 +304,7 @@ def recordings_from_arrays(
     for index in signal_indices(columns, column, (clock,)):
         values = columns.values(index)
         signal = Signal(columns, index, clock, np.arange(values.size), "", hashlib.sha256(values.tobytes()).hexdigest())
-        found.extend(recordings_of(signal, rate, Treatment(resample, fill, detrend)))
+        found.extend(recordings_of(signal, rate, Treatment(resample, fill, detrend, span)))
     return tuple(found)
 
 
@@ -305,6 +318,7 @@ def read_recordings(
     resample: float | None = None,
     fill: float | None = None,
     detrend: str = "none",
+    span: tuple[float, float] | None = None,
 ) -> tuple[Recording, ...]:
     """Read every stretch of every channel of every run: of several files, or by the values of a ``run_column``.
 
@@ -328,6 +342,8 @@ def read_recordings(
         neighbouring samples are at most so many time units apart.
     detrend : str
         ``"none"``, ``"linear"`` or ``"slow"``.
+    span : (float, float), optional
+        First and last time to keep, such as the free decay after a release.
 
     Returns
     -------
@@ -350,7 +366,7 @@ def read_recordings(
     >>> [(recording.name, recording.stretch, recording.values.size) for recording in found]
     [('u', 0, 50), ('w', 1, 20), ('w', 2, 29)]
     """
-    treatment = Treatment(resample, fill, detrend)
+    treatment = Treatment(resample, fill, detrend, span)
     names = [Path(path).name for path in paths]
     found: list[Recording] = []
     for path, name in zip(paths, names, strict=True):
@@ -362,6 +378,16 @@ def read_recordings(
     return tuple(found)
 
 
+def span_note(whole: Stamped, kept: Stamped) -> str:
+    """What a span left out; nothing where it left out nothing."""
+    if kept.time.size == whole.time.size:
+        return ""
+    return (
+        f"{kept.time.size} of {whole.time.size} samples lie in the span and are used, "
+        f"from t = {kept.time[0]:.6g} to {kept.time[-1]:.6g}."
+    )
+
+
 def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> list[Recording]:
     """The stretches of one signal, checked and made uniform."""
     columns = signal.columns
@@ -370,14 +396,15 @@ def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> l
     values = columns.values(signal.index)
     time, note = stamps(signal, values.size, rate)
     names = (header if signal.clock is None else columns.names[signal.clock], header)
-    samples = stamped(time, values[signal.rows], signal.rows, columns, names, fewest=FEWEST_SAMPLES)
+    whole = stamped(time, values[signal.rows], signal.rows, columns, names, fewest=FEWEST_SAMPLES)
+    samples = within(whole, treatment.span, source=f"{columns.source}, column {header}", fewest=FEWEST_SAMPLES)
     checked_swing(samples.values, name=f"{columns.source}, column {header}")
     if not np.ptp(samples.values) > 0.0:
         raise InputError(
             f"{columns.source}, column {header} is constant at {samples.values[0]:g}; there is no oscillation in it"
         )
     pieces, notes = treated(samples, columns, header, treatment)
-    remarks = tuple(text for text in (columns.note, note, *notes) if text)
+    remarks = tuple(text for text in (columns.note, note, span_note(whole, samples), *notes) if text)
     return [
         Recording(
             time=piece.samples.time,

@@ -46,6 +46,26 @@ class Stamped:
         return float(self.time[-1] - self.time[0]) / (self.time.size - 1)
 
 
+def within(samples: Stamped, span: tuple[float, float] | None, *, source: str, fewest: int) -> Stamped:
+    """The samples from one time to another, both included; all of them without a span.
+
+    Raises InputError where too few lie in it.
+
+    >>> three = Stamped(np.arange(3.0), np.ones(3), np.arange(3), 0)
+    >>> within(three, (0.5, 2.0), source="run.csv", fewest=2).time.tolist()
+    [1.0, 2.0]
+    """
+    if span is None:
+        return samples
+    inside = (samples.time >= span[0]) & (samples.time <= span[1])
+    if np.count_nonzero(inside) < fewest:
+        raise InputError(
+            f"{source}: span {span[0]:g} to {span[1]:g} holds {np.count_nonzero(inside)} samples, {fewest} are needed; "
+            f"the times run from {samples.time[0]:g} to {samples.time[-1]:g}"
+        )
+    return Stamped(samples.time[inside], samples.values[inside], samples.row[inside], samples.absent)
+
+
 # Infinity is an overflow, not a value left out: it is refused, NaN is a gap.
 def stamped(
     time: Array, values: Array, rows: Rows, columns: Columns, names: tuple[str, str], *, fewest: int

@@ -1,6 +1,7 @@
 """What is done to samples before they are a signal: gaps, uneven times, clipping, drift: found, reported and treated.
 
 The rules, in this order:
+0. Of the samples those within ``span`` count, if one is given.
 1. A value or time that is missing, or a step over GAP_STEPS usual ones, is a gap and cuts the signal.  ``fill`` lets
    neighbours up to that far apart stay together and interpolates between them; with ``resample`` the default for it
    is RESAMPLED_STEPS steps, usual ones or those of the new rate, whichever are longer.
@@ -50,7 +51,7 @@ PLACES = 4
 
 @dataclass(frozen=True)
 class Treatment:
-    """What was asked for: ``resample`` to a rate, ``fill`` gaps up to a time, ``detrend`` by a method.
+    """What was asked for: ``resample`` to a rate, ``fill`` gaps up to a time, ``detrend`` by a method, keep a ``span``.
 
     >>> Treatment(detrend="cubic")
     Traceback (most recent call last):
@@ -61,8 +62,11 @@ class Treatment:
     resample: float | None = None
     fill: float | None = None
     detrend: str = "none"
+    span: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
+        if self.span is not None and not self.span[0] < self.span[1]:
+            raise InputError(f"span {self.span[0]:g} to {self.span[1]:g} is empty; give its begin first, then its end")
         if self.resample is not None:
             checked_rate(self.resample)
         if self.fill is not None and not (math.isfinite(self.fill) and self.fill > 0.0):

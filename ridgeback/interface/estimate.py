@@ -54,6 +54,7 @@ def estimate(
     fill: float | None = None,
     resample: float | None = None,
     detrend: str = "none",
+    span: tuple[float, float] | None = None,
     progress: Wanted = None,
 ) -> Track:
     """Estimate the fundamental frequency omega0(t) of a signal.
@@ -105,6 +106,8 @@ def estimate(
         Longest gap to interpolate across; rate to interpolate uneven times to.
     detrend : {"none", "linear", "slow"}
         What is taken off the samples.
+    span : (float, float), optional
+        First and last time to use, such as the free decay after a release.
     progress : bool or callable, optional
         ``True`` shows a bar; a function is told the share done and the step.
 
@@ -129,7 +132,7 @@ def estimate(
     True
     """
     name = chosen(method, ESTIMATORS, "method")
-    used = as_recording(x, rate, time=time, column=column, fill=fill, resample=resample, detrend=detrend)
+    used = as_recording(x, rate, time=time, column=column, fill=fill, resample=resample, detrend=detrend, span=span)
     model = fitted_family(name, oscillator, free, parameters)
     with showing(progress) as told:
         return estimators.estimate(

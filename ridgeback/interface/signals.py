@@ -23,6 +23,7 @@ def as_recording(
     resample: float | None = None,
     fill: float | None = None,
     detrend: str = "none",
+    span: tuple[float, float] | None = None,
 ) -> Recording:
     """Make a recording of a signal in any of its forms; of one with gaps the longest stretch, with a warning.
 
@@ -41,6 +42,8 @@ def as_recording(
         Rate to interpolate uneven times to; longest gap to interpolate across.
     detrend : {"none", "linear", "slow"}
         What is taken off.
+    span : (float, float), optional
+        First and last time to keep.
 
     Returns
     -------
@@ -59,9 +62,9 @@ def as_recording(
     >>> as_recording([0.0, 1.0] * 20, rate=4.0).rate
     4.0
     """
-    treatment: dict[str, Any] = {"resample": resample, "fill": fill, "detrend": detrend}
+    treatment: dict[str, Any] = {"resample": resample, "fill": fill, "detrend": detrend, "span": span}
     if isinstance(x, Recording):
-        refuse_known("a Recording", rate=rate, time=time, column=column, resample=resample, fill=fill)
+        refuse_known("a Recording", rate=rate, time=time, column=column, resample=resample, fill=fill, span=span)
         return x
     if isinstance(x, Trajectory):
         refuse_known("a Trajectory", rate=rate, time=time, column=column)

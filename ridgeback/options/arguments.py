@@ -114,6 +114,18 @@ def band(text: str) -> tuple[float, float]:
     return low, high
 
 
+def span(text: str) -> tuple[float, float]:
+    """Two times, the first one first.
+
+    >>> span("-1.5,4")
+    (-1.5, 4.0)
+    """
+    begin, end = pair(text)
+    if not begin < end:
+        raise ValueError(f"{shown(text)} is not a span of time; give T0 < T1, for example 4.2,40")
+    return begin, end
+
+
 def orders(text: str) -> tuple[int, ...]:
     """Orders with commas between, rising and unique in the result.
 
@@ -218,6 +230,7 @@ def weights(text: str) -> dict[str, int]:
 PAIR = written(pair)
 WEIGHTS = written(weights)
 BAND = written(band)
+SPAN = written(span)
 ORDERS = written(orders)
 GRID = written(grid)
 POSITIVE = written(positive)

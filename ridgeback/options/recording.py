@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ridgeback.options.arguments import POSITIVE
+from ridgeback.options.arguments import POSITIVE, SPAN
 from ridgeback.options.shared import added
 
 if TYPE_CHECKING:
@@ -21,15 +21,16 @@ DETRENDS = ("none", "linear", "slow")
 
 @dataclass(frozen=True)
 class Treatment:
-    """What is to be done with uneven times, gaps and drift."""
+    """Which times count, and what is to be done with uneven ones, gaps and drift."""
 
     resample: float | None = None
     fill: float | None = None
     detrend: str = "none"
+    span: tuple[float, float] | None = None
 
     def given(self) -> dict[str, Any]:
         """What was asked for, by the names of the readers' arguments."""
-        said = {"resample": self.resample, "fill": self.fill, "detrend": self.detrend}
+        said = {"resample": self.resample, "fill": self.fill, "detrend": self.detrend, "span": self.span}
         return {name: value for name, value in said.items() if value not in (None, "none")}
 
 
@@ -65,11 +66,18 @@ class Reading:
 
 
 def treatment_options(command: Command) -> Command:
-    """Give a verb ``--resample``, ``--fill`` and ``--detrend``, as one ``treatment``."""
+    """Give a verb ``--span``, ``--resample``, ``--fill`` and ``--detrend``, as one ``treatment``."""
 
     @wraps(command)
-    def wrapped(*args: Any, resample: float | None, fill: float | None, detrend: str, **rest: Any) -> None:
-        command(*args, treatment=Treatment(resample, fill, detrend), **rest)
+    def wrapped(
+        *args: Any,
+        resample: float | None,
+        fill: float | None,
+        detrend: str,
+        span: tuple[float, float] | None,
+        **rest: Any,
+    ) -> None:
+        command(*args, treatment=Treatment(resample, fill, detrend, span), **rest)
 
     return added(wrapped, TREATMENT_OPTIONS)
 
@@ -107,6 +115,13 @@ PLACE_OPTIONS = (
     click.option("--run-column", default=None, metavar="NAME", help="The column that numbers the runs."),
 )
 TREATMENT_OPTIONS = (
+    click.option(
+        "--span",
+        type=SPAN,
+        default=None,
+        metavar="T0,T1",
+        help="Use the samples from time T0 to T1 only: the free decay, without what comes before and after.",
+    ),
     click.option(
         "--resample",
         type=POSITIVE,
