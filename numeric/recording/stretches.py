@@ -61,7 +61,7 @@ def within(samples: Stamped, span: tuple[float, float] | None, *, source: str, f
     if np.count_nonzero(inside) < fewest:
         raise InputError(
             f"{source}: span {span[0]:g} to {span[1]:g} holds {np.count_nonzero(inside)} samples, {fewest} are needed; "
-            f"the times run from {samples.time[0]:g} to {samples.time[-1]:g}"
+            f"the recording runs from {samples.time[0]:g} to {samples.time[-1]:g}"
         )
     return Stamped(samples.time[inside], samples.values[inside], samples.row[inside], samples.absent)
 

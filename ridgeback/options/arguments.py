@@ -122,7 +122,7 @@ def span(text: str) -> tuple[float, float]:
     """
     begin, end = pair(text)
     if not begin < end:
-        raise ValueError(f"{shown(text)} is not a span of time; give T0 < T1, for example 4.2,40")
+        raise ValueError(f"{shown(text)} is no span of time: T0 must be below T1; write for example 1,5")
     return begin, end
 
 

@@ -11,7 +11,7 @@ from ridgeback.console.failure import PartialError
 from ridgeback.console.output import json_text, write_text
 from ridgeback.console.tables import aligned, csv_text, readable
 from ridgeback.console.verb import Verb
-from ridgeback.options.arguments import POSITIVE, pair, shown, written
+from ridgeback.options.arguments import POSITIVE
 from ridgeback.options.recording import Reading, Treatment, treatment_options
 from ridgeback.options.shared import format_option, output_option
 
@@ -29,22 +29,6 @@ def names(text: str | None) -> tuple[str, ...] | None:
     ('linear', 'pendulum')
     """
     return None if text is None else tuple(word.strip() for word in text.split(",") if word.strip())
-
-
-def interval(text: str) -> tuple[float, float]:
-    """Two times, the earlier first.
-
-    >>> interval("0,40")
-    (0.0, 40.0)
-    >>> interval("5,1")
-    Traceback (most recent call last):
-        ...
-    ValueError: '5,1' is no span of time: FROM must be below TO; write for example 1,5
-    """
-    begin, end = pair(text)
-    if not begin < end:
-        raise ValueError(f"{shown(text)} is no span of time: FROM must be below TO; write for example 1,5")
-    return begin, end
 
 
 @click.command("identify", cls=Verb, short_help="Say which oscillator made a decay.")
@@ -67,7 +51,6 @@ def interval(text: str) -> tuple[float, float]:
 @click.option(
     "--criterion", type=click.Choice(("bic", "aicc")), default="bic", show_default=True, help="What ranks them."
 )
-@click.option("--span", type=written(interval), default=None, metavar="FROM,TO", help="Use these times only.")
 @click.option(
     "--predict-from", type=POSITIVE, default=None, metavar="CYCLES", help="Fit these cycles and predict the rest too."
 )
@@ -82,7 +65,6 @@ def command(
     candidates: str | None,
     damping: str | None,
     criterion: str,
-    span: tuple[float, float] | None,
     predict_from: float | None,
     style: str,
     output: str,
@@ -104,7 +86,6 @@ def command(
             chosen=names(candidates),
             damping=damping,
             kind=criterion,
-            span=span,
             cycles=predict_from,
             progress=progress,
         )
@@ -119,7 +100,6 @@ def identified(
     chosen: tuple[str, ...] | None,
     damping: str | None,
     kind: str,
-    span: tuple[float, float] | None,
     cycles: float | None,
     progress: Progress,
 ) -> Identification:
@@ -131,7 +111,7 @@ def identified(
 
     candidates = NAMES if chosen is None else chosen
     laws = LAWS if damping is None else tuple(law for law in LAWS if law.name.lower() == damping)
-    ready, ahead = prepared(recording, span=span), None
+    ready, ahead = prepared(recording), None
     if cycles is not None:
         ahead = predict(ready, cycles=cycles, candidates=candidates, laws=laws, kind=kind, progress=progress)
     return identify(ready, candidates=candidates, laws=laws, kind=kind, prediction=ahead, progress=progress)

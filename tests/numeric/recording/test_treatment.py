@@ -307,3 +307,16 @@ def test_a_rate_below_the_signal_is_refused_with_one_that_fits(tmp_path: Path) -
 def test_extreme_values_are_refused_on_reading(tmp_path: Path, scale: float) -> None:
     with pytest.raises(InputError, match=r"a.csv, column u swings by 1e[+-]200, outside"):
         read_recordings([written(tmp_path / "a.csv", T, scale * np.cos(5.0 * T))])
+
+
+def test_a_span_keeps_its_times_and_says_so(tmp_path: Path) -> None:
+    file = written(tmp_path / "a.csv", T, X)
+    found = read_recording(file, span=(5.0, 20.0))
+    assert (found.time[0], found.time[-1]) == (5.0, 20.0)
+    np.testing.assert_array_equal(found.values, X[100:401])
+    assert "301 of 600 samples lie in the span" in " ".join(found.notes)
+    assert not any("span" in note for note in read_recording(file, span=(-1.0, 99.0)).notes)
+    with pytest.raises(InputError, match="span 40 to 50 holds 0 samples, 16 are needed; the recording runs from 0 to"):
+        read_recording(file, span=(40.0, 50.0))
+    with pytest.raises(InputError, match="span 9 to 3 is empty"):
+        read_recording(file, span=(9.0, 3.0))

@@ -65,8 +65,8 @@ def test_csv_has_one_row_per_parameter(ridgeback: Ridgeback, decay_csv: Path, tm
     [
         (("--candidates", "linear,cubic"), 2, "candidate 'cubic' is unknown; use one of linear, pendulum"),
         (("--span", "100,200"), 2, "the recording runs from 0 to"),
-        (("--span", "5,1"), 2, "FROM must be below TO; write for example 1,5"),
-        (("--span", "5,5"), 2, "FROM must be below TO"),
+        (("--span", "5,1"), 2, "T0 must be below T1; write for example 1,5"),
+        (("--span", "5,5"), 2, "T0 must be below T1"),
         (("--predict-from", "100"), 2, "predicting from 100 of"),
         (("--column", "v"), 2, "no column v"),
         (("--criterion", "aic"), 2, "--criterion"),
