@@ -33,7 +33,7 @@ TEXT = {
 def read_at(oscillator: Oscillator, formula: Any, demand: Demand) -> tuple[Reading | Unread, ...]:
     """Hold the formula against the enclosures, wherever there is one.
 
-    Raises click.UsageError for a slow flow, InputError from the enclosures when there is none at all.
+    Raises click.UsageError for a slow flow.  An amplitude without an enclosure leaves the series standing.
     """
     from ridgeback.symbolic.certificates.at_amplitudes import reading, wherever
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
@@ -111,13 +111,18 @@ def read_strong(oscillator: Oscillator, request: Request, demand: Demand) -> tup
     Raises click.UsageError for options of expansions, InputError for forces that have no enclosure.
     """
     refuse_expansion(demand)
-    from ridgeback.symbolic.certificates.at_amplitudes import Reading, wherever
+    from ridgeback.common.errors import InputError
+    from ridgeback.symbolic.certificates.at_amplitudes import Reading, Unread, wherever
     from ridgeback.symbolic.enclosure.no_linear_part import enclose_strong
 
     definition, precision = request.amplitude or "peak", bits(demand)
-    return wherever(
+    found = wherever(
         lambda a: Reading(enclose_strong(oscillator, a, definition=definition, bits=precision)), demand.at or ()
     )
+    refused = [row for row in found if isinstance(row, Unread)]
+    if refused and len(refused) == len(found):  # and no series stands beside them
+        raise InputError(refused[0].why)
+    return found
 
 
 def strong(oscillator: Oscillator, found: Sequence[Reading | Unread], request: Request, demand: Demand) -> str:

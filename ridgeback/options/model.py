@@ -88,7 +88,7 @@ def model_options(command: Command) -> Command:
         assignments: tuple[tuple[str, Fraction], ...],
         **rest: Any,
     ) -> None:
-        command(*args, model=Model(Choice(system, equation, None, assignments), free or ()), **rest)
+        command(*args, model=Model(Choice(system, equation, None, None, assignments), free or ()), **rest)
 
     for option in (
         click.option(

@@ -25,6 +25,7 @@ class Choice:
     system: str | None
     equation: str | None
     about: str | None
+    potential: str | None
     assignments: tuple[tuple[str, Fraction], ...]
 
     @property
@@ -43,7 +44,10 @@ class Choice:
         if self.equation is not None:
             from ridgeback.symbolic.systems.description import from_text
 
-            return from_text(self.equation, about=self.about or "0", parameters=values)
+            details = {} if self.potential is None else {"potential": self.potential}
+            return from_text(self.equation, about=self.about or "0", parameters=values, **details)
+        if self.potential is not None:
+            raise click.UsageError("--potential belongs to --equation; a TOML file has a key for it")
         if self.system is None:
             raise click.UsageError("name a SYSTEM (ridgeback systems lists them), a TOML file, or give --equation")
         from ridgeback.symbolic.systems.any_form import as_oscillator
@@ -60,10 +64,11 @@ def choosing(command: Command) -> Command:
         system: str | None,
         equation: str | None,
         about: str | None,
+        potential: str | None,
         assignments: tuple[tuple[str, Fraction], ...],
         **rest: Any,
     ) -> None:
-        command(*args, choice=Choice(system, equation, about, assignments), **rest)
+        command(*args, choice=Choice(system, equation, about, potential, assignments), **rest)
 
     for option in (
         set_option,
@@ -72,6 +77,12 @@ def choosing(command: Command) -> Command:
             default=None,
             metavar="U",
             help="Measure the unknown from this equilibrium: a number such as 1, -1/2, sqrt(2) or pi.",
+        ),
+        click.option(
+            "--potential",
+            default=None,
+            metavar="P",
+            help='The potential of the restoring force of --equation, checked by differentiation, e.g. "u**2/2".',
         ),
         click.option(
             "--equation",

@@ -31,7 +31,7 @@ def command(system: str | None, style: str, output: str) -> None:
     """
     from ridgeback.symbolic.systems.catalogue import catalogue
 
-    listed = catalogue() if system is None else (Choice(system, None, None, ()).oscillator(),)
+    listed = catalogue() if system is None else (Choice(system, None, None, None, ()).oscillator(),)
     records = [record(oscillator) for oscillator in listed]
     write_text(output, printed(records, style, detailed=system is not None))
 

@@ -77,7 +77,7 @@ class Unread:
 
 
 def wherever(read: Callable[[Fraction], Reading], amplitudes: Sequence[Fraction]) -> tuple[Reading | Unread, ...]:
-    """Read each amplitude; those that are refused keep their place.
+    """Read each amplitude; those that are refused keep their place, with the reason.
 
     Parameters
     ----------
@@ -91,11 +91,6 @@ def wherever(read: Callable[[Fraction], Reading], amplitudes: Sequence[Fraction]
     tuple of Reading or Unread
         One for each amplitude.
 
-    Raises
-    ------
-    InputError
-        The first refusal, when all are refused.
-
     Examples
     --------
     >>> from ridgeback.symbolic.systems.catalogue import find
@@ -103,15 +98,11 @@ def wherever(read: Callable[[Fraction], Reading], amplitudes: Sequence[Fraction]
     ['Reading', 'Unread']
     """
     found: list[Reading | Unread] = []
-    refusals = []
     for amplitude in amplitudes:
         try:
             found.append(read(amplitude))
         except InputError as refusal:
-            refusals.append(refusal)
             found.append(Unread(amplitude, str(refusal)))
-    if refusals and len(refusals) == len(found):
-        raise refusals[0]
     return tuple(found)
 
 

@@ -53,7 +53,7 @@ def pendulum_rate(well: Well) -> fmpq | None:
     >>> pendulum_rate(well_of(find("pendulum")))
     1
     """
-    sine = sine_force(well.force) if well.inertia == 1 else None
+    sine = sine_force(well.restoring) if well.inertia == 1 else None
     rational_rate = sine is not None and sine.rate.is_Rational and sine.rate * sine.factor == 1
     return rational(sine.rate) if sine is not None and rational_rate else None
 

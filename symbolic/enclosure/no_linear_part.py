@@ -45,7 +45,8 @@ def strong_well(oscillator: Oscillator) -> Well:
         )
     _check_restores(name, exact)
     even = all(exact[j] == 0 for j in range(1, exact.degree() + 1, 2))
-    return Well(name, force, potential, inertia=sympy.S.One, scale=sympy.S.One, even=even, polynomial=exact)
+    inertia, drag, scale = sympy.S.One, sympy.S.Zero, sympy.S.One
+    return Well(name, force, potential, inertia, drag, scale, even=even, polynomial=exact)
 
 
 def _check_restores(name: str, potential: fmpq_poly) -> None:

@@ -19,7 +19,7 @@ from flint import fmpq_poly
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import rational
 from ridgeback.symbolic.enclosure.ball_functions import Function, ball_function
-from ridgeback.symbolic.grammar.at_origin import brief
+from ridgeback.symbolic.enclosure.ball_integral import BallIntegral
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 from ridgeback.symbolic.systems.potential import potential_of
 from ridgeback.symbolic.systems.structure import free_names
@@ -33,11 +33,14 @@ class Well:
     """Energy E = inertia(u)^2 u'^2 / 2 + potential(u), in units with k = 1; potential(0) = 0."""
 
     name: str
-    force: sympy.Expr
-    """V'(u)."""
-    potential: sympy.Expr
-    inertia: sympy.Expr
-    """I(u), 1 for a force that depends on u only."""
+    restoring: sympy.Expr
+    """a(u)."""
+    potential: sympy.Expr | None
+    """V(u), None where no rule integrates it: it is then integrated in balls."""
+    inertia: sympy.Expr | None
+    """I(u), 1 for a force that depends on u only, None where no rule integrates ``drag``."""
+    drag: sympy.Expr
+    """b(u), 0 for a force that depends on u only."""
     scale: sympy.Expr
     """k, in rad per time unit."""
     even: bool
@@ -50,9 +53,10 @@ class Well:
         exact = self.polynomial
         return replace(
             self,
-            force=-self.force.subs(U, -U),
-            potential=self.potential.subs(U, -U),
-            inertia=self.inertia.subs(U, -U),
+            restoring=-self.restoring.subs(U, -U),
+            potential=None if self.potential is None else self.potential.subs(U, -U),
+            inertia=None if self.inertia is None else self.inertia.subs(U, -U),
+            drag=-self.drag.subs(U, -U),
             polynomial=None if exact is None else exact(fmpq_poly([0, -1])),
         )
 
@@ -87,7 +91,7 @@ def well_of(oscillator: Oscillator, *, mirrored: bool = False) -> Well:
     ------
     InputError
         With the alternative, for self-excited and damped oscillators, symbolic parameters, velocity terms other than
-        b(u) u'^2, and where no rule integrates the potential.
+        b(u) u'^2.
 
     Examples
     --------
@@ -99,29 +103,54 @@ def well_of(oscillator: Oscillator, *, mirrored: bool = False) -> Well:
         return well_of(oscillator).mirrored()
     _check_kind(oscillator)
     force = oscillator.normalised.bound
-    if force.has(V):
-        potential, inertia = _with_velocity(oscillator, force)
-    else:
-        known = oscillator.normalised.potential  # None, too, where terms in u' were in the equation and are set to 0
-        potential, inertia = _integral(force) if known is None else known, sympy.S.One
-    if potential is None:
-        raise InputError(_no_potential(oscillator.name, force, inertia))
+    restoring, drag = force.subs(V, 0), _drag(oscillator, force)
+    inertia = _inertia(drag)
+    known = oscillator.normalised.potential if drag == 0 else None
+    potential = known if known is not None or inertia is None else _integral(restoring * inertia**2)
     return Well(
         name=oscillator.name,
-        force=potential.diff(U) if force.has(V) else force,
+        restoring=restoring,
         potential=potential,
         inertia=inertia,
+        drag=drag,
         scale=oscillator.natural_frequency,
-        even=all(sympy.expand(e - e.subs(U, -U)) == 0 for e in (potential, inertia)),
-        polynomial=exact_polynomial(potential) if inertia == 1 else None,
+        even=all(sympy.expand(e + e.subs(U, -U)) == 0 for e in (restoring, drag)),
+        polynomial=exact_polynomial(potential) if drag == 0 and potential is not None else None,
     )
 
 
 @lru_cache(maxsize=256)
 def curves(well: Well, bits: int, *, complex_: bool = False) -> Curves:
     """V, V', V'' and I on real or complex balls, constants known to ``bits`` bits."""
-    expressions = (well.potential, well.force, well.force.diff(U), well.inertia)
-    return Curves(*(ball_function(e, bits, complex_=complex_) for e in expressions))
+    if well.inertia is None:
+        return _integrated_curves(well, bits, complex_)
+    return _closed_curves(well, well.inertia, bits, complex_)
+
+
+def _closed_curves(well: Well, inertia: sympy.Expr, bits: int, complex_: bool) -> Curves:
+    """With the inertia in closed form; the potential in closed form or as the integral of its derivative."""
+    force = well.restoring * inertia**2 if well.potential is None or well.drag == 0 else well.potential.diff(U)
+    rest = (ball_function(e, bits, complex_=complex_) for e in (force, force.diff(U), inertia))
+    if well.potential is not None:
+        return Curves(ball_function(well.potential, bits, complex_=complex_), *rest)
+    return Curves(BallIntegral(ball_function(force, bits, complex_=True)), *rest)
+
+
+def _integrated_curves(well: Well, bits: int, complex_: bool) -> Curves:
+    """With I = exp(B), V' = a I^2 and V'' = (a' + 2 a b) I^2, B and V as integrals of b and V'."""
+
+    def by_inertia(expression: sympy.Expr, wide: bool) -> Function:
+        inner, log = ball_function(expression, bits, complex_=wide), logarithm
+        return lambda u: inner(u) * (2 * log(u)).exp()
+
+    logarithm = BallIntegral(ball_function(well.drag, bits, complex_=True))
+    slope = well.restoring.diff(U) + 2 * well.restoring * well.drag
+    return Curves(
+        value=BallIntegral(by_inertia(well.restoring, True)),
+        force=by_inertia(well.restoring, complex_),
+        slope=by_inertia(slope, complex_),
+        inertia=lambda u: logarithm(u).exp(),
+    )
 
 
 def _check_kind(oscillator: Oscillator) -> None:
@@ -148,38 +177,24 @@ def _check_kind(oscillator: Oscillator) -> None:
         raise InputError(f"{name}: an enclosure needs numbers, and {', '.join(unset)} has none; set it, e.g. to 1")
 
 
-def _with_velocity(oscillator: Oscillator, force: sympy.Expr) -> tuple[sympy.Expr | None, sympy.Expr]:
-    """V and I for a force a(u) + b(u) u'^2."""
-    restoring = force.subs(V, 0)
+def _drag(oscillator: Oscillator, force: sympy.Expr) -> sympy.Expr:
+    """b(u) of a force a(u) + b(u) u'^2."""
     drag = force.diff(V, 2) / 2
     if drag.has(V):  # the force is even in u', so nothing but a(u) + b(u) u'^2 is left
         raise InputError(
             f"{oscillator.name} has velocity terms other than b(u) u'^2, for which there is no energy to integrate; "
             "no enclosure exists, the series of --method lindstedt does: leave out --at and --certified"
         )
+    return drag
+
+
+def _inertia(drag: sympy.Expr) -> sympy.Expr | None:
+    """I(u) in closed form, None where no rule integrates its logarithm."""
     exponent = _integral(drag)
     if exponent is None:
-        raise InputError(
-            f"{oscillator.name}: no rule integrates {brief(drag)}, the factor of u'^2, so there is no enclosure; "
-            "the series of --method lindstedt needs none: leave out --at and --certified"
-        )
+        return None
     exponent = exponent.replace(sympy.log, _log_from_origin)
-    inertia = sympy.exp(exponent - exponent.subs(U, 0))
-    return _integral(restoring * inertia**2), inertia
-
-
-def _no_potential(name: str, force: sympy.Expr, inertia: sympy.Expr) -> str:
-    """What is missing for an enclosure, and where it can be given."""
-    if not force.has(V):
-        return (
-            f"{name}: an enclosure needs the potential, and no rule integrates {brief(force)}; give it in a TOML "
-            'file beside the equation, as potential = "..."'
-        )
-    return (
-        f"{name}: an enclosure needs the integral of {brief(force.subs(V, 0) * inertia**2)}, the force times its "
-        "integrating factor, and no rule has it; the series of --method lindstedt needs none: leave out --at and "
-        "--certified"
-    )
+    return sympy.exp(exponent - exponent.subs(U, 0))
 
 
 def _integral(integrand: sympy.Expr) -> sympy.Expr | None:

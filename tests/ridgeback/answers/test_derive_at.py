@@ -101,12 +101,12 @@ def test_an_amplitude_without_an_enclosure_leaves_the_others(
 
 
 def test_an_expansion_in_eps_says_what_there_is_in_place_of_an_enclosure(ridgeback: Ridgeback) -> None:
-    for words in (
-        ("derive", "van-der-pol", "--order", "20", "--resummed", "map", "--at", "1"),
-        ("study", "van-der-pol", "--amplitudes", "0.5", "--certified"),
+    for code, words in (
+        (3, ("derive", "van-der-pol", "--order", "20", "--resummed", "map", "--at", "1")),
+        (2, ("study", "van-der-pol", "--amplitudes", "0.5", "--certified")),
     ):
         done = ridgeback(*words)
-        assert (done.code, done.out) == (2, "")
+        assert (done.code, done.out == "") == (code, code == 2)
         assert "by shooting (not proved)" in done.err
     studied = ridgeback("study", "van-der-pol", "--amplitudes", "0.5", "--orders", "8")
     assert "periodic orbit found by shooting" in studied.out
@@ -134,15 +134,12 @@ def test_a_parameter_named_like_the_amplitude_is_refused_in_every_form(ridgeback
 @pytest.mark.parametrize(
     ("words", "why"),
     [
-        ("pendulum --at 4", "separatrix at 3.14159"),
         ("pendulum --at 0", "above 0"),
         ("pendulum --at x", "not a finite number"),
         ("pendulum --at 1:2", "START:STOP:COUNT"),
-        ("pendulum --at 2:1:5", "START < STOP"),
-        ("pendulum --at 1 --amplitude energy", "no enclosure"),
+        ("pendulum --at 2:1:5", "START 2 is not below STOP 1"),
         ("pendulum --at 1 --format latex", "text, json or csv"),
         ("pendulum --format csv", "--format csv does not go with an expansion"),
-        ("van-der-pol --at 1", "limit cycle"),
         ("damped-pendulum --at 1", "set the damping to 0"),
         ("damped-pendulum --resummed pade", "slow flow"),
         ("pendulum --resummed pade --order 16 --at 3.5", "pole at A = 3.339"),
@@ -169,3 +166,41 @@ def test_options_of_expansions_are_refused_where_there_is_none(ridgeback: Ridgeb
     done = ridgeback("derive", "--equation", "u'' + u**3 = 0", "--at", "1", *option.split())
     assert done.code == 2
     assert why in done.err
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        ("pendulum --at 4", "separatrix at 3.14159"),
+        ("pendulum --at 1 --amplitude energy", "no enclosure"),
+        ("van-der-pol --at 1", "limit cycle"),
+    ],
+)
+def test_where_no_amplitude_has_an_enclosure_the_series_is_printed(ridgeback: Ridgeback, words: str, why: str) -> None:
+    done = ridgeback("derive", *words.split())
+    assert done.code == 3
+    assert "omega0 = sum of" in done.out
+    assert why in done.err
+
+
+def test_a_refused_enclosure_leaves_the_series_standing(ridgeback: Ridgeback) -> None:
+    done = ridgeback("derive", "--equation", "u'' + u + u*u'**4 = 0", "--at", "0.5", "--order", "4", "--format", "json")
+    assert done.code == 3
+    public = json.loads(done.out)
+    assert public["frequency"][0]["coefficient"] == "1"
+    assert public["at"][0]["omega0"] is None
+    assert "velocity terms other than" in public["at"][0]["refused"]
+
+
+def test_a_force_that_no_rule_integrates_is_enclosed(ridgeback: Ridgeback) -> None:
+    done = ridgeback("derive", "--equation", "u'' + u/(1 + u) = 0", "--at", "1/2", "--format", "json")
+    assert done.code == 0
+    assert json.loads(done.out)["at"][0]["omega0"].startswith("0.992168767518171226")
+
+
+def test_a_potential_beside_the_equation_is_checked(ridgeback: Ridgeback) -> None:
+    words = ("derive", "--equation", "u'' + u + u**3 = 0", "--order", "2", "--potential")
+    assert ridgeback(*words, "u**2/2 + u**4/4").code == 0
+    wrong = ridgeback(*words, "u**2/2 + u**4/3")
+    assert (wrong.code, "does not differentiate to the restoring force" in wrong.err) == (2, True)
+    assert ridgeback("derive", "pendulum", "--potential", "1 - cos(theta)").code == 2

@@ -18,7 +18,7 @@ from ridgeback.verbs import report
 
 Ridgeback = Callable[..., Any]  # the fixture of conftest.py
 
-NONE = Choice(None, None, None, ())
+NONE = Choice(None, None, None, None, ())
 SMALL = [
     "--duration",
     "40",

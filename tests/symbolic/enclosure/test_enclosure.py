@@ -524,7 +524,6 @@ def test_oscillators_without_an_energy_are_refused(name: str, match: str) -> Non
     ("text", "match"),
     [
         ("u'' + u + eps*u**3", "eps has none"),
-        ("u'' + sin(sin(u))", "no rule integrates"),
         ("u'' + u + u*u'**4", "velocity terms other than"),
         ("u'' + u + u**200", "degree 201"),
     ],
