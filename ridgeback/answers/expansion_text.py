@@ -42,10 +42,7 @@ def heading(oscillator: Oscillator, public: dict[str, Any]) -> str:
 
 def coefficients(terms: list[dict[str, Any]]) -> str:
     """One line per term: its powers, the exact coefficient and six digits of it."""
-    rows = [
-        {"term": power(term), "decimal": decimal(term["coefficient"]), "coefficient": term["coefficient"]}
-        for term in terms
-    ]
+    rows = [{"term": power(term), "decimal": near(term), "coefficient": term["coefficient"]} for term in terms]
     return aligned(["term", "decimal", "coefficient"], rows)
 
 
@@ -87,6 +84,12 @@ def decimal(exact: str) -> float | None:
         return float(Fraction(exact))
     except (ValueError, OverflowError):
         return None
+
+
+def near(term: dict[str, Any]) -> float | None:
+    """The coefficient of a term as a float, where it is a number."""
+    found: float | None = term.get("decimal", decimal(term["coefficient"]))
+    return found
 
 
 def range_of_use(oscillator: Oscillator, result: Result | BallExpansion) -> str:

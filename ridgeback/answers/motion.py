@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ridgeback.answers.expansion_text import decimal, heading, joined, limit_rows, power, range_of_use
+from ridgeback.answers.expansion_text import heading, joined, limit_rows, near, power, range_of_use
 from ridgeback.console.output import json_text
 from ridgeback.console.tables import aligned, csv_text
 from ridgeback.options.demand import Demand
@@ -153,7 +153,7 @@ def harmonic_table(harmonics: list[dict[str, Any]], phase: str) -> str:
     cos(3*phi)  a^3    0.03125  1/32
     """
     rows = [
-        {"wave": wave(name, h["multiple"], phase), "term": power(term), "decimal": decimal(term["coefficient"])}
+        {"wave": wave(name, h["multiple"], phase), "term": power(term), "decimal": near(term)}
         | {"coefficient": term["coefficient"]}
         for h in harmonics
         for name, part in (("cos", "cosine"), ("sin", "sine"))

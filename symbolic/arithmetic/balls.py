@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from functools import reduce
+from operator import mul
 from typing import Any, Final
 
 import sympy
@@ -126,7 +128,7 @@ def polynomial_at(coefficients: Sequence[fmpq], x: arb) -> arb:
 
 
 def natural_frequency(scale: sympy.Expr) -> arb:
-    """Return k, known exactly as the square root of a rational, as a ball.
+    """Return k, a real number known exactly, as a ball.
 
     Parameters
     ----------
@@ -149,9 +151,51 @@ def natural_frequency(scale: sympy.Expr) -> arb:
     '2.828427125'
     """
     square = sympy.expand(scale**2)
-    if not square.is_Rational:
+    if square.is_Rational:
+        return arb(rational(square)).sqrt()
+    if scale.free_symbols:
         raise InputError(f"the natural frequency {scale} has no number for its parameters; set them before evaluating")
-    return arb(rational(square)).sqrt()
+    return number_ball(scale)
+
+
+def number_ball(value: sympy.Expr) -> arb:
+    """Return a real number such as sqrt(2)/3 + pi as a ball at the working precision.
+
+    Parameters
+    ----------
+    value : sympy.Expr
+        Sums, products and rational powers of rationals, pi, e and the functions of ``REAL_FUNCTIONS``.
+
+    Returns
+    -------
+    arb
+        A ball around it.
+
+    Raises
+    ------
+    InputError
+        For anything else.
+
+    Examples
+    --------
+    >>> number_ball(sympy.sqrt(2) / 3).str(10, radius=False)
+    '0.4714045208'
+    """
+    if value.is_Rational:
+        return arb(rational(value))
+    if value in (sympy.pi, sympy.E):
+        return arb.pi() if value == sympy.pi else arb(1).exp()
+    parts = [number_ball(part) for part in value.args]
+    if value.is_Add:
+        return sum(parts, arb(0))
+    if value.is_Mul:
+        return reduce(mul, parts)
+    if value.is_Pow and value.exp.is_Rational:
+        return arb(parts[0] ** (int(value.exp) if value.exp.is_Integer else parts[1]))
+    function = REAL_FUNCTIONS.get(type(value).__name__)
+    if function is None or len(parts) != 1:
+        raise InputError(f"{value} is no real number that balls know; write it with roots, pi and elementary functions")
+    return function(parts[0])
 
 
 def evaluated(function: Callable[[arb], arb], value: Any) -> Any:

@@ -98,6 +98,16 @@ def series_latex(terms: tuple[sympy.Expr, ...]) -> str:
     return text.strip() or "0"
 
 
+def coefficient_row(value: sympy.Expr) -> dict[str, object]:
+    """A coefficient in the public JSON form: exactly, and of an irrational number the nearest float, too.
+
+    >>> coefficient_row(sympy.Rational(1, 3)), coefficient_row(sympy.sqrt(2))["decimal"]
+    ({'coefficient': '1/3'}, 1.4142135623730951)
+    """
+    row: dict[str, object] = {"coefficient": str(value)}
+    return row | {"decimal": nearest(value)} if value.is_number and not value.is_Rational else row
+
+
 def nearest(value: sympy.Expr) -> float:
     """Round an exact coefficient once to the nearest float.
 

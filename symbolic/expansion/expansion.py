@@ -19,8 +19,15 @@ from flint import arb, fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
-from ridgeback.symbolic.arithmetic.balls import natural_frequency
-from ridgeback.symbolic.arithmetic.rendering import as_sympy, long_integers, mathml, nearest, series_latex
+from ridgeback.symbolic.arithmetic.balls import natural_frequency, number_ball
+from ridgeback.symbolic.arithmetic.rendering import (
+    as_sympy,
+    coefficient_row,
+    long_integers,
+    mathml,
+    nearest,
+    series_latex,
+)
 from ridgeback.symbolic.arithmetic.tidy import tidy
 from ridgeback.symbolic.expansion.amplitude import (
     check_definition,
@@ -173,17 +180,16 @@ class Expansion(ShownExpansion):
 
         It encloses the series, not the exact frequency.  Raises InputError when a parameter is still symbolic.
         """
-        if not all(isinstance(c, fmpq) for c in self.coefficients):
-            if not self.symbolic_names:
-                raise InputError(
-                    "the coefficients are irrational; give the equation's numbers as decimals to enclose it"
-                )
+        coefficients = self.coefficients
+        if self.symbolic_names:
             raise InputError(
                 f"the coefficients hold {', '.join(self.symbolic_names)} as symbols; set them before evaluating"
             )
         k, total = natural_frequency(self.scale), arb(0)
         x = value / k if self.scaled_variable else value
-        for c in reversed(self.coefficients):
+        if self.constants:
+            coefficients = tuple(number_ball(self.exact(c)) for c in coefficients)
+        for c in reversed(coefficients):
             total = total * x + c
         return k * total
 
@@ -293,7 +299,7 @@ class Expansion(ShownExpansion):
 
     def _rows(self, values: tuple[sympy.Expr, ...]) -> list[dict[str, object]]:
         with long_integers():
-            return [{"powers": {self.variable: n}, "coefficient": str(c)} for n, c in enumerate(values) if c != 0]
+            return [{"powers": {self.variable: n}, **coefficient_row(c)} for n, c in enumerate(values) if c != 0]
 
 
 def first_harmonic(p: Trig) -> Scalar:

@@ -17,7 +17,7 @@ import sympy
 from flint import fmpq
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.arithmetic.rendering import as_sympy, mathml, nearest, series_latex
+from ridgeback.symbolic.arithmetic.rendering import as_sympy, coefficient_row, mathml, nearest, series_latex
 from ridgeback.symbolic.arithmetic.tidy import tidy
 from ridgeback.symbolic.flow.ordering import ROOT, UNITS
 from ridgeback.symbolic.flow.shown import ShownSlowFlow
@@ -298,7 +298,7 @@ def json_rows(variables: tuple[str, ...], terms: tuple[Term, ...]) -> list[dict[
     [{'powers': {'a': 3}, 'coefficient': '1/32'}]
     """
     return [
-        {"powers": dict(zip(variables, term.powers, strict=True)), "coefficient": str(term.coefficient)}
+        {"powers": dict(zip(variables, term.powers, strict=True)), **coefficient_row(term.coefficient)}
         for term in terms
     ]
 

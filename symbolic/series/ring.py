@@ -70,8 +70,8 @@ class TrigRing:
         value = self._constant(element)
         if value is None:
             raise InputError(
-                "a denominator, log or root holds what oscillates from order 0 on, as u and u' of a limit cycle do, "
-                "or a parameter; use --method multiple-scales, or give the parameter a number"
+                "a denominator, log or root starts with what has no reciprocal: a parameter, or u and u' of a limit "
+                "cycle, which oscillate from order 0 on; give the parameter a number, or start it with 1, as 1 + c*u"
             )
         if value == 0:
             raise InputError(
@@ -90,7 +90,7 @@ class TrigRing:
         if value is None:
             raise InputError(
                 f"{name} is taken of what oscillates from order 0 on, as u and u' of a limit cycle do, and has no "
-                "finite Fourier series there; use --method multiple-scales"
+                "finite Fourier series there; expand it in powers of u, to the degree that counts"
             )
         raise InputError(
             f"{name} is taken of something that is not {1 if name == 'log' else 0} at the equilibrium, so its series "

@@ -17,6 +17,7 @@ from dataclasses import asdict, dataclass, replace
 from decimal import Decimal
 from typing import Any, Final, TypeAlias
 
+import sympy
 from flint import arb, ctx, fmpq
 
 from ridgeback.common.errors import InputError
@@ -31,6 +32,8 @@ from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 
 Series: TypeAlias = Expansion | BallExpansion
 
+DIGITS: Final = 200
+"""Of irrational coefficients."""
 TRUSTED: Final = 0.1
 """Largest relative uncertainty of a place that is still handed out."""
 
@@ -224,9 +227,9 @@ def stripped(expansion: Series) -> tuple[int, list[Any]]:
     c = expansion.coefficients
     if not all(isinstance(value, fmpq | arb) for value in c):
         names = ", ".join(getattr(expansion, "symbolic_names", ()))
-        if not names:
-            raise InputError("its coefficients are irrational; give the numbers as decimals to see it")
-        raise InputError(f"the coefficients hold {names} as symbols; set them to numbers")
+        if names:
+            raise InputError(f"the coefficients hold {names} as symbols; set them to numbers")
+        c = tuple(_decimal(expansion, value) for value in c)
     present = [n for n, value in enumerate(c) if n and not _is_zero(value)]
     if not present:
         raise InputError(CONSTANT)
@@ -235,6 +238,15 @@ def stripped(expansion: Series) -> tuple[int, list[Any]]:
     if len(series) > 2 * (present[-1] // step) + 4:
         raise InputError(f"every coefficient beyond {expansion.variable}^{present[-1]} is zero, a polynomial so far")
     return step, series
+
+
+def _decimal(expansion: Series, coefficient: Any) -> fmpq:
+    """An irrational coefficient to so many digits that what is estimated from it does not feel the rest."""
+    if isinstance(expansion, BallExpansion):
+        raise AssertionError("the coefficients of balls are balls")
+    value = expansion.exact(coefficient)
+    near = value if value.is_Rational else sympy.Rational(str(value.evalf(DIGITS)))
+    return fmpq(int(near.p), int(near.q))
 
 
 def _is_zero(value: fmpq | arb) -> bool:
