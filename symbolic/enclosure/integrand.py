@@ -112,7 +112,7 @@ class GeneralIntegrand:
         """An upper bound of |F| over theta, or None when q may vanish or V, I be singular there."""
         ball = self.ball(theta)
         inertia = ball.curves.inertia(ball.u)
-        if not ball.curves.value(ball.u).is_finite() or not inertia.is_finite():
+        if not ball.curves.analytic(ball.u).is_finite() or not inertia.is_finite():
             return None
         for q in ball.wide(self.energy):
             if q.is_finite() and q.abs_lower() > 0:

@@ -169,6 +169,7 @@ def reflected(forward: Curves) -> Curves:
         force=lambda u: -forward.force(-u),
         slope=lambda u: forward.slope(-u),
         inertia=lambda u: forward.inertia(-u),
+        analytic=lambda u: forward.analytic(-u),
     )
 
 

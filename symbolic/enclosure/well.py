@@ -63,12 +63,16 @@ class Well:
 
 @dataclass(frozen=True)
 class Curves:
-    """V, V', V'' and I as functions on balls."""
+    """V, V', V'' and I as functions on balls.
+
+    ``analytic`` is finite on a ball only if V is analytic there; it costs less than V where that is integrated.
+    """
 
     value: Function
     force: Function
     slope: Function
     inertia: Function
+    analytic: Function
 
 
 @lru_cache(maxsize=64)
@@ -130,10 +134,11 @@ def curves(well: Well, bits: int, *, complex_: bool = False) -> Curves:
 def _closed_curves(well: Well, inertia: sympy.Expr, bits: int, complex_: bool) -> Curves:
     """With the inertia in closed form; the potential in closed form or as the integral of its derivative."""
     force = well.restoring * inertia**2 if well.potential is None or well.drag == 0 else well.potential.diff(U)
-    rest = (ball_function(e, bits, complex_=complex_) for e in (force, force.diff(U), inertia))
+    slope, curve, mass = (ball_function(e, bits, complex_=complex_) for e in (force, force.diff(U), inertia))
     if well.potential is not None:
-        return Curves(ball_function(well.potential, bits, complex_=complex_), *rest)
-    return Curves(BallIntegral(ball_function(force, bits, complex_=True)), *rest)
+        value = ball_function(well.potential, bits, complex_=complex_)
+        return Curves(value, slope, curve, mass, analytic=value)
+    return Curves(BallIntegral(ball_function(force, bits, complex_=True)), slope, curve, mass, analytic=slope)
 
 
 def _integrated_curves(well: Well, bits: int, complex_: bool) -> Curves:
@@ -150,6 +155,7 @@ def _integrated_curves(well: Well, bits: int, complex_: bool) -> Curves:
         force=by_inertia(well.restoring, complex_),
         slope=by_inertia(slope, complex_),
         inertia=lambda u: logarithm(u).exp(),
+        analytic=ball_function(well.restoring * well.drag, bits, complex_=complex_),
     )
 
 
@@ -190,6 +196,8 @@ def _drag(oscillator: Oscillator, force: sympy.Expr) -> sympy.Expr:
 
 def _inertia(drag: sympy.Expr) -> sympy.Expr | None:
     """I(u) in closed form, None where no rule integrates its logarithm."""
+    if drag == 0:
+        return sympy.S.One
     exponent = _integral(drag)
     if exponent is None:
         return None

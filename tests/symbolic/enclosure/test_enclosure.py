@@ -1,5 +1,6 @@
 """Enclosures of omega0(A): against mpmath, closed forms, each other, exact constants, and values known to be wrong."""
 
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 
@@ -219,7 +220,7 @@ def test_polynomial_wells_by_their_roots_and_by_boxes(tail: list[Fraction], ampl
     """Exact roots and the proved strip, against the walks, divided differences and boxes of the general route."""
     exact = polynomial_well(tail)
     path = usable_orbit(exact, amplitude)
-    general = Well(exact.name, exact.force, exact.potential, exact.inertia, exact.scale, exact.even, None)
+    general = replace(exact, polynomial=None)
     with ctx.workprec(200):
         other = orbit(general, fmpq(amplitude.numerator, amplitude.denominator), 200)
         assert other is not None
@@ -260,7 +261,7 @@ def test_the_ball_holds_what_plain_midpoints_approach(tail: list[Fraction], ampl
     well = polynomial_well(tail)
     path = usable_orbit(well, amplitude)
     assume(polynomial_strip(path).width > arb("0.1"))
-    exact = enclose(Oscillator.from_equation(f"u'' + {well.force}", name="random"), amplitude, bits=64)
+    exact = enclose(Oscillator.from_equation(f"u'' + {well.restoring}", name="random"), amplitude, bits=64)
     with mpmath.workdps(50):
         coefficients = [mpmath.mpf(int(c.p)) / int(c.q) for c in reversed(well.polynomial.coeffs())]
         A = mpmath.mpf(amplitude.numerator) / amplitude.denominator

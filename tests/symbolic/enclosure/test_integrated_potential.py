@@ -102,3 +102,12 @@ def test_the_mirrored_well_is_integrated_too() -> None:
     peak = enclose(own("log(1 + u)"), "0.3", bits=64)
     mirrored = enclose(own("-log(1 - u)"), "0.3", definition="trough", bits=64)
     assert peak.omega.overlaps(mirrored.omega)
+
+
+def test_closed_forms_are_taken_where_there_are_any() -> None:
+    for text in ("sin(u)", "u + u**3", "u + u*u'**2"):
+        well = well_of(own(text))
+        assert well.potential is not None
+        assert well.inertia is not None
+    assert well_of(own("log(1 + u)")).potential is None
+    assert well_of(own(DRAGS[1])).inertia is None

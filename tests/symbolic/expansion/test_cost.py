@@ -42,3 +42,10 @@ def test_a_force_of_many_functions_is_dearer() -> None:
     assert 500 < seconds < 3 * 500
     with pytest.raises(InputError, match="order 400 by lindstedt would take about"):
         lindstedt(as_oscillator("u'' + sin(u)*exp(u)/(1+u**2) = 0"), 400)
+
+
+def test_the_energy_integral_goes_to_high_orders() -> None:
+    """Reversion and composition of power series: A^1600 takes half a minute and less than half a gigabyte."""
+    assert predict("energy-integral", 1600).within(Budget(seconds=60, gigabytes=1))
+    exact = energy_integral(find("pendulum"), 120).frequency
+    assert exact[:41] == lindstedt(find("pendulum"), 40).frequency

@@ -1,0 +1,106 @@
+"""What derivations take against what is predicted: ``python benchmarks/costs.py``.
+
+Seconds of one core for every method, and the gigabytes that a process of its own gains; each ratio of the prediction to
+what happened is to lie between a third and three, on a machine like that of ``expansion.cost``.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import resource
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ridgeback.symbolic.expansion.cost import Budget, predict
+from ridgeback.symbolic.expansion.energy_integral import energy_integral
+from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes
+from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
+from ridgeback.symbolic.systems.catalogue import find
+from ridgeback.symbolic.systems.oscillator import Oscillator
+
+FREE = Budget(1e9, 1e9)
+SYMBOLIC = "u'' + u + b*u**2 + c*u**3 = 0"
+TWO_LOSSES = "u'' + 2*mu*u' + c*u'**3 + sin(u) = 0"
+
+
+@dataclass(frozen=True)
+class Case:
+    """One derivation, and what its cost is predicted from."""
+
+    method: str
+    system: str
+    order: int
+    parameters: int = 0
+    weights: tuple[int, ...] = ()
+
+    def run(self) -> None:
+        """Derive."""
+        own = Oscillator.from_equation(self.system) if "=" in self.system else find(self.system)
+        RUNS[self.method](own, self.order)
+
+
+RUNS: dict[str, Callable[[Oscillator, int], object]] = {
+    "lindstedt": lambda own, order: lindstedt(own, order, budget=FREE),
+    "limit-cycle": lambda own, order: lindstedt(own, order, budget=FREE),
+    "energy-integral": lambda own, order: energy_integral(own, order, budget=FREE),
+    "multiple-scales": lambda own, order: multiple_scales(own, order, budget=FREE),
+    "balls": lambda own, order: lindstedt_in_balls(own, order, digits=30),
+    "primes": lambda own, order: lindstedt_by_primes(own, order),
+    "primes of a limit-cycle": lambda own, order: lindstedt_by_primes(own, order),
+}
+CASES = (
+    Case("lindstedt", "pendulum", 100),
+    Case("lindstedt", "pendulum", 160),
+    Case("lindstedt", "helmholtz-duffing", 80),
+    Case("lindstedt", SYMBOLIC, 20, parameters=2),
+    Case("limit-cycle", "van-der-pol", 48),
+    Case("limit-cycle", "rayleigh", 48),
+    Case("energy-integral", "pendulum", 400),
+    Case("energy-integral", "pendulum", 800),
+    Case("energy-integral", "helmholtz-duffing", 800),
+    Case("energy-integral", SYMBOLIC, 24, parameters=2),
+    Case("multiple-scales", "damped-pendulum", 60, weights=(2,)),
+    Case("multiple-scales", "van-der-pol", 60, weights=(2,)),
+    Case("multiple-scales", TWO_LOSSES, 36, weights=(2, 2)),
+    Case("balls", "van-der-pol", 100),
+    Case("balls", "pendulum", 120),
+    Case("primes", "pendulum", 80),
+    Case("primes of a limit-cycle", "van-der-pol", 48),
+)
+
+
+def measured(case: Case) -> tuple[float, float]:
+    """Seconds and gigabytes, in a process of its own."""
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        return pool.apply(_measured, (case,))
+
+
+def _measured(case: Case) -> tuple[float, float]:
+    Case(case.method, case.system, 4, case.parameters, case.weights).run()  # imports and tables are no part of the cost
+    before, start = _peak(), time.process_time()
+    case.run()
+    return time.process_time() - start, _peak() - before
+
+
+def _peak() -> float:
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
+
+
+def main() -> None:
+    """Print the table."""
+    print(f"{'method':24} {'system':38} {'order':>5} {'s':>8} {'predicted/true':>14} {'GB':>7} {'predicted':>9}")
+    for case in CASES:
+        seconds, gigabytes = measured(case)
+        cost = predict(case.method, case.order, parameters=case.parameters, weights=case.weights)
+        print(
+            f"{case.method:24} {case.system:38} {case.order:5d} {seconds:8.3f} {cost.seconds / seconds:14.2f} "
+            f"{gigabytes:7.3f} {cost.gigabytes:9.3f}",
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    main()
