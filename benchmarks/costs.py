@@ -48,8 +48,8 @@ RUNS: dict[str, Callable[[Oscillator, int], object]] = {
     "energy-integral": lambda own, order: energy_integral(own, order, budget=FREE),
     "multiple-scales": lambda own, order: multiple_scales(own, order, budget=FREE),
     "balls": lambda own, order: lindstedt_in_balls(own, order, digits=30),
-    "primes": lambda own, order: lindstedt_by_primes(own, order),
-    "primes of a limit-cycle": lambda own, order: lindstedt_by_primes(own, order),
+    "primes": lindstedt_by_primes,
+    "primes of a limit-cycle": lindstedt_by_primes,
 }
 CASES = (
     Case("lindstedt", "pendulum", 100),

@@ -16,10 +16,11 @@ import sympy
 
 from ridgeback.common.errors import InputError
 
-# method: (seconds, its power of the order, bytes, its power), half-way (in the ratio) between the cheapest and the dearest
-# of: pendulum A^100 to A^280 and Helmholtz-Duffing A^80, A^120; van der Pol eps^48, eps^96; multiple scales at the damped
-# pendulum 60, 90, two dampings 36, van der Pol 60; energy integral at pendulum A^400 to A^1600, Helmholtz-Duffing A^400,
-# A^800; balls at van der Pol 100, 200, 400, pendulum 120; primes, whose number grows like the square of the order.
+# method: (seconds, its power of the order, bytes, its power), half-way (in the ratio) between the cheapest and the
+# dearest of: pendulum A^100 to A^280 and Helmholtz-Duffing A^80, A^120; van der Pol eps^48, eps^96; multiple scales at
+# the damped pendulum 60, 90, two dampings 36, van der Pol 60; energy integral at pendulum A^400 to A^1600,
+# Helmholtz-Duffing A^400, A^800; balls at van der Pol 100, 200, 400, pendulum 120; primes, whose number grows like the
+# square of the order.
 _LAWS = {
     "lindstedt": (1.6e-8, 3.6, 2.0, 3.0),
     "limit-cycle": (5e-8, 4.0, 40.0, 3.0),
