@@ -22,10 +22,9 @@ from flint import acb, arb, arb_poly, ctx, fmpq
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import ball
 from ridgeback.symbolic.codegen.number import fraction
-from ridgeback.symbolic.enclosure.ball_functions import Function, ball_function
+from ridgeback.symbolic.enclosure.ball_functions import Function
 from ridgeback.symbolic.enclosure.enclosure import enclose_in
-from ridgeback.symbolic.enclosure.well import Well
-from ridgeback.symbolic.systems.oscillator import U
+from ridgeback.symbolic.enclosure.well import Well, curves
 
 GUARD: Final = 192
 """Working precision is this plus two bits a node: in powers of t Chebyshev polynomials cancel, by 1.3 bits a degree."""
@@ -87,10 +86,9 @@ def _nodes(rate: fmpq, bound: arb) -> int:
 def _ellipse(well: Well, square: fmpq) -> tuple[fmpq, arb]:
     """The widest ellipse of those tried on which Re g > 0, and the bound M there."""
     with ctx.workprec(COVER_BITS):
-        force = ball_function(well.force, COVER_BITS, complex_=True)
-        slope = ball_function(well.force.diff(U), COVER_BITS, complex_=True)
+        found = curves(well, COVER_BITS, complex_=True)
         for rate in RATES:
-            largest = _largest(force, slope, square, rate)
+            largest = _largest(found.force, found.slope, square, rate)
             if largest is not None:
                 return rate, (2 * largest).sqrt()
     raise InputError(
