@@ -12,14 +12,14 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ridgeback.symbolic.expansion.cost import Budget, predict
+from ridgeback.symbolic.expansion.cost import Budget, Cost, effort_of, predict
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes
 from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
 from ridgeback.symbolic.systems.catalogue import find
-from ridgeback.symbolic.systems.oscillator import Oscillator
+from ridgeback.symbolic.systems.oscillator import Oscillator, U
 
 FREE = Budget(1e9, 1e9)
 SYMBOLIC = "u'' + u + b*u**2 + c*u**3 = 0"
@@ -36,10 +36,19 @@ class Case:
     parameters: int = 0
     weights: tuple[int, ...] = ()
 
+    @property
+    def oscillator(self) -> Oscillator:
+        """The oscillator of the equation or name."""
+        return Oscillator.from_equation(self.system) if "=" in self.system else find(self.system)
+
     def run(self) -> None:
         """Derive."""
-        own = Oscillator.from_equation(self.system) if "=" in self.system else find(self.system)
-        RUNS[self.method](own, self.order)
+        RUNS[self.method](self.oscillator, self.order)
+
+    def predicted(self) -> Cost:
+        """What is foretold."""
+        effort = effort_of(self.oscillator.normalised.bound, U) if self.method == "lindstedt" else 1.0
+        return predict(self.method, self.order, parameters=self.parameters, weights=self.weights, effort=effort)
 
 
 RUNS: dict[str, Callable[[Oscillator, int], object]] = {
@@ -94,7 +103,7 @@ def main() -> None:
     print(f"{'method':24} {'system':38} {'order':>5} {'s':>8} {'predicted/true':>14} {'GB':>7} {'predicted':>9}")
     for case in CASES:
         seconds, gigabytes = measured(case)
-        cost = predict(case.method, case.order, parameters=case.parameters, weights=case.weights)
+        cost = case.predicted()
         print(
             f"{case.method:24} {case.system:38} {case.order:5d} {seconds:8.3f} {cost.seconds / seconds:14.2f} "
             f"{gigabytes:7.3f} {cost.gigabytes:9.3f}",
