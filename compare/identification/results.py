@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, fields
 import numpy as np
 
 from ridgeback.compare.identification.candidates import DampingLaw
-from ridgeback.compare.identification.shown import ShownIdentification
+from ridgeback.compare.identification.shown import ShownIdentification, ShownPrediction
 from ridgeback.numeric.arrays import Array, freeze
 
 NORMAL_95 = 1.959963984540054
@@ -118,8 +118,8 @@ class MeasuredBackbone(_Values):
     growth_rate_sd: Array
 
 
-@dataclass(frozen=True)
-class Prediction(_Values):
+@dataclass(frozen=True, repr=False)
+class Prediction(ShownPrediction, _Values):
     """The rest of a decay as predicted from its first cycles, against what was then measured.
 
     ``*_low`` and ``*_high`` are 95 % bands; ``measured_*`` are local harmonic least squares on the part that the fit

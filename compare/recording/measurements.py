@@ -106,7 +106,7 @@ class Common:
     curve: CombinedBackbone
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Measurements:
     """All that was measured; ``failed`` says which whole signals gave nothing, ``notes`` which stretches did."""
 
@@ -114,6 +114,10 @@ class Measurements:
     combined: tuple[Common, ...]
     failed: tuple[str, ...]
     notes: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        channels = ", ".join(dict.fromkeys(one.recording.label for one in self.measured))
+        return f"<Measurements: {channels}; {len(self.combined)} combined backbones, {len(self.failed)} failed>"
 
 
 def amplitude_columns(curve: Backbone, time: Array) -> Mapping[str, Array]:

@@ -21,7 +21,7 @@ from ridgeback.numeric.motion.precise_ring import PRECISE, Jet, Precise, solutio
 from ridgeback.numeric.motion.roots import bracketed_newton
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Dynamics:
     """The oscillator ``u'' + f(u, u') = 0`` with all its parameters set.
 
@@ -63,6 +63,9 @@ class Dynamics:
     closed_form: Callable[[ArrayLike], Array] | None = None
     precise_force: Callable[[Precise, Precise], Precise] | None = None
     jet: Jet | None = None
+
+    def __repr__(self) -> str:
+        return f"<Dynamics: {self.name}, k = {self.natural_frequency:.6g}, mu = {self.damping:.6g}>"
 
 
 def agm(a: ArrayLike, b: ArrayLike) -> Array:

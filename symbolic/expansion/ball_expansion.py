@@ -15,7 +15,7 @@ from ridgeback.symbolic.arithmetic.balls import natural_frequency
 from ridgeback.symbolic.expansion.expansion import Expansion
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class BallExpansion:
     """omega0 = k sum c_n X^n with every c_n in a ball, X the amplitude A or eps/k; made by ``lindstedt_in_balls``.
 
@@ -49,6 +49,11 @@ class BallExpansion:
     method = "lindstedt"
     names = ()
     """Balls have no parameters left symbolic."""
+
+    def __repr__(self) -> str:
+        of = f"{self.amplitude} amplitude" if self.variable == "A" else self.variable
+        digits = f"{self.digits} digits of each coefficient"
+        return f"<BallExpansion: {self.system}, {self.method} to order {self.order} in {of}, {digits}>"
 
     @property
     def frequency(self) -> tuple[arb, ...]:

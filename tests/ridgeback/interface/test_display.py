@@ -40,13 +40,14 @@ def results() -> dict[str, Displayed]:
         "cycle study": ridgeback.study("van-der-pol", (2, 4), [0.2, 0.4]),
         "benchmark": ridgeback.benchmark("damped-pendulum", initial=(1.0, 0.0), duration=60.0, rate=5.0, orders=(2, 6)),
         "identification": ridgeback.identify(noisy, RATE, candidates=["linear", "pendulum"], damping="linear"),
+        "prediction": ridgeback.predict(noisy, RATE, cycles=15, candidates=["linear"], damping="linear"),
         "report": ridgeback.report("linear", duration=60.0, rate=4.0, orders=(2,), amplitudes=[0.5, 1.0], trials=0),
     }
 
 
 KINDS = (
     *("expansion", "long expansion", "cycle", "flow", "recording", "trajectory", "track", "backbone", "half cycles"),
-    *("fit", "plane", "study", "cycle study", "benchmark", "identification", "report"),
+    *("fit", "plane", "study", "cycle study", "benchmark", "identification", "prediction", "report"),
 )
 
 
@@ -202,3 +203,13 @@ def test_an_oscillator_is_a_line_and_its_equation() -> None:
     pendulum = ridgeback.oscillator("pendulum", parameters={"k": 2})
     assert repr(pendulum) == "<Oscillator: pendulum, theta'' + 2*mu*theta' + k**2*sin(theta) = 0 (mu = 0, k = 2)>"
     assert r"\ddot" in pendulum._repr_latex_()
+
+
+def test_values_without_tables_are_short_too() -> None:
+    recording = ridgeback.Recording.from_arrays(X, RATE, name="u")
+    found = ridgeback.measure_recordings([recording], method="zero-crossing")
+    balls = ridgeback.lindstedt_in_balls("van-der-pol", 8, digits=12)
+    assert repr(ridgeback.bind("pendulum")) == "<Dynamics: pendulum, k = 1, mu = 0>"
+    assert repr(balls) == "<BallExpansion: van-der-pol, lindstedt to order 8 in eps, 12 digits of each coefficient>"
+    assert repr(found).startswith("<Measurements: ")
+    assert repr(found).endswith("; 0 combined backbones, 0 failed>")
