@@ -234,6 +234,8 @@ def _within(result: Study, target: float) -> Array:
 
 
 def _checked_orders(orders: Sequence[int]) -> tuple[int, ...]:
+    if not isinstance(orders, Sequence | np.ndarray):
+        raise InputError(f"orders {orders!r} are not a list of whole numbers; use orders such as (2, 4, 8)")
     if len(orders) == 0:
         raise InputError("no orders given; give at least one, such as 2,4,8")
     for order in orders:

@@ -74,7 +74,7 @@ def ridge(distribution: Distribution, *, band: tuple[float, float] | None = None
     Raises
     ------
     InputError
-        Where fewer than three rows lie in the band.
+        Where fewer than three rows lie in the band, and for what is no distribution.
 
     Examples
     --------
@@ -85,6 +85,11 @@ def ridge(distribution: Distribution, *, band: tuple[float, float] | None = None
     >>> bool(np.abs(track.frequency_hz - 1.0 - 0.1 * track.time).max() < 0.02)
     True
     """
+    if not isinstance(distribution, Distribution):
+        raise InputError(
+            f"{type(distribution).__name__} is no distribution; make one of samples first, such as "
+            "spectrogram(x, rate, window_seconds=4.0)"
+        )
     first, beyond = rows_between(distribution, band)
     size = distribution.size()
     column = np.arange(distribution.time.size)

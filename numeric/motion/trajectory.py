@@ -202,7 +202,10 @@ def check_request(
         ...
     ridgeback.common.errors.InputError: pendulum: (u, u') = (0, 0) is an equilibrium and stays there; start elsewhere
     """
-    u, v = (float(x) for x in initial)
+    try:
+        u, v = (float(x) for x in initial)
+    except (TypeError, ValueError):
+        raise InputError(f"initial state {initial!r} is not two numbers; give (u, u'), such as (1.0, 0.0)") from None
     if not (math.isfinite(u) and math.isfinite(v)):
         raise InputError(f"initial state ({u}, {v}) must be finite")
     for label, value in (("duration", duration), ("rate", rate)):

@@ -309,7 +309,7 @@ def recordings_from_arrays(
 
 
 def read_recordings(
-    paths: Sequence[str | Path],
+    paths: str | Path | Sequence[str | Path],
     *,
     columns: Wanted = None,
     time_column: str | int | None = None,
@@ -324,7 +324,7 @@ def read_recordings(
 
     Parameters
     ----------
-    paths : sequence of str or Path
+    paths : str, Path or sequence of them
         The files.
     columns : str, int or sequence of them, optional
         Names or numbers from 1, or ``"all"``.
@@ -367,10 +367,11 @@ def read_recordings(
     [('u', 0, 50), ('w', 1, 20), ('w', 2, 29)]
     """
     treatment = Treatment(resample, fill, detrend, span)
-    names = [Path(path).name for path in paths]
+    files = [paths] if isinstance(paths, str | Path) else paths
+    names = [Path(path).name for path in files]
     found: list[Recording] = []
-    for path, name in zip(paths, names, strict=True):
-        run = "" if len(paths) == 1 else name if names.count(name) == 1 else str(path)
+    for path, name in zip(files, names, strict=True):
+        run = "" if len(files) == 1 else name if names.count(name) == 1 else str(path)
         for signal in signals(Path(path), columns, time_column, rate, run_column, run):
             found.extend(recordings_of(signal, rate, treatment))
     if not found:

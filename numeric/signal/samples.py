@@ -44,7 +44,8 @@ def checked_samples(x: ArrayLike, *, name: str = "signal", at_least: int = 1) ->
     """
     array = np.asarray(np.ma.filled(x.astype(np.float64), np.nan) if isinstance(x, np.ma.MaskedArray) else x)
     if array.dtype.kind not in "biufc":
-        raise InputError(f"{name} has dtype {array.dtype}; use real or complex numbers")
+        what = array.dtype if array.ndim else type(x).__name__
+        raise InputError(f"{name} is of type {what}; use an array of real or complex numbers")
     if array.ndim != 1:
         raise InputError(f"{name} has shape {array.shape}; use a one-dimensional array")
     if array.size < at_least:

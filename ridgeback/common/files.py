@@ -58,7 +58,7 @@ def naming(path: str | Path) -> Iterator[None]:
     try:
         yield
     except OSError as error:
-        if error.filename is None or str(error.filename).endswith(SUFFIX):
+        if error.errno is not None and (error.filename is None or str(error.filename).endswith(SUFFIX)):
             error.filename = str(path)
         raise
 

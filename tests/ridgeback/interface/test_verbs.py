@@ -217,3 +217,28 @@ def test_high_orders_tell_their_progress() -> None:
         ridgeback.lindstedt_by_primes("pendulum", 4, progress=True).frequency
         == ridgeback.derive("pendulum", 4).frequency
     )
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: ridgeback.ridge([1.0, 2.0]), "list is no distribution; make one of samples first"),
+        (lambda: ridgeback.study("pendulum", 2, [0.5]), r"orders 2 are not a list .* such as \(2, 4, 8\)"),
+        (lambda: ridgeback.simulate("pendulum", 1.0), r"initial state 1.0 is not two numbers; give \(u, u'\)"),
+        (lambda: ridgeback.wigner(ridgeback.simulate("pendulum"), 64.0), "signal is of type Trajectory; use an array"),
+        (lambda: ridgeback.wigner(["a", "b"], 64.0), "signal is of type <U1; use an array"),
+        (lambda: ridgeback.oscillator(3), "int is no oscillator; give a name such as 'pendulum'"),
+        (lambda: ridgeback.derive("pendulum", "four"), "order 'four' is not a whole number; use e.g. 8"),
+    ],
+)
+def test_what_is_of_the_wrong_kind_is_refused_in_one_line(call, said: str) -> None:
+    with pytest.raises(ridgeback.InputError, match=said) as refused:
+        call()
+    assert "\n" not in str(refused.value)
+
+
+def test_one_path_is_read_like_a_list_of_one(tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text("t_s,u\n" + "".join(f"{i / 10},{i % 4}\n" for i in range(40)), encoding="utf-8")
+    (one,), (same,) = ridgeback.read_recordings(path), ridgeback.read_recordings([str(path)])
+    assert np.array_equal(one.values, same.values)
