@@ -7,7 +7,7 @@ from enum import IntEnum
 
 import click
 
-from ridgeback.common.errors import InputError
+from ridgeback.common.errors import InputError, one_line
 
 
 class Exit(IntEnum):
@@ -24,16 +24,6 @@ class Exit(IntEnum):
 
 class PartialError(Exception):
     """The output is written, but part of what was asked for is missing or not certified."""
-
-
-def one_line(text: str) -> str:
-    r"""The text on one line, with control characters escaped so that no value can disturb the terminal.
-
-    >>> one_line("bad\n  value \x1b[31m")
-    'bad value \\x1b[31m'
-    """
-    joined = " ".join(text.split())
-    return "".join(c if c.isprintable() else c.encode("unicode_escape", "backslashreplace").decode() for c in joined)
 
 
 def describe_system_error(error: OSError) -> str:

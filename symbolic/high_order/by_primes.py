@@ -28,7 +28,7 @@ from ridgeback.symbolic.expansion.expansion import Expansion, check_order, first
 from ridgeback.symbolic.expansion.limit_cycle import cycle_recursion
 from ridgeback.symbolic.expansion.lindstedt import DIRECT, conservative_recursion
 from ridgeback.symbolic.high_order.numbers_only import identity, require_numbers
-from ridgeback.symbolic.high_order.residues import Gathered, Residues, check_numbers, read, write
+from ridgeback.symbolic.high_order.residues import Gathered, Residues, check_numbers, check_residues, read, write
 from ridgeback.symbolic.series.spaces import Modular, Scalar
 from ridgeback.symbolic.series.trigonometric import at_zero
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
@@ -36,6 +36,8 @@ from ridgeback.symbolic.systems.oscillator import Oscillator
 
 CHECKS = 2
 """Primes kept back to test the result."""
+DOUBT = 2
+"""How many times the expected bits of modulus may pass before a checkpoint's residues are found anew."""
 SAVE_EVERY = 60
 """Seconds between checkpoints, and a batch of primes at most."""
 
@@ -200,6 +202,11 @@ class _Collection:
     """Bits of modulus that will be needed, for progress."""
     progress: Progress
     last_save: float = field(default_factory=time.monotonic)
+    resumed: Gathered = field(init=False)
+    """What came from a checkpoint and was not found anew."""
+
+    def __post_init__(self) -> None:
+        self.resumed = self.state
 
     def rationals(self, batch: int) -> list[fmpq]:
         """Gather primes until the rationals predict the residues kept back; save what there is on an interrupt."""
@@ -210,6 +217,7 @@ class _Collection:
                 self.state = Gathered(tuple(self._run(first)))
             unused = islice(source, self.state.used, None)
             while (found := self._enough()) is None:
+                self._doubt()
                 self.state = reduce(Gathered.with_residues, self._run(islice(unused, batch)), self.state)
                 self._save(every=SAVE_EVERY)
         except KeyboardInterrupt:
@@ -218,6 +226,14 @@ class _Collection:
         with suppress(OSError):  # the result is there and must not be lost with its checkpoint
             self._save(every=0)
         return found
+
+    def _doubt(self) -> None:
+        """Find the residues of a checkpoint anew when far more primes than expected do not agree: one may be forged."""
+        if self.path is None or not self.resumed.used or self.state.modulus.bit_length() < DOUBT * self.expected + 256:
+            return
+        used = islice(primes(), CHECKS, CHECKS + self.resumed.used)
+        check_residues(self.path, self.resumed, used, self.work)
+        self.resumed = Gathered(())
 
     def _enough(self) -> list[fmpq] | None:
         if not self.state.used:

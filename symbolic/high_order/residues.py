@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -94,3 +94,16 @@ def check_numbers(path: Path, saved: Gathered, primes: Sequence[int], own: Resid
     for what, true in claims.items():
         if not true:
             raise InputError(f"{path} claims another {what} than its own numbers have; remove it and start again")
+
+
+def check_residues(path: Path, saved: Gathered, primes: Iterable[int], work: Callable[[int], Residues]) -> None:
+    """Hold all residues of a checkpoint against those found anew, modulo the ``primes`` used and those kept back.
+
+    This costs what the checkpoint saved.  Raises InputError.
+    """
+    for prime in primes:
+        if [value % prime for value in saved.values] != list(work(prime).all):
+            raise InputError(f"{path} claims other residues modulo {prime} than are found; remove it and start again")
+    for kept in saved.kept:
+        if kept != work(kept.prime):
+            raise InputError(f"{path} claims other residues modulo {kept.prime} than are found; start again")

@@ -131,6 +131,21 @@ def test_a_forged_claim_is_caught_by_the_numbers(
         lindstedt_by_primes(vdp, order, checkpoint=path)
 
 
+@pytest.mark.parametrize("line", [1, 6])
+def test_a_forged_residue_does_not_run_for_ever(line: int, tmp_path: Path) -> None:
+    """One wrong number among the residues: no modulus ever suits it, and after a while they are found anew."""
+    path, vdp = tmp_path / "state", find("van-der-pol")
+    lindstedt_by_primes(vdp, 8, checkpoint=path)
+    lines = [json.loads(text) for text in path.read_text().splitlines()[:-1]]
+    if line == 1:
+        lines[1][1][1][4] += 1
+    else:
+        lines[line] = f"{int(lines[line], 16) + 1:x}"
+    write_signed(path, [json.dumps(text) + "\n" for text in lines])
+    with pytest.raises(InputError, match="claims other residues modulo"):
+        lindstedt_by_primes(vdp, 8, checkpoint=path)
+
+
 def test_a_finished_run_leaves_its_state_to_the_caller(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     import ridgeback.symbolic.high_order.by_primes as module
 
