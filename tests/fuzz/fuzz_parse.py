@@ -48,7 +48,7 @@ def well_formed(data):
 def main():
     import atheris
 
-    with atheris.instrument_imports(include=["symbolic"]):
+    with atheris.instrument_imports(include=["ridgeback.symbolic"]):
         from ridgeback.common.errors import InputError
         from ridgeback.symbolic.grammar.parse import parse_equation, parse_expression, parse_number, to_text
         from ridgeback.symbolic.systems.oscillator import Oscillator
