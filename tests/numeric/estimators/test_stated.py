@@ -1,0 +1,62 @@
+"""What a track says of itself, held against its samples: borders, deviation, window, harmonics of trials."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.recording.stretches import Stamped
+from ridgeback.numeric.recording.uniform import off_grid
+from ridgeback.numeric.tracking.request import prepared
+
+RATE = 32.0
+TIME = np.arange(641) / RATE
+TONE = np.cos(2 * np.pi * 1.02 * TIME + 0.3)
+
+
+@pytest.mark.parametrize(("lag", "smoothing"), [(4.0, 2.0), (6.0, 1.0), (3.0, 3.0)])
+def test_a_smoothed_window_is_whole_where_its_track_is_valid(lag: float, smoothing: float) -> None:
+    """Lag window and smoothing reach half their lengths to each side: together that much is no estimate."""
+    track = estimate(TONE, RATE, method="smoothed-pseudo-wigner", lag_seconds=lag, smoothing_seconds=smoothing)
+    inside = track.time[track.valid]
+    border = 0.5 * (lag + smoothing)
+    assert inside[0] == pytest.approx(border, abs=1.5 / RATE)
+    assert TIME[-1] - inside[-1] == pytest.approx(border, abs=1.5 / RATE)
+
+
+@pytest.mark.parametrize("band", [(1.0, 7.0), (5.5, 12.0)])
+def test_the_deviation_of_a_band_that_is_not_centred(band: tuple[float, float]) -> None:
+    """The noise of the whole band counts, below the tone as above it: 4000 samples against what is stated."""
+    t = np.arange(4000) / RATE
+    noise = 0.02 * np.random.default_rng(5).standard_normal(t.size)
+    track = estimate(np.cos(2 * np.pi * t) + noise, RATE, method="hilbert", band=band, bias=False)
+    inside = (track.time > 10.0) & (track.time < t[-1] - 10.0) & track.valid
+    assert track.standard_deviation is not None
+    stated = float(np.median(track.standard_deviation[inside]))
+    assert float(np.std(track.omega[inside] - 2 * np.pi)) == pytest.approx(stated, rel=0.15)
+
+
+@pytest.mark.parametrize("lag", [3.0, 4.5])
+def test_the_window_of_the_polynomial_distribution_is_the_one_asked_for(lag: float) -> None:
+    track = estimate(TONE, RATE, method="polynomial-wigner", lag_seconds=lag, bias=False)
+    assert track.settings["lag_seconds"] == pytest.approx(lag, abs=1.0 / RATE)
+
+
+def test_a_trial_fits_the_harmonics_of_its_track_beside_the_fundamental() -> None:
+    none = dict.fromkeys(("band", "lag_seconds", "smoothing_seconds", "harmonics"))
+    request = prepared(TONE, RATE, start=0.0, lag_window="hann", order=6, bias=True, **none)
+    assert request.like({"harmonics": (1, 2, 5), "hysteresis": 0.25}).multiples == (2, 5)
+    assert request.like({"harmonics": (1, 2, 5), "hysteresis": 0.25}).hysteresis == 0.25
+    assert request.like({"harmonics": (1,)}).multiples == ()
+    assert request.like({}).multiples is None
+
+
+@pytest.mark.parametrize(("last", "rate", "count"), [(0.29, 100.0, 30), (0.57, 100.0, 58), (1.1, 10.0, 12)])
+def test_resampling_keeps_the_last_sample(last: float, rate: float, count: int) -> None:
+    """0.29*100 is 28.999999999999996: the thirtieth sample lies on the last one all the same."""
+    time = np.sort(np.append(np.random.default_rng(1).uniform(0.0, last, 60), (0.0, last)))
+    none = np.zeros(time.size, dtype=np.bool_)
+    found = off_grid(Stamped(time, np.sin(time), np.arange(time.size), 0), none, rate, last)
+    assert found.values.size == count
+    assert found.values[-1] == pytest.approx(np.sin(last), abs=1e-6)
