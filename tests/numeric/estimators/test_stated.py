@@ -8,7 +8,9 @@ import pytest
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.recording.stretches import Stamped
 from ridgeback.numeric.recording.uniform import off_grid
-from ridgeback.numeric.tracking.request import prepared
+from ridgeback.numeric.signal.decimation import Samples
+from ridgeback.numeric.tracking.choices import Choices
+from ridgeback.numeric.tracking.request import Options, prepared
 
 RATE = 32.0
 TIME = np.arange(641) / RATE
@@ -44,12 +46,11 @@ def test_the_window_of_the_polynomial_distribution_is_the_one_asked_for(lag: flo
 
 
 def test_a_trial_fits_the_harmonics_of_its_track_beside_the_fundamental() -> None:
-    none = dict.fromkeys(("band", "lag_seconds", "smoothing_seconds", "harmonics"))
-    request = prepared(TONE, RATE, start=0.0, lag_window="hann", order=6, bias=True, **none)
-    assert request.like({"harmonics": (1, 2, 5), "hysteresis": 0.25}).multiples == (2, 5)
-    assert request.like({"harmonics": (1, 2, 5), "hysteresis": 0.25}).hysteresis == 0.25
-    assert request.like({"harmonics": (1,)}).multiples == ()
-    assert request.like({}).multiples is None
+    request = prepared(Samples(TONE, RATE, 0.0), Options())
+    like = request.like(Choices(harmonics=(1, 2, 5), hysteresis=0.25))
+    assert (like.plan.multiples, like.plan.hysteresis) == ((2, 5), 0.25)
+    assert request.like(Choices(harmonics=(1,))).plan.multiples == ()
+    assert request.like(Choices()).plan.multiples is None
 
 
 @pytest.mark.parametrize(("last", "rate", "count"), [(0.29, 100.0, 30), (0.57, 100.0, 58), (1.1, 10.0, 12)])
