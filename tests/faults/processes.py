@@ -67,7 +67,7 @@ ENVIRONMENT: tuple[Case, ...] = (
     shell("$R derive pendulum --order 4 --verify", 0, "1/3072", PYTHONOPTIMIZE="2"),
     shell("$R derive damped-pendulum --order 4", 0, "mu^2", PYTHONHASHSEED="7"),
     shell("$R derive pendulum --order 2", 0, "-1/16", RIDGEBACK_DEBUG="1"),
-    shell(f"(ulimit -v 600000; {HILBERT})", 0, "400 samples"),
+    shell(f"(ulimit -v 2000000; {HILBERT})", 0, "400 samples"),
     shell("(ulimit -n 32; $R derive pendulum --order 2)", 0, "-1/16"),
 )
 
