@@ -251,7 +251,10 @@ def estimation(
     if method == "harmonic-least-squares":
         request = for_least_squares(request)
     progress(0.3, name)
-    found = ESTIMATORS[name](request)
+    try:
+        found = ESTIMATORS[name](request)
+    except InputError as error:
+        raise (error if noise.found else InputError(f"{noise.reason}; {name}: {error}")) from None
     progress(0.5, f"bias and interval of {name}")
     track = known_well(without_bias(with_bias(found, ESTIMATORS[name], request), remove_bias))
     progress(1.0, "done")
