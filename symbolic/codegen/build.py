@@ -10,7 +10,8 @@ from sympy import Expr, Integer
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.rendering import as_sympy
-from ridgeback.symbolic.codegen.motion import motion_functions
+from ridgeback.symbolic.codegen.motions.motion import motion_functions
+from ridgeback.symbolic.codegen.motions.transient import transient_functions
 from ridgeback.symbolic.codegen.naming import argument_names, variable_name
 from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real
 from ridgeback.symbolic.codegen.polynomial import K, derivative, polynomial_function
@@ -176,11 +177,12 @@ def slow_flow_form(flow: SlowFlow, request: CodeRequest) -> Form:
     )
     rate = "Relative rate of change of the amplitude, a'/a, per unit of time."
     domain = request.domain("a")
-    functions = (
+    functions: tuple[Function, ...] = (
         slow_function("omega0", OMEGA0, arguments, domain, flow, flow.omega, request.real),
         slow_function("growth_rate", rate, arguments, domain, flow, flow.delta, request.real),
         slow_function("amplitude_rate", A_RATE, arguments, domain, flow, flow.delta, request.real, more=1),
     )
+    functions += transient_functions(functions[0], functions[2], domain, request.real)
     facts = (
         *common_facts(flow.method, request.equation),
         f"Amplitude a: {MEANINGS['fundamental']}.",

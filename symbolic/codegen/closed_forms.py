@@ -17,6 +17,7 @@ from flint import arb, ctx, fmpq
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import ball
 from ridgeback.symbolic.codegen.build import OMEGA0, SCALING, frequency_argument, limit_fact, variable_meaning
+from ridgeback.symbolic.codegen.motions.trigonometry import sine_of_small
 from ridgeback.symbolic.codegen.naming import variable_name
 from ridgeback.symbolic.codegen.polynomial import K
 from ridgeback.symbolic.codegen.program import Argument, Domain, Form, Function, Operand, Steps, needed
@@ -24,7 +25,6 @@ from ridgeback.symbolic.codegen.proofs.bounds import upper
 from ridgeback.symbolic.codegen.proofs.notes import upwards
 from ridgeback.symbolic.codegen.request import CodeRequest
 from ridgeback.symbolic.codegen.resummations import means_steps, number_of
-from ridgeback.symbolic.codegen.trigonometry import sine_of_small
 from ridgeback.symbolic.resummation.elliptic_nome import Means, NomeForm, PendulumMeans, nome
 from ridgeback.symbolic.systems.oscillator import Oscillator
 

@@ -52,7 +52,8 @@ math np numpy xp numba njit float len list range type isinstance array print sel
 _OWN: Final = """
 k omega0 omega0_slope amplitude
 amplitude_rate growth_rate growth_rate a A out count index table values motion mean t i j n w
-result quotient k_inverse k_squared_inverse scaled rest root fall rise inner moved distance vanishing grown half_angle
+result quotient h half_step middle ends sixth k_inverse k_squared_inverse scaled
+rest root fall rise inner moved distance vanishing grown half_angle
 total gap area ratio m ell q theta theta_squared turn taken pairs odd sign even uneven cosine sine twice u high low
 high_share low_share high_inside low_inside rounded product lost sum_low share head fraction block
 start stop size point points expected given failed
@@ -62,7 +63,7 @@ _FOLDED: Final = frozenset(word.lower() for word in _TAKEN)
 """Fortran does not tell capitals from small letters."""
 # Horner's intermediate results, what is computed from an argument, and the prefixes of what is computed inside.
 _MADE: Final = re.compile(
-    r"[yz]\d*(_\d+)*|[cs]_sum\d*|(w|[cs]\d+|omega0|self|total|low|high|root)_.*|k_?\d+"
+    r"[yz]\d*(_\d+)*|[cs]_sum\d*|([aw]\d*|at|[cs]\d+|omega0|self|total|low|high|root)_.*|k_?\d+"
     r"|.*_(squared|scaled|unchecked|array|test|value|\d+|(by|times)_k(_\d+)?|[hlabrt]{1,2})|__.*"
 )
 _IDENTIFIER: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*")

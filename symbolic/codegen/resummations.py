@@ -16,13 +16,13 @@ from ridgeback.symbolic.codegen.build import (
     limit_fact,
     variable_meaning,
 )
+from ridgeback.symbolic.codegen.motions.trigonometry import cosine_to_quarter
 from ridgeback.symbolic.codegen.naming import variable_name
 from ridgeback.symbolic.codegen.number import Number
 from ridgeback.symbolic.codegen.polynomial import K, measured
 from ridgeback.symbolic.codegen.program import Argument, Form, Function, Operand, Steps, needed
 from ridgeback.symbolic.codegen.proofs.notes import rounded_down_text
 from ridgeback.symbolic.codegen.request import CodeRequest
-from ridgeback.symbolic.codegen.trigonometry import cosine_to_quarter
 from ridgeback.symbolic.resummation.elliptic_nome import DuffingMeans, Means, NomeForm, PendulumMeans, theta_3
 from ridgeback.symbolic.resummation.mapping import CutPlane, Euler, Identity, Mapping, Pair
 from ridgeback.symbolic.resummation.pade import RationalForm

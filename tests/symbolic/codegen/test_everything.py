@@ -21,6 +21,7 @@ from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.ordering import undamped
+from ridgeback.symbolic.flow.transient import transient
 from ridgeback.symbolic.systems.catalogue import catalogue, find
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -86,6 +87,24 @@ def test_the_right_hand_side_of_a_slow_flow() -> None:
     at = (0.7, 0.02, 1.0)
     growth, rate = (value_at(form, function(form, name), at) for name in ("growth_rate", "amplitude_rate"))
     assert rate == pytest.approx(0.7 * growth, rel=1e-15)
+
+
+@pytest.mark.parametrize(("system", "small", "start"), [("damped-pendulum", 0.02, 1.2), ("van-der-pol", 0.1, 0.7)])
+def test_steps_make_the_transient(system: str, small: float, start: float) -> None:
+    """Against the closed form, or the Taylor series in time, of the same slow flow; of order 4 in the step."""
+    flow = multiple_scales(find(system), 4)
+    form, end = form_of(flow), 60.0
+    exact = transient(flow, [0.0, end], [small], amplitude=start, phase=0.0)
+    errors = []
+    for count in (40, 80):
+        a, phi, h = start, 0.0, end / count
+        for _ in range(count):
+            phi += value_at(form, function(form, "phase_after"), (a, h, small, 1.0))
+            a = value_at(form, function(form, "amplitude_after"), (a, h, small, 1.0))
+        errors.append((abs(a - exact.amplitude[-1]), abs(phi - exact.phase[-1])))
+    assert errors[1][0] < 1e-6
+    assert errors[1][1] < 1e-6
+    assert all(fine < max(coarse / 12, 1e-10) for fine, coarse in zip(errors[1], errors[0], strict=True))
 
 
 class Shouting(Python):

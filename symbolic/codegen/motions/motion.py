@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Protocol
 
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.codegen.motions.trigonometry import clenshaw, cosine_and_sine
 from ridgeback.symbolic.codegen.program import (
     Argument,
     Domain,
@@ -19,11 +20,10 @@ from ridgeback.symbolic.codegen.program import (
     Steps,
     needed,
 )
-from ridgeback.symbolic.codegen.trigonometry import clenshaw, cosine_and_sine
 from ridgeback.symbolic.series.trigonometric import degree, harmonic
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from ridgeback.symbolic.codegen.number import Real
     from ridgeback.symbolic.expansion.expansion import Expansion
@@ -83,12 +83,12 @@ def _motion(series: Series, rate: Function, parts: dict[tuple[str, int], Functio
     return Function("motion", "Displacement u at time t.", arguments, body, value, series.domain)
 
 
-def inlined(steps: Steps, function: Function, prefix: str) -> Operand:
-    """Append the statements of a function under names with a prefix; arguments keep theirs."""
-    given = {a.name for a in function.arguments}
+def inlined(steps: Steps, function: Function, prefix: str, bound: Mapping[str, str] | None = None) -> Operand:
+    """Append the statements of a function under names with a prefix; arguments keep theirs, or those of ``bound``."""
+    given = {a.name: a.name for a in function.arguments} | dict(bound or {})
 
     def named(operand: Operand) -> Operand:
-        return f"{prefix}_{operand}" if isinstance(operand, str) and operand not in given else operand
+        return given.get(operand, f"{prefix}_{operand}") if isinstance(operand, str) else operand
 
     def renamed(statement: Statement) -> Statement:
         if isinstance(statement, Horner):
