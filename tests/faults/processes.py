@@ -85,7 +85,7 @@ STREAMS: tuple[Case, ...] = (
     shell("$R simulate linear --duration 300 --rate 300 | head -n 1; [ ${PIPESTATUS[0]} = 141 ]", 0, "time_s,u"),
     shell("$R derive pendulum | true; [ ${PIPESTATUS[0]} = 141 ]", 0),
     shell("$R derive pendulum --format json | $PYTHON -m json.tool --compact", 0, "pendulum"),
-    shell("$R estimate <(cat decay.csv)", 2, "suffix"),
+    shell("$R estimate <(cat decay.csv)", 2, "is a pipe", "in a file first"),
     shell("$R estimate /dev/stdin < decay.csv", 2, "suffix"),
 )
 

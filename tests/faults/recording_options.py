@@ -12,7 +12,7 @@ CASES: tuple[Case, ...] = (
     refused("identify decay.csv --criterion aic", "'aic'", "is not one of"),
     refused("identify decay.csv --span 5", "'5'", "write for example"),
     refused("identify decay.csv --span 5,1", "'5,1'", "write for example"),
-    refused("identify decay.csv --span 100,200", "decay.csv: 0 samples lie within", "the recording runs"),
+    refused("identify decay.csv --span 100,200", "100 to 200 holds 0 samples", "the recording runs"),
     refused("identify decay.csv --span x,y", "'x'", "write a decimal"),
     refused("identify decay.csv --predict-from 0", "'0'", "give a positive"),
     refused("identify decay.csv --predict-from 1e6", "decay.csv: predicting from 1e+06 of", "use 6 to"),
