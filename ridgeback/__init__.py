@@ -58,9 +58,9 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.numeric.model_fit.fit import ModelFit as ModelFit
     from ridgeback.numeric.motion.dynamics import Dynamics as Dynamics
     from ridgeback.numeric.motion.trajectory import Trajectory as Trajectory
+    from ridgeback.numeric.recording.reading import read_recording as read_recording
+    from ridgeback.numeric.recording.reading import read_recordings as read_recordings
     from ridgeback.numeric.recording.recording import Recording as Recording
-    from ridgeback.numeric.recording.recording import read_recording as read_recording
-    from ridgeback.numeric.recording.recording import read_recordings as read_recordings
     from ridgeback.numeric.recording.recording import recordings_from_arrays as recordings_from_arrays
     from ridgeback.numeric.tracking.track import Track as Track
     from ridgeback.symbolic.certificates.at_amplitudes import certified_frequencies as certified_frequencies

@@ -24,7 +24,8 @@ from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.orbits.period import exact_frequency
 from ridgeback.numeric.orbits.potential import peak_limit
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
-from ridgeback.numeric.recording.recording import Recording, read_recording
+from ridgeback.numeric.recording.reading import read_recording
+from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.tracking.track import Track
 from ridgeback.symbolic.systems.oscillator import Oscillator
 

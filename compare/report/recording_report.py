@@ -18,7 +18,8 @@ from ridgeback.compare.report.provenance import provenance
 from ridgeback.compare.report.recording_summary import recording_cards, recording_sentences, recording_title
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.report.stages import Stopwatch
-from ridgeback.numeric.recording.recording import Recording, read_recording
+from ridgeback.numeric.recording.reading import read_recording
+from ridgeback.numeric.recording.recording import Recording
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 

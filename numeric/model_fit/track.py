@@ -21,7 +21,8 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.model_fit.fit import ModelFit
 from ridgeback.numeric.model_fit.sensitivity import respond
 from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
-from ridgeback.numeric.motion.trajectory import CrossingEvents, Trajectory, TurningEvents, integrate
+from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
+from ridgeback.numeric.motion.trajectory import Trajectory, integrate
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.choices import Choices
 from ridgeback.numeric.tracking.track import Misfit, Track

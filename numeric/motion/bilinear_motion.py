@@ -20,13 +20,8 @@ from scipy.optimize import brentq
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, frozen, frozen_mask
 from ridgeback.numeric.motion.bilinear import Bilinear, as_dynamics
-from ridgeback.numeric.motion.trajectory import (
-    CrossingEvents,
-    Trajectory,
-    TurningEvents,
-    check_request,
-    sample_times,
-)
+from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
+from ridgeback.numeric.motion.trajectory import Trajectory, check_request, sample_times
 
 MAX_PIECES = 1_000_000
 _ROUNDING = 4 * float(np.spacing(1.0))

@@ -33,8 +33,9 @@ from scipy.interpolate import BSpline, make_interp_spline
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask, frozen
 from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.numeric.motion.events import CrossingEvents
 from ridgeback.numeric.motion.roots import bracketed_newton
-from ridgeback.numeric.motion.trajectory import CrossingEvents, Trajectory
+from ridgeback.numeric.motion.trajectory import Trajectory
 
 _DEGREE = 7
 _LEAST_EVENTS = 4

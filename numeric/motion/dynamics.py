@@ -14,8 +14,9 @@ import mpmath as mp
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ridgeback.common.elementary import powers, wave_pair
 from ridgeback.common.errors import InputError
-from ridgeback.common.recurrences import Combination, Input, Node, Product, powers, wave_pair
+from ridgeback.common.recurrences import Combination, Input, Node, Product
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.precise_ring import PRECISE, Jet, Precise, solution_jet
 from ridgeback.numeric.motion.roots import bracketed_newton

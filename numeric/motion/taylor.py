@@ -19,13 +19,12 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, frozen, frozen_mask
 from ridgeback.numeric.motion.dynamics import Dynamics, well
+from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
 from ridgeback.numeric.motion.precise_ring import Precise
 from ridgeback.numeric.motion.trajectory import (
     MEMORY_BUDGET,
-    CrossingEvents,
     Interpolant,
     Trajectory,
-    TurningEvents,
     check_inside,
     check_request,
     sample_times,

@@ -13,8 +13,9 @@ from numpy.typing import ArrayLike
 from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolution, Radau
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import Array, Mask, frozen, frozen_mask
+from ridgeback.numeric.arrays import Array, frozen, frozen_mask
 from ridgeback.numeric.motion.dynamics import Dynamics, well
+from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
 from ridgeback.numeric.motion.roots import bracketed_newton
 from ridgeback.numeric.motion.shown import ShownTrajectory
 
@@ -38,23 +39,6 @@ MAX_EVALUATIONS = 20_000_000
 _BYTES_PER_SAMPLE = 24  # time, u and u' in float64
 _EVALUATIONS_PER_CYCLE = 700  # of the period 2 pi / k: DOP853 at rtol 1e-12 on the paper's case takes 672
 _SUBDIVISIONS = 4  # of each step, when looking for sign changes
-
-
-@dataclass(frozen=True)
-class CrossingEvents:
-    """Zero crossings of u in order of time: when, upward or not, and the velocity there."""
-
-    time: Array
-    rising: Mask
-    velocity: Array
-
-
-@dataclass(frozen=True)
-class TurningEvents:
-    """Turning points (u' = 0) in order of time: when, and the value of u there."""
-
-    time: Array
-    value: Array
 
 
 @dataclass(frozen=True, repr=False)

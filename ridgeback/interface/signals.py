@@ -8,7 +8,8 @@ from typing import Any, TypeAlias
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.motion.trajectory import Trajectory
-from ridgeback.numeric.recording.recording import Recording, read_recording
+from ridgeback.numeric.recording.reading import read_recording
+from ridgeback.numeric.recording.recording import Recording
 
 SignalLike: TypeAlias = Any
 """A Recording, a path, a Trajectory, or samples: a list, an array, a masked array, a pandas or xarray object."""

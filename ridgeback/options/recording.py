@@ -46,14 +46,14 @@ class Reading:
 
     def one(self, file: str) -> Recording:
         """The longest stretch of the one signal; the file's own problems are named by the reader."""
-        from ridgeback.numeric.recording.recording import read_recording
+        from ridgeback.numeric.recording.reading import read_recording
 
         where: dict[str, Any] = {"column": self.column, "time_column": self.time_column, "rate": self.rate}
         return read_recording(file, **where, **self.treatment.given())
 
     def all(self, files: Sequence[str]) -> tuple[Recording, ...]:
         """Every stretch of every channel of every run."""
-        from ridgeback.numeric.recording.recording import read_recordings
+        from ridgeback.numeric.recording.reading import read_recordings
 
         return read_recordings(
             files,

@@ -83,7 +83,7 @@ class Expansion(ShownExpansion):
     names : tuple of str
         Symbols that the coefficients hold: parameters without a value, and those of ``constants``.
     constants : mapping of str to sympy.Expr
-        Values of the symbols that stand for irrational numbers and for 1/k^2; see ``oscillator.Normalised``.
+        Values of the symbols that stand for irrational numbers and for 1/k^2; see ``natural_units.Normalised``.
     velocity : bool
         Whether the force holds u', so that two amplitude definitions do not exist.
 

@@ -24,9 +24,10 @@ from typing import Final, NamedTuple, TypeAlias
 
 import sympy
 
+from ridgeback.common.elementary import powers
 from ridgeback.common.errors import InputError
 from ridgeback.common.number_ring import FLOATS
-from ridgeback.common.recurrences import Combination, Input, powers
+from ridgeback.common.recurrences import Combination, Input
 from ridgeback.symbolic.arithmetic.rendering import series_latex
 from ridgeback.symbolic.flow.slow_flow import SlowFlow, amplitude_powers, rounded
 from ridgeback.symbolic.flow.term import Term

@@ -15,22 +15,9 @@ from typing import Any, Final, Protocol
 
 import sympy
 
+from ridgeback.common.elementary import Function, Logarithm, Power, Tangent, wave_pair
 from ridgeback.common.errors import InputError
-from ridgeback.common.recurrences import (
-    Element,
-    Fixed,
-    Function,
-    Input,
-    Logarithm,
-    Node,
-    Power,
-    Quotient,
-    Ring,
-    Scaled,
-    Sum,
-    Tangent,
-    wave_pair,
-)
+from ridgeback.common.recurrences import Element, Fixed, Input, Node, Quotient, Ring, Scaled, Sum
 
 # The derivatives of the functions that are integrals of algebraic ones (DLMF 4.24.7 to 4.24.9, 4.40.7 to 4.40.11).
 _DERIVATIVES: Final[dict[str, Callable[[sympy.Expr], sympy.Expr]]] = {

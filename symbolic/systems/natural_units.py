@@ -197,3 +197,28 @@ def _named_power(e: sympy.Expr, names: dict[sympy.Expr, sympy.Symbol]) -> sympy.
 
 def _name(value: sympy.Expr, names: dict[sympy.Expr, sympy.Symbol]) -> sympy.Symbol:
     return names.setdefault(value, sympy.Symbol(f"c{len(names) + 1}{MARK}", real=True))
+
+
+@dataclass(frozen=True)
+class Normalised:
+    """An oscillator in natural units: time is tau = k*t, u is unchanged, and ' is d/dtau, so that u'' + u + ... = 0.
+
+    ``force`` is f(u, k*u')/k**2 with every parameter inserted except two that engines expand in and that therefore
+    stay as symbols: the linear damping ``mu`` (here standing for mu/k) and the limit cycle's ``eps`` (for eps/k).
+    All coefficients are rational when the parameters are and odd powers of u' carry mu or eps.
+    ``bound`` is the same force with those two inserted as well.  ``scale`` is k.
+    """
+
+    force: sympy.Expr
+    bound: sympy.Expr
+    scale: sympy.Expr
+    damping: sympy.Expr
+    """The value of mu/k; 0 when there is no such parameter."""
+    small: sympy.Expr | None
+    """The value of eps/k of a limit cycle, None elsewhere."""
+    potential: sympy.Expr | None
+    """Potential of the restoring force in natural units, V(u)/k**2."""
+    rational: sympy.Expr
+    """``bound`` with symbols for what is not polynomial over the rationals; see ``natural_units``."""
+    constants: Mapping[str, sympy.Expr]
+    """The values of those symbols by their names, which no parameter can have."""

@@ -19,7 +19,7 @@ from ridgeback.symbolic.grammar.at_origin import brief, sign_at_origin, value_at
 from ridgeback.symbolic.grammar.parse import Equation, U, V, W, names, parse_equation, parse_expression, to_sympy
 from ridgeback.symbolic.systems.equation_latex import equation_latex
 from ridgeback.symbolic.systems.losses import by_reciprocals, with_named_losses
-from ridgeback.symbolic.systems.natural_units import in_natural_units
+from ridgeback.symbolic.systems.natural_units import Normalised, in_natural_units
 from ridgeback.symbolic.systems.parameters import Parameters, Value, merged, reciprocal
 from ridgeback.symbolic.systems.potential import checked_potential, potential_of
 from ridgeback.symbolic.systems.structure import (
@@ -32,7 +32,7 @@ from ridgeback.symbolic.systems.structure import (
     without_sizes,
 )
 
-__all__ = ["Kind", "Normalised", "Oscillator", "U", "V", "Value", "W"]
+__all__ = ["Kind", "Oscillator", "U", "V", "Value", "W"]
 
 Kind: TypeAlias = Literal["conservative", "reversible", "damped", "limit-cycle"]
 """``reversible``: orbits close by a symmetry under (u, t) -> (-u, -t), without an energy."""
@@ -44,31 +44,6 @@ class NoLinearForceError(InputError):
     def __init__(self, message: str, oscillator: Oscillator) -> None:
         super().__init__(message)
         self.oscillator = oscillator
-
-
-@dataclass(frozen=True)
-class Normalised:
-    """An oscillator in natural units: time is tau = k*t, u is unchanged, and ' is d/dtau, so that u'' + u + ... = 0.
-
-    ``force`` is f(u, k*u')/k**2 with every parameter inserted except two that engines expand in and that therefore
-    stay as symbols: the linear damping ``mu`` (here standing for mu/k) and the limit cycle's ``eps`` (for eps/k).
-    All coefficients are rational when the parameters are and odd powers of u' carry mu or eps.
-    ``bound`` is the same force with those two inserted as well.  ``scale`` is k.
-    """
-
-    force: sympy.Expr
-    bound: sympy.Expr
-    scale: sympy.Expr
-    damping: sympy.Expr
-    """The value of mu/k; 0 when there is no such parameter."""
-    small: sympy.Expr | None
-    """The value of eps/k of a limit cycle, None elsewhere."""
-    potential: sympy.Expr | None
-    """Potential of the restoring force in natural units, V(u)/k**2."""
-    rational: sympy.Expr
-    """``bound`` with symbols for what is not polynomial over the rationals; see ``natural_units``."""
-    constants: Mapping[str, sympy.Expr]
-    """The values of those symbols by their names, which no parameter can have."""
 
 
 @dataclass(frozen=True, repr=False)

@@ -16,7 +16,7 @@ from scipy.io import savemat
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.files.matlab import from_mat
 from ridgeback.numeric.files.readers import READERS
-from ridgeback.numeric.recording.recording import read_recording, read_recordings
+from ridgeback.numeric.recording.reading import read_recording, read_recordings
 
 h5py = pytest.importorskip("h5py")
 

@@ -9,8 +9,9 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import frozen, frozen_mask
 from ridgeback.numeric.motion.cycle_frequency import Events, cycle_frequency, is_symmetric
 from ridgeback.numeric.motion.dynamics import duffing, helmholtz_duffing, linear, pendulum, van_der_pol
+from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
 from ridgeback.numeric.motion.roots import bracketed_newton
-from ridgeback.numeric.motion.trajectory import CrossingEvents, Trajectory, TurningEvents, integrate
+from ridgeback.numeric.motion.trajectory import Trajectory, integrate
 from ridgeback.numeric.orbits.period import exact_frequency
 
 

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.recording.recording import Recording, read_recording, recordings_from_arrays
+from ridgeback.numeric.recording.reading import read_recording
+from ridgeback.numeric.recording.recording import Recording, recordings_from_arrays
 
 RATE = 16.0
 T = np.arange(200) / RATE

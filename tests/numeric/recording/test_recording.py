@@ -11,7 +11,7 @@ from scipy.io import wavfile
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.files.text import parse_table
-from ridgeback.numeric.recording.recording import read_recording
+from ridgeback.numeric.recording.reading import read_recording
 
 TIME = np.arange(40) / 20.0
 VALUES = np.sin(TIME) + 0.25

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.recording.clipping import clipped
 from ridgeback.numeric.recording.drift import detrended, slow_part, wandering
-from ridgeback.numeric.recording.recording import read_recording, read_recordings
+from ridgeback.numeric.recording.reading import read_recording, read_recordings
 from ridgeback.numeric.recording.uniform import Uniform, grid_of, resampled, rms, spline_values
 from ridgeback.numeric.signal.search_band import find_search_band
 

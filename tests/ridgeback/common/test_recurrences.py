@@ -9,22 +9,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ridgeback.common.elementary import Function, Logarithm, Power, Tangent, powers, wave_pair
 from ridgeback.common.errors import InputError
 from ridgeback.common.number_ring import FLOATS, NumberRing
-from ridgeback.common.recurrences import (
-    Combination,
-    Fixed,
-    Function,
-    Input,
-    Logarithm,
-    Power,
-    Product,
-    Quotient,
-    Tangent,
-    powers,
-    solution,
-    wave_pair,
-)
+from ridgeback.common.recurrences import Combination, Fixed, Input, Product, Quotient, solution
 
 RATIONALS = NumberRing(
     Fraction,
