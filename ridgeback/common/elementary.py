@@ -143,6 +143,7 @@ def powers(ring: Ring, x: Node, highest: int) -> list[Node]:
     Examples
     --------
     >>> from ridgeback.common.number_ring import FLOATS
+    >>> from ridgeback.common.recurrences import Input
     >>> [node.get(1) for node in powers(FLOATS, Input(FLOATS, [1.0, 1.0]), 3)]
     [0.0, 1.0, 2.0, 3.0]
     """

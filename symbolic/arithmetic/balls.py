@@ -104,8 +104,8 @@ def whole_power(x: arb, n: int) -> arb:
     return result
 
 
-def polynomial_at(coefficients: Sequence[fmpq], x: arb) -> arb:
-    """Return the value of a polynomial with exact coefficients on a ball.
+def polynomial_at(coefficients: Sequence[fmpq | arb], x: arb) -> arb:
+    """Return the value of a polynomial, its coefficients exact or balls, on a ball.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ import sympy
 from flint import arb, ctx, fmpq
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.arithmetic.balls import natural_frequency
+from ridgeback.symbolic.arithmetic.balls import natural_frequency, polynomial_at
 from ridgeback.symbolic.expansion.expansion import Expansion
 
 
@@ -83,10 +83,7 @@ class BallExpansion:
 
         The terms left out are not in it: it encloses the series, not the exact frequency.
         """
-        total = arb(0)
-        for c in reversed(self.frequency):
-            total = total * value + c
-        return total
+        return polynomial_at(self.frequency, value)
 
     def misses(self, exact: Expansion) -> list[int]:
         """Orders at which an exact coefficient, of omega0 or of the amplitude, lies outside its ball (none: good).
@@ -96,7 +93,7 @@ class BallExpansion:
         if (self.system, self.variable, self.amplitude) != (exact.system, exact.variable, exact.amplitude):
             raise InputError(
                 f"balls for {self.system} ({self.amplitude}) meet the series of {exact.system} ({exact.amplitude}); "
-                "ridgeback.compare expansions of one oscillator in one amplitude definition"
+                "compare expansions of one oscillator in one amplitude definition"
             )
         pairs = [(self.coefficients, exact.coefficients)]
         pairs += [(self.amplitude_coefficients or (), exact.amplitude_coefficients or ())]

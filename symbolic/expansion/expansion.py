@@ -19,7 +19,7 @@ from flint import arb, fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
-from ridgeback.symbolic.arithmetic.balls import natural_frequency, number_ball
+from ridgeback.symbolic.arithmetic.balls import natural_frequency, number_ball, polynomial_at
 from ridgeback.symbolic.arithmetic.rendering import (
     as_sympy,
     coefficient_row,
@@ -185,13 +185,11 @@ class Expansion(ShownExpansion):
             raise InputError(
                 f"the coefficients hold {', '.join(self.symbolic_names)} as symbols; set them before evaluating"
             )
-        k, total = natural_frequency(self.scale), arb(0)
+        k = natural_frequency(self.scale)
         x = value / k if self.scaled_variable else value
         if self.constants:
             coefficients = tuple(number_ball(self.exact(c)) for c in coefficients)
-        for c in reversed(coefficients):
-            total = total * x + c
-        return k * total
+        return k * polynomial_at(coefficients, x)
 
     def __call__(self, value: Any) -> Any:
         """Evaluate omega0 in rad per time unit, at a number or an array (float), or exactly at a Fraction.
