@@ -24,14 +24,14 @@ def csv_text(columns: Sequence[str], rows: Iterable[Row]) -> str:
 def readable(value: Any) -> str:
     """A value for reading: six significant digits, a dash for a missing one.
 
-    >>> readable(1.23456789), readable(None), readable(12), readable(2.5e-13)
-    ('1.23457', '-', '12', '2.5e-13')
+    >>> readable(1.23456789), readable(None), readable(12), readable(2.5e-13), readable("-3*sqrt(2)/8")
+    ('1.23457', '-', '12', '2.5e-13', '-3*sqrt(2)/8')
     """
     if value is None or (isinstance(value, float) and not math.isfinite(value)):
         return "-"
     if isinstance(value, float):
         return f"{value:.6g}"
-    return cell(value)
+    return value if isinstance(value, str) else cell(value)  # the guard of cells is for spreadsheets, not for reading
 
 
 def aligned(columns: Sequence[str], rows: Iterable[Row]) -> str:

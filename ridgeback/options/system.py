@@ -76,7 +76,7 @@ def choosing(command: Command) -> Command:
             "--about",
             default=None,
             metavar="U",
-            help="Measure the unknown from this equilibrium: a number such as 1, -1/2, sqrt(2) or pi.",
+            help="Measure the unknown from this equilibrium: 1, -1/2, 2**(1/3), pi, or a decimal near one.",
         ),
         click.option(
             "--potential",

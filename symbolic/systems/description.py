@@ -43,6 +43,7 @@ from ridgeback.symbolic.grammar.nodes import (
     to_text,
 )
 from ridgeback.symbolic.grammar.parse import Equation, U, V, W, parse_equation, parse_expression, to_sympy
+from ridgeback.symbolic.systems.equilibrium import near_equilibrium, numbers
 from ridgeback.symbolic.systems.oscillator import NoLinearForceError, Oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
@@ -61,7 +62,8 @@ def from_text(
     equation : str
         Such as ``"u'' + u + u**3 = 0"``; read by Ridgeback's own grammar.
     about : str, optional
-        The equilibrium, a number such as ``"1"`` or ``"sqrt(2)"``.
+        The equilibrium, a number such as ``"1"`` or ``"2**(1/3)"``; a decimal within a unit of its last place of an
+        equilibrium stands for that, exactly.
     parameters : mapping of str to number or str, optional
         Values of parameters.
     **details
@@ -92,9 +94,10 @@ def from_text(
     if "potential" in details:
         raise InputError(f"a potential cannot be given together with about = {about}; leave it out")
     moved_tree = _moved(tree.left, place)
-    rest = sympy.expand(to_sympy(moved_tree).subs({U: 0, V: 0, W: 0}))
+    values = numbers(tree, parameters or {})
+    rest = sympy.expand(to_sympy(moved_tree).subs({U: 0, V: 0, W: 0}).subs(values))
     if rest.is_number and rest != 0:
-        raise InputError(f"about {about} is not an equilibrium: the equation leaves {rest} there and not 0")
+        moved_tree = _moved(tree.left, parse_expression(str(near_equilibrium(tree, about, parameters or {}))))
     moved = Equation(tree.unknown, moved_tree, to_text(moved_tree, unknown=tree.unknown) + " = 0")
     try:
         return Oscillator.from_tree(moved, parameters=parameters, **details)

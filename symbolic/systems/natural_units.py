@@ -121,7 +121,7 @@ def _divides(e: sympy.Expr) -> bool:
 
 
 def _held(value: sympy.Expr) -> bool:
-    return bool(value.free_symbols)
+    return bool(value.free_symbols) or (_irrational(value) and value != 0)
 
 
 def _at_rest(e: sympy.Expr) -> sympy.Expr:
