@@ -2,7 +2,7 @@
 
 Each public name is imported from its room on first use, so that ``import ridgeback`` costs nothing.  An oscillator may
 be named in any way: a name of the catalogue, an equation as text, a SymPy equation, a TOML path.  A signal is a list,
-an array, a masked array, a pandas or xarray object, a recording or a file.
+an array, a masked array, a pandas or xarray object, a trajectory, a recording or a file.
 
 >>> import ridgeback
 >>> ridgeback.lindstedt("pendulum", 4).frequency

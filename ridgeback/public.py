@@ -42,7 +42,7 @@ PUBLIC: Final = (
     Public("energy_integral", "symbolic.expansion.energy_integral", _DERIVE, "omega0 from the potential alone"),
     Public("lindstedt_in_balls", "symbolic.high_order.in_balls", _DERIVE, "very high orders, enclosed"),
     Public("lindstedt_by_primes", "symbolic.high_order.by_primes", _DERIVE, "very high orders, exactly"),
-    Public("generate", "interface.derive", _DERIVE, "a formula as Python or C, its rounding bounded"),
+    Public("generate", "interface.derive", _DERIVE, "a formula as code in eleven languages"),
     Public("Budget", "symbolic.expansion.cost", _DERIVE, "the time and memory that a derivation may take"),
     Public("periodic_orbit", "interface.orbits", _PROVE, "a limit cycle found by shooting"),
     Public("precise_orbit", "interface.orbits", _PROVE, "a limit cycle to any number of digits"),

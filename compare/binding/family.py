@@ -16,6 +16,7 @@ from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.symbolic.arithmetic.closures import evaluator
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.parameters import symbol_of
 
 START = 1.0
 """Where a free parameter begins that has no value."""
@@ -50,9 +51,9 @@ def family_of(oscillator: OscillatorLike, free: Sequence[str]) -> Family:
     """
     oscillator = as_oscillator(oscillator)
     _check(oscillator, free)
-    fixed = {_symbol(name): value for name, value in oscillator.parameters.items() if name not in free}
+    fixed = {symbol_of(name): value for name, value in oscillator.parameters.items() if name not in free}
     force = oscillator.force.subs(fixed)
-    symbols = (U, V, *(_symbol(name) for name in free))
+    symbols = (U, V, *(symbol_of(name) for name in free))
     scalar, vector = evaluator(force, symbols, SCALAR), evaluator(force, symbols, ARRAY)
     slopes = [evaluator(sympy.diff(force, symbol), symbols, SCALAR) for symbol in symbols]
 
@@ -72,10 +73,6 @@ def family_of(oscillator: OscillatorLike, free: Sequence[str]) -> Family:
         partials=lambda u, v, p: tuple(slope((u, v, *p)) for slope in slopes),
         dynamics=bound,
     )
-
-
-def _symbol(name: str) -> sympy.Symbol:
-    return sympy.Symbol(name, real=True)
 
 
 def _check(oscillator: Oscillator, free: Sequence[str]) -> None:

@@ -21,6 +21,7 @@ import sympy
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.systems.natural_units import in_natural_units
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.parameters import symbol_of
 from ridgeback.symbolic.systems.structure import dissipative_names, divided, free_names, positive_root, without_sizes
 
 ROOT: Final = "k*"
@@ -66,11 +67,11 @@ def ordered(oscillator: Oscillator, *, weight: int = 2, weights: Mapping[str, in
     (c*u' + d*u'**3 + g*u**3 + u, {'c': 2, 'd': 1}, {'c': 1, 'd': -1, 'g': 2})
     """
     chosen = _weights(oscillator, check_weight(weight), dict(weights or {}))
-    values = {_symbol(n): v for n, v in oscillator.parameters.items() if v is not None and n not in chosen}
+    values = {symbol_of(n): v for n, v in oscillator.parameters.items() if v is not None and n not in chosen}
     force = oscillator.force.subs(values)
     scale = _natural_frequency(force, oscillator, chosen)
-    symbolic = [n for n in free_names(force) if n not in chosen and not scale.has(_symbol(n))]
-    dimensions = {name: _dimension(force, _symbol(name)) for name in (*chosen, *symbolic)}
+    symbolic = [n for n in free_names(force) if n not in chosen and not scale.has(symbol_of(n))]
+    dimensions = {name: _dimension(force, symbol_of(name)) for name in (*chosen, *symbolic)}
     natural = _scaled(force, scale, dimensions)
     constants: dict[str, sympy.Expr] = {}
     if not _scales_out(natural, scale):
@@ -78,7 +79,7 @@ def ordered(oscillator: Oscillator, *, weight: int = 2, weights: Mapping[str, in
         natural, constants = _named(force, scale, dimensions)
         dimensions |= dict.fromkeys((n for n in free_names(natural) if n not in {*chosen, *UNITS}), 0)
     _check(natural, oscillator, tuple(chosen))
-    dimensions.update({name: power for name, power in UNITS.items() if natural.has(_symbol(name))})
+    dimensions.update({name: power for name, power in UNITS.items() if natural.has(symbol_of(name))})
     return Ordered(force=natural, scale=scale, weights=chosen, dimensions=dimensions, constants=constants)
 
 
@@ -111,12 +112,12 @@ def small_parameters(oscillator: Oscillator) -> tuple[str, ...]:
 
 def _carrying(force: sympy.Expr, oscillator: Oscillator, small: set[str]) -> list[str]:
     """Parameters that the rest of the linear damping vanishes with, and the stiffness not: that of eps*(u' + u**3)."""
-    left = force.subs({_symbol(name): 0 for name in small})
+    left = force.subs({symbol_of(name): 0 for name in small})
     damping, stiffness = (sympy.expand(left.diff(s).subs({U: 0, V: 0})) for s in (V, U))
     if damping == 0:
         return []
-    carriers = [name for name in oscillator.parameters if damping.subs(_symbol(name), 0) == 0]
-    return [name for name in carriers if stiffness.subs(_symbol(name), 0) != 0]
+    carriers = [name for name in oscillator.parameters if damping.subs(symbol_of(name), 0) == 0]
+    return [name for name in carriers if stiffness.subs(symbol_of(name), 0) != 0]
 
 
 def check_weight(weight: object, name: str = "") -> int:
@@ -137,10 +138,6 @@ def check_weight(weight: object, name: str = "") -> int:
     return weight
 
 
-def _symbol(name: str) -> sympy.Symbol:
-    return sympy.Symbol(name, real=True)
-
-
 def _weights(oscillator: Oscillator, weight: int, given: dict[str, int]) -> dict[str, int]:
     for name, value in given.items():
         check_weight(value, name)
@@ -153,13 +150,13 @@ def _weights(oscillator: Oscillator, weight: int, given: dict[str, int]) -> dict
 
 def _within(force: sympy.Expr, name: str, other: str, order: list[str]) -> bool:
     """Whether the parameter occurs only in terms with the other one (of two that always go together, the later)."""
-    inside = not force.subs(_symbol(other), 0).has(_symbol(name))
-    outside = not force.subs(_symbol(name), 0).has(_symbol(other))
+    inside = not force.subs(symbol_of(other), 0).has(symbol_of(name))
+    outside = not force.subs(symbol_of(name), 0).has(symbol_of(other))
     return inside and (not outside or order.index(other) < order.index(name))
 
 
 def _natural_frequency(force: sympy.Expr, oscillator: Oscillator, small: Mapping[str, int]) -> sympy.Expr:
-    slope = force.diff(U).subs({_symbol(name): 0 for name in small}).subs({U: 0, V: 0})
+    slope = force.diff(U).subs({symbol_of(name): 0 for name in small}).subs({U: 0, V: 0})
     stiffness = without_sizes(sympy.expand(slope))
     if stiffness.is_nonpositive or stiffness.has(sympy.zoo, sympy.nan):
         raise InputError(
@@ -182,21 +179,21 @@ def _dimension(force: sympy.Expr, symbol: sympy.Symbol) -> int:
 def _scaled(force: sympy.Expr, scale: sympy.Expr, dimensions: Mapping[str, int]) -> sympy.Expr:
     """f(u, k u')/k^2 with parameters in units of k; the powers of k that stay are powers of ROOT and INVERSE."""
     irrational = scale.is_number and not scale.is_Rational
-    k = _symbol(ROOT) if irrational else scale
-    units = {_symbol(name): k**power * _symbol(name) for name, power in dimensions.items() if power}
+    k = symbol_of(ROOT) if irrational else scale
+    units = {symbol_of(name): k**power * symbol_of(name) for name, power in dimensions.items() if power}
     natural = divided(force.subs({V: k * V, **units}), k**2)
     if irrational:
         square = sympy.expand(scale**2)
         return _with_powers(natural, k, lambda n: square ** (n // 2) * k ** (n % 2))
     if not scale.is_Symbol:
         return natural
-    return _with_powers(natural, k, lambda n: _symbol(ROOT) ** n if n > 0 else _symbol(INVERSE) ** -n)
+    return _with_powers(natural, k, lambda n: symbol_of(ROOT) ** n if n > 0 else symbol_of(INVERSE) ** -n)
 
 
 def _scales_out(natural: sympy.Expr, scale: sympy.Expr) -> bool:
     """Whether no root, denominator or irrational number is left, and not both k and 1/k, which no ring would cancel."""
     free = natural.free_symbols
-    both = {_symbol(name) for name in UNITS} <= free
+    both = {symbol_of(name) for name in UNITS} <= free
     return not (scale.free_symbols & free) and not both and not in_natural_units(natural, sympy.S.One, free).values
 
 
@@ -204,12 +201,12 @@ def _named(
     force: sympy.Expr, scale: sympy.Expr, dimensions: Mapping[str, int]
 ) -> tuple[sympy.Expr, dict[str, sympy.Expr]]:
     """The same with names for all that is not polynomial; k by its square, but for one power of it."""
-    k, square = _symbol(ROOT), sympy.expand(scale**2)
-    units = {_symbol(name): k**power * _symbol(name) for name, power in dimensions.items() if power}
+    k, square = symbol_of(ROOT), sympy.expand(scale**2)
+    units = {symbol_of(name): k**power * symbol_of(name) for name, power in dimensions.items() if power}
     turned = _with_powers(
         sympy.expand_mul(force.subs({V: k * V, **units})), k, lambda n: square ** (n // 2) * k ** (n % 2)
     )
-    found = in_natural_units(turned, square, [_symbol(name) for name in dimensions])
+    found = in_natural_units(turned, square, [symbol_of(name) for name in dimensions])
     return found.force, dict(found.values)
 
 
@@ -220,7 +217,7 @@ def _with_powers(expression: sympy.Expr, k: sympy.Symbol, power: Callable[[sympy
 
 
 def _check(force: sympy.Expr, oscillator: Oscillator, small: tuple[str, ...]) -> None:
-    resting = {**{_symbol(name): 0 for name in small}, U: 0, V: 0}
+    resting = {**{symbol_of(name): 0 for name in small}, U: 0, V: 0}
     if sympy.expand(force.diff(V).subs(resting)) != 0:
         raise InputError(
             f"{oscillator.name} has linear damping that does not vanish with a small parameter; write its coefficient "

@@ -13,7 +13,7 @@ from typing import Final
 import sympy
 
 from ridgeback.symbolic.grammar.parse import U, V
-from ridgeback.symbolic.systems.parameters import Parameters, reciprocal
+from ridgeback.symbolic.systems.parameters import Parameters, reciprocal, symbol_of
 from ridgeback.symbolic.systems.structure import dissipative_names, free_names
 
 INVERSE: Final = "inv_"
@@ -52,20 +52,16 @@ def with_named_losses(force: sympy.Expr, parameters: Parameters) -> Lossy:
     {'inv_Q': 1/40}
     """
     for name in [name for name in parameters if _by_reciprocal(force, name)]:
-        force = force.subs(_symbol(name), 1 / _symbol(INVERSE + name))
+        force = force.subs(symbol_of(name), 1 / symbol_of(INVERSE + name))
         value = parameters[name]
         renamed = {INVERSE + name: None if value is None else reciprocal(name, value)}
         parameters = {**{n: v for n, v in parameters.items() if n != name}, **renamed}
     return _numbers_named(force, parameters)
 
 
-def _symbol(name: str) -> sympy.Symbol:
-    return sympy.Symbol(name, real=True)
-
-
 def _by_reciprocal(force: sympy.Expr, name: str) -> bool:
     """Whether a parameter that is not analytic at 0 is the reciprocal of one that a loss vanishes with."""
-    symbol, other = _symbol(name), _symbol(INVERSE + name)
+    symbol, other = symbol_of(name), symbol_of(INVERSE + name)
     if other in force.free_symbols or not force.subs(symbol, 0).has(sympy.zoo, sympy.nan, sympy.oo):
         return False
     turned = force.subs(symbol, 1 / other)
@@ -74,7 +70,7 @@ def _by_reciprocal(force: sympy.Expr, name: str) -> bool:
 
 def _numbers_named(force: sympy.Expr, parameters: Parameters) -> Lossy:
     """The part that neither reversal of time keeps, with a parameter where none carries it and it has a linear term."""
-    lossless = {_symbol(name): 0 for name in dissipative_names(force)}
+    lossless = {symbol_of(name): 0 for name in dissipative_names(force)}
     left = force.subs(lossless)
     odd = (left - left.subs(V, -V)) / 2
     lost = sympy.expand((odd + odd.subs(U, -U)) / 2)
@@ -84,7 +80,7 @@ def _numbers_named(force: sympy.Expr, parameters: Parameters) -> Lossy:
     named, factor = ("mu", 2) if slope > 0 else ("eps", -1)
     name = _free(named, {*parameters, *free_names(force)})
     unit = sympy.expand(lost / slope)
-    carried = factor * _symbol(name) * sympy.factor_terms(unit)
+    carried = factor * symbol_of(name) * sympy.factor_terms(unit)
     return Lossy(sympy.expand_mul(force - lost) + carried, {**parameters, name: slope / factor})
 
 

@@ -20,7 +20,7 @@ from ridgeback.symbolic.grammar.parse import Equation, U, V, W, names, parse_equ
 from ridgeback.symbolic.systems.equation_latex import equation_latex
 from ridgeback.symbolic.systems.losses import by_reciprocals, with_named_losses
 from ridgeback.symbolic.systems.natural_units import Normalised, in_natural_units
-from ridgeback.symbolic.systems.parameters import Parameters, Value, merged, reciprocal
+from ridgeback.symbolic.systems.parameters import Parameters, Value, merged, reciprocal, symbol_of
 from ridgeback.symbolic.systems.potential import checked_potential, potential_of
 from ridgeback.symbolic.systems.structure import (
     damping_name,
@@ -299,7 +299,7 @@ class Oscillator:
     @property
     def equation_latex(self) -> str:
         """The equation in LaTeX: acceleration, damping, restoring; terms with a parameter of value 0 are left out."""
-        zero = {_symbol(name): 0 for name, value in self.parameters.items() if value == 0}
+        zero = {symbol_of(name): 0 for name, value in self.parameters.items() if value == 0}
         return equation_latex(self.force.subs(zero), self.symbol)
 
     def check_at_origin(self) -> None:
@@ -330,7 +330,7 @@ class Oscillator:
         (2*mu*u' + sin(u), 1/400)
         """
         k, kept = self.natural_frequency, [name for name in (self.damping, self.small) if name]
-        symbols = {name: _symbol(name) for name in kept}
+        symbols = {name: symbol_of(name) for name in kept}
         force = self._inserted(self.force, keep=kept).subs({V: k * V, **{s: k * s for s in symbols.values()}})
         values = {name: self._inserted(symbol) / k for name, symbol in symbols.items()}
         potential = self.substituted_potential
@@ -344,25 +344,21 @@ class Oscillator:
             small=values.get(self.small or ""),
             potential=None if potential is None else divided(potential, self.stiffness),
             rational=rational.force,
-            constants={n: value for n, value in sorted(rational.values.items()) if rational.force.has(_symbol(n))},
+            constants={n: value for n, value in sorted(rational.values.items()) if rational.force.has(symbol_of(n))},
         )
 
     def _inserted(self, expression: sympy.Expr, keep: list[str] | None = None) -> sympy.Expr:
         values = {
-            _symbol(name): value
+            symbol_of(name): value
             for name, value in self.parameters.items()
             if value is not None and name not in (keep or ())
         }
         return expression.subs(values)
 
 
-def _symbol(name: str) -> sympy.Symbol:
-    return sympy.Symbol(name, real=True)
-
-
 def _rewritten(force: sympy.Expr, unknown: str) -> str:
     """The equation that a force belongs to, as text."""
-    turned = force.xreplace({U: _symbol(unknown), V: _symbol(unknown + "'")})
+    turned = force.xreplace({U: symbol_of(unknown), V: symbol_of(unknown + "'")})
     return f"{unknown}'' + {sympy.sstr(turned, order='rev-lex')} = 0".replace("+ -", "- ")
 
 
@@ -379,7 +375,7 @@ def _potential(force: sympy.Expr, given: str | None, unknown: str) -> tuple[symp
         checked = checked_potential(to_sympy(parse_expression(given, unknown=unknown)), restoring)
     if sympy.expand(velocity + velocity.subs(V, -V)) != 0:
         return None, "the force has velocity terms that do not dissipate"
-    lossless = velocity.subs({_symbol(name): 0 for name in dissipative_names(force)})
+    lossless = velocity.subs({symbol_of(name): 0 for name in dissipative_names(force)})
     if sympy.expand(lossless - lossless.subs(U, -U)) != 0:
         return None, f"{brief(lossless)} neither dissipates nor comes from a potential"
     if small_name(force) is not None:

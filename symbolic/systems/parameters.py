@@ -91,3 +91,12 @@ def _whole(value: object) -> Fraction:
     if value.numerator.bit_length() + value.denominator.bit_length() > _NUMBER_BITS:
         raise InputError(f"a number of more than {_NUMBER_BITS} bits is too long; give fewer digits")
     return Fraction(value)
+
+
+def symbol_of(name: str) -> sympy.Symbol:
+    """The symbol by which a parameter stands in a force.
+
+    >>> symbol_of("mu").is_real
+    True
+    """
+    return sympy.Symbol(name, real=True)
