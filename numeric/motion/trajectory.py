@@ -308,7 +308,7 @@ class _Integration:
             message = solver.step()
             self.guard(solver, message, bound)
             if len(times) % PILOT == 0:
-                self.foretell(len(times), float(solver.t), float(solver.t) - times[-RECENT], duration)
+                self.refuse_too_much(len(times), float(solver.t), float(solver.t) - times[-RECENT], duration)
             times.append(float(solver.t))
             states.append(np.array(solver.y))
             pieces.append(solver.dense_output())
@@ -320,7 +320,7 @@ class _Integration:
 
         return np.array(times), np.array(states), dense
 
-    def foretell(self, steps: int, t: float, recent: float, duration: float) -> None:
+    def refuse_too_much(self, steps: int, t: float, recent: float, duration: float) -> None:
         """Refuse what the last steps show to take too many evaluations or too much memory."""
         coming = RECENT * (duration - t) / recent if recent > 0.0 else math.inf
         evaluations, size = self.evaluations * (1.0 + coming / steps), (steps + coming) * _BYTES_PER_STEP

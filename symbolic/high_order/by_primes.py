@@ -37,7 +37,7 @@ from ridgeback.symbolic.systems.oscillator import Oscillator
 CHECKS = 2
 """Primes kept back to test the result."""
 DOUBT = 2
-"""How many times the expected bits of modulus may pass before a checkpoint's residues are found anew."""
+"""How many times the expected bits of modulus may pass before a checkpoint's residues are found again."""
 SAVE_EVERY = 60
 """Seconds between checkpoints, and a batch of primes at most."""
 
@@ -203,7 +203,7 @@ class _Collection:
     progress: Progress
     last_save: float = field(default_factory=time.monotonic)
     resumed: Gathered = field(init=False)
-    """What came from a checkpoint and was not found anew."""
+    """What came from a checkpoint and was not found again."""
 
     def __post_init__(self) -> None:
         self.resumed = self.state
@@ -228,7 +228,7 @@ class _Collection:
         return found
 
     def _doubt(self) -> None:
-        """Find the residues of a checkpoint anew when far more primes than expected do not agree: one may be forged."""
+        """Find a checkpoint's residues again when far more primes than expected do not agree: one may be forged."""
         if self.path is None or not self.resumed.used or self.state.modulus.bit_length() < DOUBT * self.expected + 256:
             return
         used = islice(primes(), CHECKS, CHECKS + self.resumed.used)

@@ -97,7 +97,7 @@ def check_numbers(path: Path, saved: Gathered, primes: Sequence[int], own: Resid
 
 
 def check_residues(path: Path, saved: Gathered, primes: Iterable[int], work: Callable[[int], Residues]) -> None:
-    """Hold all residues of a checkpoint against those found anew, modulo the ``primes`` used and those kept back.
+    """Hold all residues of a checkpoint against those found again, modulo the ``primes`` used and those kept back.
 
     This costs what the checkpoint saved.  Raises InputError.
     """

@@ -76,9 +76,9 @@ def test_events_move_little_when_their_step_is_integrated_anew():
     start, case = (0.95 * math.pi, 0.0), pendulum(K, 0.01)
     run = integrate(case, start, duration=3.0, rate=64.0)
     for time in (*run.crossings.time[:3], *run.turnings.time[1:4]):
-        anew = integrate(case, start, duration=float(time), rate=1.0)
+        restarted = integrate(case, start, duration=float(time), rate=1.0)
         u, velocity = run.at([time])
-        end_u, end_velocity = anew.at([time])
+        end_u, end_velocity = restarted.at([time])
         assert abs(end_u - u)[0] < 1e-10
         assert abs(end_velocity - velocity)[0] < 1e-9
 

@@ -133,7 +133,7 @@ def test_a_forged_claim_is_caught_by_the_numbers(
 
 @pytest.mark.parametrize("line", [1, 6])
 def test_a_forged_residue_does_not_run_for_ever(line: int, tmp_path: Path) -> None:
-    """One wrong number among the residues: no modulus ever suits it, and after a while they are found anew."""
+    """One wrong number among the residues: no modulus ever suits it, and after a while they are found again."""
     path, vdp = tmp_path / "state", find("van-der-pol")
     lindstedt_by_primes(vdp, 8, checkpoint=path)
     lines = [json.loads(text) for text in path.read_text().splitlines()[:-1]]
