@@ -48,7 +48,8 @@ def model_curves(motion: Motion, derived: Derived, *, orders: Sequence[int]) -> 
 
 def _conservative_curves(motion: Motion, derived: Derived, orders: Sequence[int]) -> Iterator[Curve]:
     peak = motion.energy_peak
-    yield _model(motion, CLOSED_FORM, _exact_label(motion), motion.exact_at_energy, by=AmplitudeSource.ENERGY)
+    if motion.has_backbone:
+        yield _model(motion, CLOSED_FORM, _exact_label(motion), motion.exact_at_energy, by=AmplitudeSource.ENERGY)
     if motion.setting.is_pendulum:
         k = motion.dynamics.natural_frequency
         for terms in SERIES_TERMS:

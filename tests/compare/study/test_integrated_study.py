@@ -8,6 +8,9 @@ from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
+from ridgeback.compare.motion.model_curves import CLOSED_FORM, model_curves
+from ridgeback.compare.motion.motion import integrate_motion, setting
+from ridgeback.compare.study.derived import derive
 from ridgeback.compare.study.study import study
 from ridgeback.numeric.motion.closed_orbit import closed_orbit
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -59,3 +62,12 @@ def test_random_reversible_centres_close_at_the_frequency_of_their_series(c: tup
     own = Oscillator.from_equation(f"u'' + u + ({a})*u*u' + ({b})*u**3 + ({d})*u*u'**2 + ({e})*u*u'**3 = 0")
     omega = closed_orbit(bind(own), 0.1).omega
     assert omega == pytest.approx(float(lindstedt(own, 8)(0.1)), rel=3e-8)
+
+
+def test_the_motion_of_a_reversible_centre_has_curves_without_a_potential() -> None:
+    own = Oscillator.from_equation("u'' + u*u' + u = 0")
+    motion = integrate_motion(setting(own, initial=(0.4, 0.0), duration=60.0))
+    derived = derive(own, 8)
+    curves = {curve.name for curve in model_curves(motion, derived, orders=(8,))}
+    assert CLOSED_FORM not in curves
+    assert any("8" in name for name in curves)
