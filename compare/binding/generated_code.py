@@ -84,8 +84,7 @@ def tool_of(language: str) -> str | None:
     """The program of this machine that runs a language's check, or None; Python's is the one that runs now."""
     target = find_language(language)
     if "python3" in target.tool:
-        needed = {"numba": "numba", "array-api": "numpy"}.get(language)
-        return sys.executable if needed is None or importlib.util.find_spec(needed) else None
+        return sys.executable if language != "numba" or importlib.util.find_spec("numba") else None
     return next((path for name in target.tool if (path := shutil.which(name))), None)
 
 

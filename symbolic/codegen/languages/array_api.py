@@ -11,6 +11,10 @@ def _namespace(*values):
     for value in values:
         if hasattr(value, "__array_namespace__"):
             return value.__array_namespace__()
+        if type(value).__module__ == "numpy":
+            import numpy
+
+            return numpy  # before version 2, by the names that it has in common with the standard
     for value in values:
         if not isinstance(value, (int, float)):
             import array_api_compat
@@ -23,7 +27,10 @@ def _real(xp, value):
     """An array of floating-point numbers: whole numbers become doubles, other floats keep their precision."""
     if isinstance(value, (int, float)):
         return float(value)
-    return value if xp.isdtype(value.dtype, "real floating") else xp.astype(value, xp.float64)'''
+    if hasattr(value.dtype, "kind") and value.dtype.kind in "biu":
+        return value.astype("float64")
+    real = not hasattr(xp, "isdtype") or xp.isdtype(value.dtype, "real floating")
+    return value if real else xp.astype(value, xp.float64)'''
 
 SELF_TEST = '''\
 def self_test():

@@ -266,7 +266,7 @@ def _over(function: Function, run: Callable[[arb], Computed], real: Real) -> Bou
         measure = _size(found)
         heapq.heappush(boxes, (-measure, left, right, found))
 
-    count = min(16, budget)
+    count = min(16, max(6, budget // 2))
     for i in range(count):
         push(low + (high - low) * i / count, low + (high - low) * (i + 1) / count)
     done: list[Computed] = []
@@ -285,7 +285,7 @@ def _over(function: Function, run: Callable[[arb], Computed], real: Real) -> Bou
 def _cost(statement: Statement) -> int:
     if not isinstance(statement, Horner):
         return 1
-    return 2 * KEPT + len(statement.coefficients) // 4 if statement.loops else len(statement.coefficients)
+    return 2 * KEPT + len(statement.coefficients) // 2 if statement.loops else len(statement.coefficients)
 
 
 def _size(found: Computed) -> float:

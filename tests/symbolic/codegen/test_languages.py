@@ -10,6 +10,7 @@ from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 from flint import arb, ctx
 
@@ -183,8 +184,6 @@ def test_two_files_under_two_names_link_together(tmp_path: Path) -> None:
 def test_whole_numbers_lists_and_ends() -> None:
     import tempfile
 
-    import numpy as np
-
     from tests.symbolic.generated import load
 
     with tempfile.TemporaryDirectory() as folder:
@@ -209,3 +208,16 @@ def test_lines_of_fortran_are_short_and_nothing_is_nested() -> None:
         source = generate(pendulum(200), language, up_to=END)
         assert max(map(len, source.splitlines())) <= (132 if language == "fortran" else 300)
         assert max(line.count("(") for line in source.splitlines() if "points" not in line) < 12
+
+
+def test_arrays_of_a_strict_library_keep_their_kind(tmp_path: Path) -> None:
+    """Nothing but the standard is used, and whole numbers become floating-point ones."""
+    xp = pytest.importorskip("array_api_strict")
+    from tests.symbolic.generated import load
+
+    module = load(generate(pendulum(40), "array-api", up_to=END), tmp_path)
+    for values in (xp.asarray([1.0, 2.0, 5.0]), xp.asarray([1, 2, 5])):
+        found = module.omega0(values)
+        assert isinstance(found, type(values))
+        assert [float(found[i]) for i in (0, 1)] == [module.omega0(np.asarray([v]))[0] for v in (1.0, 2.0)]
+        assert math.isnan(float(found[2]))
