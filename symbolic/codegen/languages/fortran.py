@@ -203,8 +203,8 @@ def folded(line: str) -> str:
     call f(argument, argument, argument, argument, argument, argument, argument, argument, argument, &
         argument, argument, argument)
     """
-    if "!" in line:
-        return line  # a comment, or a short statement with one
+    if "!" in line or line.endswith("&"):
+        return line  # a comment, a short statement with one, or a statement in lines already
     parts, here = [], ""
     for piece in line.split(", "):
         if here and len(here) + len(piece) > LONGEST:
