@@ -17,7 +17,7 @@ from ridgeback.numeric.tracking.track import Track
 
 __all__ = ["Backbone", "backbone"]
 
-WINDOW_CYCLES = 4.0
+WINDOW_CYCLES, MOST_SHARE = 4.0, 0.95
 CLEAR = 5.0
 """A point is used where the amplitude exceeds its own standard deviation this many times."""
 
@@ -72,10 +72,15 @@ def backbone(
     """
     samples, rate = checked_real_samples(x, what="backbone", at_least=16), checked_rate(rate)
     first = track.start if start is None else start
+    if track.used.span is not None:
+        keep = stretch_of(track.used.span, samples.size, rate, first)
+        samples, first = samples[keep], first + keep.start / rate
+        exclude = None if exclude is None else exclude[keep]
     offset = float(samples.mean())
     base = carrier(track, samples.size, rate, first)
     cycle = TWO_PI / float(np.median(base.omega[base.valid]))
-    seconds = WINDOW_CYCLES * cycle if window_seconds is None else window_seconds
+    longest = MOST_SHARE * (samples.size - 1) / rate
+    seconds = min(WINDOW_CYCLES * cycle, longest) if window_seconds is None else window_seconds
     half = half_width(seconds, rate, name="window_seconds", longest=samples.size)
     real = samples - offset
     multiples = choose_multiples(real, rate, base.omega, half=half)
@@ -98,6 +103,11 @@ def backbone(
     crowding = Crowding(amplitude=window, omega=max(window, resolution(track, cycle) / spacing))
     settings = {"track": track.method, "harmonics": (1, *multiples)}
     notes = [f"The mean of the samples, {offset:.4g}, was removed.", *left_out_notes(usable, clean)]
+    if track.used.span is not None:
+        begin, end = track.used.span
+        notes.insert(
+            0, f"The amplitude stands above the noise from t = {begin:.6g} to {end:.6g}; the rest is left out."
+        )
     return assemble(
         points,
         crowding=crowding,
@@ -107,6 +117,16 @@ def backbone(
         window_seconds=width,
         local=found.at(usable),
     )
+
+
+def stretch_of(span: tuple[float, float], size: int, rate: float, start: float) -> slice:
+    """The samples of a record from one time to another, both included.
+
+    >>> stretch_of((1.5, 2.0), 100, 10.0, 1.0)
+    slice(5, 11, None)
+    """
+    first, last = (round((time - start) * rate) for time in span)
+    return slice(max(0, first), min(size, last + 1))
 
 
 def check_enough(usable: Mask, clean: Mask) -> None:

@@ -21,6 +21,8 @@ from ridgeback.numeric.tracking.request import Request
 
 AS_GOOD = 0.25
 """Expected errors that differ by less than this share count as equal; the first of the candidates is taken then."""
+SHORT = 0.4
+"""Share of the record from which on a window leaves too little between the borders for a peak."""
 NOTHING = 1e-9
 """A relative error that is none."""
 
@@ -77,6 +79,9 @@ def for_auto(request: Request) -> tuple[str, Request]:
     try:
         candidates = list(candidates_of(request))
     except InputError as error:
+        if request.plan.lag_seconds * request.signal.rate > SHORT * request.signal.x.size:
+            why = f"harmonic least squares over {request.plan.lag_seconds:.4g}: there is no model of the whole: {error}"
+            return "harmonic-least-squares", replace(request, plan=replace(request.plan, why=why))
         why = f"pseudo-Wigner, because harmonic least squares cannot: {error}"
         return "pseudo-wigner", replace(request, plan=replace(request.plan, why=why))
     least = min(candidate.expected for candidate in candidates)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.estimators.auto import for_auto, for_least_squares
+from ridgeback.numeric.estimators.clear_stretch import clear_stretch
 from ridgeback.numeric.estimators.global_harmonics import by_harmonic_splines, with_spline_interval
 from ridgeback.numeric.estimators.higher_harmonics import harmonic_with_interval, locked_track
 from ridgeback.numeric.estimators.memory import check_memory, without_room
@@ -242,6 +243,9 @@ def estimation(
     options = options if no_room is None else replace(options, bias=False)
     request = prepared(samples, options, search=search)
     noise = request.presence
+    stretch = clear_stretch(request) if noise.found else None
+    if stretch is not None:
+        request = prepared(part_of(samples, stretch), options)
     if not noise.found:  # then there is no bias to be estimated
         request = replace(request, options=replace(request.options, bias=False))
     if method in QUADRATIC and options.band is not None:
@@ -257,11 +261,24 @@ def estimation(
         raise (error if noise.found else InputError(f"{noise.reason}; {name}: {error}")) from None
     progress(0.5, f"bias and interval of {name}")
     track = known_well(without_bias(with_bias(found, ESTIMATORS[name], request), remove_bias))
+    if stretch is not None:
+        track = replace(track, used=replace(track.used, span=ends(request)))
     progress(1.0, "done")
     if harmonic > 1:
         track = of_harmonic(harmonic, request, track, remove_bias)
     track = track if no_room is None else replace(track, no_interval=no_room)
     return Estimation(track.held_against(noise), samples, request)
+
+
+def part_of(samples: Samples, stretch: slice) -> Samples:
+    """Some of the samples, with the time of the first of them."""
+    return replace(samples, x=samples.x[stretch], start=samples.start + stretch.start / samples.rate)
+
+
+def ends(request: Request) -> tuple[float, float]:
+    """First and last time of the samples."""
+    time = request.signal.time
+    return float(time[0]), float(time[-1])
 
 
 def known_well(track: Track) -> Track:

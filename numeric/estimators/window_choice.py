@@ -64,11 +64,16 @@ def lengths(model: SplineModel, cycle: float) -> Iterator[int]:
 
 
 def best_window(model: SplineModel, cycle: float, multiples: tuple[int, ...], margin: int) -> Window | None:
-    """The window and degree with the least expected error; None where no window holds enough samples for its model."""
+    """The window and degree with the least expected error; None where no window holds enough samples for its model.
+
+    A window is at least (degree + 1) / 2 cycles long: in shorter ones the amplitude would imitate offset and harmonics.
+    """
+    rate = 1.0 / float(model.time[1] - model.time[0])
     found = [
         Window(half, degree, expected_error(model, half, degree, margin))
         for half in lengths(model, cycle)
         for degree in DEGREES
         if 2 * half + 1 >= 1.5 * Shape(multiples, degree, degree - 1).size
+        and half >= round(0.25 * (degree + 1) * cycle * rate)
     ]
     return min(found, key=lambda window: window.expected, default=None)

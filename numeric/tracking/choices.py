@@ -48,6 +48,9 @@ class Choices:
         Whether values near the ends are fits to one side, and so of use although the window is not whole there.
     decimated_by : int
         How many samples of the record stand behind one sample of the signal that the track is of.
+    span : (float, float), optional
+        First and last time of the stretch in which the amplitude stands above the noise, where that is not all of the
+        record: the track is of that stretch.
     why : str
         The reason for what was chosen, for display.
 
@@ -71,6 +74,7 @@ class Choices:
     noise: float | None = None
     one_sided_borders: bool = False
     decimated_by: int = 1
+    span: tuple[float, float] | None = None
     why: str = ""
 
     def shown(self) -> dict[str, object]:

@@ -30,6 +30,10 @@ NEAR_MULTIPLE = 0.05
 """Relative distance within which a frequency counts as a multiple of another."""
 LAG_CYCLES = 4.0
 """Default window, in cycles of the strongest component: 3 s for the paper's pendulum."""
+FEWEST_CYCLES = 2.5
+"""That a record must hold, where no window is asked for."""
+SHORT_SHARE, SHORT_CYCLES = 0.6, 2.0
+"""Of a short record the default window takes this share, but so many cycles."""
 
 
 @dataclass(frozen=True)
@@ -198,14 +202,15 @@ def prepared(samples: Samples, options: Options, *, search: SearchBand | None = 
     real = samples.x - offset
     search = find_search_band(real, samples.rate, band=options.band) if search is None else search
     cycle, span = TWO_PI / search.centre, (real.size - 1) / samples.rate
-    if options.lag_seconds is None and LAG_CYCLES * cycle > span:
+    if options.lag_seconds is None and FEWEST_CYCLES * cycle > span:
         raise InputError(
             f"signal spans {span / cycle:.3g} cycles of its strongest component ({cycle:.4g} each); "
-            f"{LAG_CYCLES:g} are needed (give a longer record, a band, or lag_seconds)"
+            f"{FEWEST_CYCLES:g} are needed (give a longer record, a band, or lag_seconds)"
         )
+    lag = min(LAG_CYCLES * cycle, max(SHORT_CYCLES * cycle, SHORT_SHARE * span))
     signal = Signal(real, analytic_of(real), samples.rate, samples.start, offset, search, samples.factor)
     plan = Plan(
-        lag_seconds=LAG_CYCLES * cycle if options.lag_seconds is None else options.lag_seconds,
+        lag_seconds=lag if options.lag_seconds is None else options.lag_seconds,
         smoothing_seconds=cycle if options.smoothing_seconds is None else options.smoothing_seconds,
     )
     return Request(options, signal, plan)

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ridgeback.common.errors import InputError
 from ridgeback.numeric.backbone.backbone import backbone
 from ridgeback.numeric.backbone.curve import Backbone
 from ridgeback.numeric.backbone.damping import damping
@@ -14,6 +15,7 @@ from ridgeback.numeric.backbone.local_rates import rows
 from ridgeback.numeric.backbone.windows import furthest, half_widths
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.harmonics.local_fit import Shape, harmonic_fit
+from ridgeback.numeric.harmonics.spline_fit import harmonic_splines
 
 RATE, OMEGA, NOISE = 400.0, 40 * np.pi, 0.01
 
@@ -96,3 +98,49 @@ def test_windows_follow_the_local_rate_of_change() -> None:
     assert halves[-1] >= 160  # sixteen and more in the tail
     assert np.all(np.diff(halves) >= 0)
     assert np.all(furthest(pilot)[:3] * 8.6 < 0.6)
+
+
+def test_noise_alone_has_no_model_to_take_an_interval_from() -> None:
+    guide = np.full(640, OMEGA)
+    for seed in range(4):
+        with pytest.raises(InputError, match="no model of the whole signal settled"):
+            harmonic_splines(np.random.default_rng(seed).normal(size=640), RATE, guide)
+
+
+def held_and_released(seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Held at 1 for 4.1 s, an oscillation of 0.95 Hz, stopped at 40 s."""
+    t = np.arange(900) / 20.0
+    moving = np.exp(-0.004 * (t - 4.1)) * np.cos(2 * np.pi * 0.95 * (t - 4.1))
+    clean = np.where(t < 4.1, 1.0, np.where(t < 40.0, moving, 0.0))
+    return t, clean + 0.003 * np.random.default_rng(seed).normal(size=t.size)
+
+
+def test_a_release_and_a_stop_are_found_and_nothing_beyond_them_counts() -> None:
+    off = []
+    for seed in range(4):
+        _, x = held_and_released(seed)
+        track = estimate(x, 20.0)
+        assert track.used.span is not None
+        assert 4.05 <= track.used.span[0] <= 4.6
+        assert 39.4 <= track.used.span[1] <= 40.0
+        found = backbone(track, x, 20.0)
+        off.append((found.curve_growth_rate + 0.004) / found.curve_growth_rate_sd)
+        assert np.abs(found.curve_omega / (2 * np.pi * 0.95) - 1.0).max() < 2e-3
+        assert "stands above the noise from t = 4." in found.notes[0]
+    assert np.mean(np.abs(np.concatenate(off)) < 1.96) > 0.85
+
+
+def test_a_tail_in_the_noise_costs_the_tail_and_not_the_interval() -> None:
+    for seed in range(4):
+        x = damped(0.03, 60.0, seed)
+        track = estimate(x, RATE)
+        assert track.used.span is not None
+        assert 1.0 < track.used.span[1] < 2.2
+        assert track.interval is not None
+
+
+def test_a_steady_oscillation_is_left_whole() -> None:
+    t = np.arange(640) / 32.0
+    for size in (0.05, 0.3):
+        x = np.cos(2 * np.pi * (1.0 * t + 0.01 * t**2)) + size * np.random.default_rng(2).normal(size=640)
+        assert estimate(x, 32.0, bias=False).used.span is None

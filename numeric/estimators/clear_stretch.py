@@ -1,0 +1,86 @@
+"""Where the motion stands above the noise: from the release or the trigger to the stop, or until it has sunk too far.
+
+Windows of four cycles, half overlapping, are fitted by harmonic least squares.  The stretch runs from the first to the
+last in which the amplitude is CLEAR of its own deviation.  Where it does not begin or end with the record, the end is
+moved inward until the residual of the window there is no larger than that of its neighbours: a window that holds the
+jump of a release or a stop fits badly, one in a tail that sinks into the noise does not.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
+from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.tracking.request import LAG_CYCLES, Request
+
+CLEAR = 5.0
+FEWEST_WINDOWS = 3
+"""Of those that are clear, and of all: with fewer nothing is cut."""
+WEAKER = 0.5
+"""What is cut has, on the mean, at most this share of the clearness of what is kept."""
+ROUGH = 1.5
+"""A residual above that of the next windows inside by this factor is that of a jump."""
+NEAR, MOSTLY = 1.6, 0.5
+"""Where the search band's guide strays from its centre by more than this factor there is nothing to guide it, unless
+most of the power is there: a long chirp."""
+TRIES = 24
+"""Places over a window at which its end is tried."""
+
+
+def clear_stretch(request: Request) -> slice | None:
+    """The samples whose amplitude stands above the noise; None where all of them do, or hardly any.
+
+    Parameters
+    ----------
+    request : Request
+        Of the whole record.
+
+    Returns
+    -------
+    slice or None
+        First sample, and one beyond the last.
+    """
+    x, rate, centre = request.signal.x, request.signal.rate, request.signal.search.centre
+    guide = request.signal.search.guide
+    led = (guide > centre / NEAR) & (guide < centre * NEAR)
+    guide = np.where(led, guide, centre)
+    led_share = float(np.average(led, weights=np.abs(request.signal.z) ** 2))
+    half = round(0.5 * LAG_CYCLES * TWO_PI / centre * rate)
+    if led_share < MOSTLY or x.size < (FEWEST_WINDOWS + 1) * half or 2 * half + 1 < 2 * Shape().size:
+        return None
+    shape = Shape(choose_multiples(x, rate, guide, half=half))
+    fit = harmonic_fit(x, rate, guide, half=half, shape=shape, centres=np.arange(half, x.size - half, half))
+    clearness = np.where(fit.settled, np.abs(fit.amplitude) / np.maximum(fit.amplitude_sd, np.finfo(float).tiny), 0.0)
+    clear = np.flatnonzero(clearness > CLEAR)
+    if clear.size < FEWEST_WINDOWS:
+        return None
+    first, last = int(clear[0]), int(clear[-1])
+    outside = np.concatenate([clearness[:first], clearness[last + 1 :]])
+    if outside.size == 0 or float(outside.mean()) > WEAKER * float(np.median(clearness[clear])):
+        return None
+    begin, end = 0, x.size
+    if first > 0:
+        typical = float(np.median(fit.noise[clear[1:4]]))
+        begin = smooth_from(x, rate, guide, shape, half=half, near=first * half, typical=typical)
+    if last < clearness.size - 1:
+        typical = float(np.median(fit.noise[clear[-4:-1]]))
+        near = x.size - (last * half + 2 * half + 1)
+        end = x.size - smooth_from(x[::-1], rate, guide[::-1], shape, half=half, near=max(0, near), typical=typical)
+    return slice(begin, end) if end - begin > 2 * half else None
+
+
+def smooth_from(x: Array, rate: float, guide: Array, shape: Shape, *, half: int, near: int, typical: float) -> int:
+    """The first sample from ``near`` on from which a window fits with a residual that is not ROUGH times the typical.
+
+    >>> t = np.arange(400) / 20.0
+    >>> x = np.where(t < 4.0, 1.0, np.cos(2 * np.pi * (t - 4.0))) + 0.01 * np.random.default_rng(1).normal(size=400)
+    >>> first = smooth_from(x, 20.0, np.full(400, 2 * np.pi), Shape(), half=40, near=40, typical=0.01)
+    >>> 80 <= first <= 84
+    True
+    """
+    begins = np.unique(np.linspace(near, min(near + 2 * half, x.size - 2 * half - 1), TRIES + 1).astype(int))
+    fit = harmonic_fit(x, rate, guide, half=half, shape=shape, centres=begins + half)
+    good = np.flatnonzero(fit.settled & (fit.noise <= ROUGH * typical))
+    return int(begins[good[0]]) if good.size else int(begins[-1])
