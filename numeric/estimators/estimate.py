@@ -243,11 +243,7 @@ def estimation(
     options = options if no_room is None else replace(options, bias=False)
     request = prepared(samples, options, search=search)
     noise = request.presence
-    stretch = clear_stretch(request) if noise.found else None
-    if stretch is not None:
-        request = prepared(part_of(samples, stretch), options)
-    if not noise.found:  # then there is no bias to be estimated
-        request = replace(request, options=replace(request.options, bias=False))
+    request = in_its_stretch(request, samples) if noise.found else without_bias_of(request)
     if method in QUADRATIC and options.band is not None:
         refuse_cross_term(request, method)
     progress(0.1, "choosing an estimator" if method == "auto" else method)
@@ -261,8 +257,7 @@ def estimation(
         raise (error if noise.found else InputError(f"{noise.reason}; {name}: {error}")) from None
     progress(0.5, f"bias and interval of {name}")
     track = known_well(without_bias(with_bias(found, ESTIMATORS[name], request), remove_bias))
-    if stretch is not None:
-        track = replace(track, used=replace(track.used, span=ends(request)))
+    track = replace(track, used=replace(track.used, span=span_of(request, samples)))
     progress(1.0, "done")
     if harmonic > 1:
         track = of_harmonic(harmonic, request, track, remove_bias)
@@ -270,15 +265,24 @@ def estimation(
     return Estimation(track.held_against(noise), samples, request)
 
 
-def part_of(samples: Samples, stretch: slice) -> Samples:
-    """Some of the samples, with the time of the first of them."""
-    return replace(samples, x=samples.x[stretch], start=samples.start + stretch.start / samples.rate)
+def without_bias_of(request: Request) -> Request:
+    """The same request without the bias: that of noise is not to be estimated."""
+    return replace(request, options=replace(request.options, bias=False))
 
 
-def ends(request: Request) -> tuple[float, float]:
-    """First and last time of the samples."""
+def in_its_stretch(request: Request, samples: Samples) -> Request:
+    """The request for the samples whose amplitude stands above the noise."""
+    stretch = clear_stretch(request)
+    if stretch is None:
+        return request
+    first = samples.start + stretch.start / samples.rate
+    return prepared(replace(samples, x=samples.x[stretch], start=first), request.options)
+
+
+def span_of(request: Request, samples: Samples) -> tuple[float, float] | None:
+    """First and last time of a request for some of the samples; None for all of them."""
     time = request.signal.time
-    return float(time[0]), float(time[-1])
+    return (float(time[0]), float(time[-1])) if time.size < samples.x.size else None
 
 
 def known_well(track: Track) -> Track:
