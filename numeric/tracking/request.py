@@ -30,8 +30,8 @@ NEAR_MULTIPLE = 0.05
 """Relative distance within which a frequency counts as a multiple of another."""
 LAG_CYCLES = 4.0
 """Default window, in cycles of the strongest component: 3 s for the paper's pendulum."""
-FEWEST_CYCLES = 2.5
-"""That a record must hold, where no window is asked for."""
+FEWEST_CYCLES = 3.0
+"""That a record must hold, where no window is asked for: fewer are not told from drift, at the band's lower end."""
 SHORT_SHARE, SHORT_CYCLES = 0.6, 2.0
 """Of a short record the default window takes this share, but so many cycles."""
 

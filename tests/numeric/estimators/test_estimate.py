@@ -54,8 +54,9 @@ def test_auto_says_what_it_chose_and_why() -> None:
     assert track.used.why.startswith("harmonic least squares of the whole record: relative rms errors")
     assert "pseudo-Wigner over" in track.used.why
     short = estimate(np.cos(2 * np.pi * 1.1 * np.arange(48) / 8.0), 8.0)
-    assert short.method == "pseudo-wigner"
-    assert "because harmonic least squares cannot: signal holds" in short.used.why
+    assert short.method == "harmonic-least-squares"
+    assert short.used.scope is Scope.LOCAL
+    assert "there is no model of the whole: signal holds" in short.used.why
     assert short.interval is None
     assert "needs more than" in str(short.no_interval)
 
@@ -234,7 +235,7 @@ def test_harmonic_is_followed_on_request(pendulum_decay: Source) -> None:
             "scope 'wide' is unknown; use one of local",
         ),
         (chirp()[1], {"harmonics": 40, "method": "harmonic-least-squares"}, "window of .* samples is too short"),
-        (np.arange(64.0), {"band": (1.0, 2.0)}, r"signal spans .* cycles .* 2.5 are needed"),
+        (np.arange(64.0), {"band": (1.0, 2.0)}, r"signal spans .* cycles .* 3 are needed"),
     ],
 )
 def test_what_cannot_be_done_is_said_in_one_line(x: np.ndarray, arguments: dict[str, Any], message: str) -> None:
