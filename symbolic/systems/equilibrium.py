@@ -40,9 +40,9 @@ def near_equilibrium(tree: Equation, about: str, parameters: Mapping[str, Value]
     >>> near_equilibrium(parse_equation("u'' - 1 + 10*u - 10*u**2 = 0"), "0.1127", {})
     1/2 - sqrt(15)/10
     """
+    leaves = f"about {about} is not an equilibrium: the equation does not vanish there"
     still = sympy.together(to_sympy(tree.left).subs({V: 0, W: 0}).subs(numbers(tree, parameters)))
     above, _ = sympy.fraction(still)
-    leaves = f"about {about} is not an equilibrium: the equation does not vanish there"
     if not above.is_polynomial(U) or above.free_symbols - {U}:
         raise InputError(f"{leaves}, and no polynomial in u says where it does; give the place exactly")
     given = sympy.Rational(str(to_sympy(parse_expression(about)).evalf(30)))
@@ -79,9 +79,13 @@ def _real_roots(polynomial: sympy.Expr) -> list[tuple[sympy.Poly, sympy.Expr]]:
 
 
 def _last_place(about: str) -> sympy.Rational:
-    """A unit of the last decimal place that a number is written with."""
-    _, _, decimals = about.partition(".")
-    return sympy.Rational(1, 10 ** len(decimals))
+    """A unit of the last decimal place that a number is written with; a number without a point is exact.
+
+    >>> _last_place("0.1127"), _last_place("2")
+    (1/10000, 0)
+    """
+    _, point, decimals = about.partition(".")
+    return sympy.Rational(1, 10 ** len(decimals)) if point else sympy.Integer(0)
 
 
 def _closed(factor: sympy.Poly, root: sympy.Expr) -> sympy.Expr | None:
