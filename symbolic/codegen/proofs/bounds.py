@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Final
 
@@ -42,7 +42,7 @@ class Computed:
 
     exact: arb
     error: arb
-    before: arb = ZERO
+    before: arb = field(default_factory=lambda: ZERO)
     """The part of the error that was there before the last rounding."""
 
 

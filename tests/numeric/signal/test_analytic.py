@@ -66,7 +66,7 @@ def test_mean_is_removed_only_when_asked() -> None:
         ([1j, 0j], "complex"),
         ([[1.0, 2.0]], r"shape \(1, 2\)"),
         ([], "0 samples"),
-        (["a"], "dtype"),
+        (["a"], "is of type"),
     ],
 )
 def test_what_is_not_a_real_signal_is_refused_by_name(x: list[object], message: str) -> None:
