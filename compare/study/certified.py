@@ -8,6 +8,7 @@ from fractions import Fraction
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.study.results import Certified, CertifiedRow
 from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.certificates.accuracy import Accuracy, Ball, accuracy
@@ -41,7 +42,7 @@ def certified(oscillator: Oscillator, order: int, largest: float) -> Certified |
 
 
 def certified_rows(
-    oscillator: OscillatorLike, orders: Sequence[int], amplitudes: Sequence[float]
+    oscillator: OscillatorLike, orders: Sequence[int], amplitudes: Sequence[float], *, progress: Wanted = None
 ) -> list[dict[str, float | int | str | None]]:
     """Errors of every formula, proved, as rows with the keys of a study's rows and the radius of the proof.
 
@@ -53,6 +54,8 @@ def certified_rows(
         Orders of the series and of the formulas made from it.
     amplitudes
         Peak amplitudes, shape (n,), in the unit of u.
+    progress
+        ``True`` shows a bar; a function is told the share done and the step.
 
     Returns
     -------
@@ -75,13 +78,16 @@ def certified_rows(
     """
     oscillator = as_oscillator(oscillator)
     exact = [Fraction(a) for a in amplitudes]
-    reference = [enclose(oscillator, a).omega for a in exact]
-    return [
-        _cell(order, item, ball, float(amplitude), omega)
-        for order in orders
-        for item in accuracy(oscillator, order, exact)
-        for ball, amplitude, omega in zip(item.errors, exact, reference, strict=True)
-    ]
+    rows = []
+    with showing(progress) as told:
+        told(0.0, "exact frequencies")
+        reference = [enclose(oscillator, a).omega for a in exact]
+        for done, order in enumerate(orders, 1):
+            told(done / (len(orders) + 1), f"order {order}")
+            for item in accuracy(oscillator, order, exact):
+                cells = zip(item.errors, exact, reference, strict=True)
+                rows += [_cell(order, item, ball, float(amplitude), omega) for ball, amplitude, omega in cells]
+    return rows
 
 
 def _cell(

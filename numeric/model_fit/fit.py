@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
 from ridgeback.common.show.displayed import Displayed
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.numeric.arrays import Array, freeze
@@ -167,6 +168,7 @@ def model_fit(
     start: float = 0.0,
     free_offset: bool = True,
     band: tuple[float, float] | None = None,
+    progress: Progress = silent,
 ) -> ModelFit:
     """Fit a family of oscillators to samples: initial state, free parameters, offset and noise level.
 
@@ -184,6 +186,8 @@ def model_fit(
         Whether the offset is fitted; False holds it at 0.
     band : (float, float), optional
         Where the oscillation is looked for, rad per time unit.
+    progress : callable
+        Told the share that is done and the step.
 
     Returns
     -------
@@ -207,26 +211,35 @@ def model_fit(
     (7.0, 0.5)
     """
     samples = checked(x, rate, start=start, what="the fit of an oscillator", at_least=FEWEST_SAMPLES)
-    return fitted(samples, family, free_offset=free_offset, band=band)
+    return fitted(samples, family, free_offset=free_offset, band=band, progress=progress)
 
 
 def fitted(
-    given: Samples, family: Family, *, free_offset: bool = True, band: tuple[float, float] | None = None
+    given: Samples,
+    family: Family,
+    *,
+    free_offset: bool = True,
+    band: tuple[float, float] | None = None,
+    progress: Progress = silent,
 ) -> ModelFit:
     """:func:`model_fit` of checked samples."""
     samples, rate = given.x, given.rate
+    progress(0.0, "harmonics of the signal")
     signal = smooth_model(samples, rate, band=band)
     floor = free_noise(samples, signal)
+    progress(0.2, "a start for the parameters")
     begin, limits = matched(family, signal, free_offset=free_offset)
     problem = Problem(samples, rate, family, free_offset, 4.0 * float(np.ptp(samples)), 1, limits)
     problem = stepped(problem, begin, signal, floor)
     power = max(float(np.var(samples)) - floor**2, np.finfo(float).tiny)
+    progress(0.4, f"{family.name}, fitted to the samples")
     theta, left = best_fit(problem, begin, polar_of(signal, float(begin[OFFSET])), floor**2, power)
     if not left <= LOST * power:
         raise InputError(
             f"{family.name}: no fit of {', '.join(family.names)} locks on to the signal ({left / power:.0%} of its "
             "power is left over); start nearer to the parameters, free others, or try another oscillator"
         )
+    progress(0.9, "deviations and the residual")
     return finished(problem, theta, given.start)
 
 

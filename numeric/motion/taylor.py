@@ -17,6 +17,7 @@ import mpmath as mp
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.arrays import Array, frozen, frozen_mask
 from ridgeback.numeric.motion.dynamics import Dynamics, well
 from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
@@ -160,6 +161,7 @@ def taylor_solution(
     duration: float,
     digits: int = 30,
     degree: int | None = None,
+    progress: Progress = silent,
 ) -> TaylorSolution:
     """Integrate to about ``digits`` significant digits per step; ``initial`` may hold mpmath numbers.
 
@@ -196,6 +198,7 @@ def taylor_solution(
             if len(polynomials) == PILOT:
                 check_time((perf_counter() - began) / float(time) * float(end - time), duration)
             polynomials.append(c)
+            progress(float(time / end), f"integrating to {digits} digits")
             time = end if step == end - time else time + step
             knots.append(time)
             u, v = _evaluate(c, step)
@@ -243,7 +246,13 @@ def check_time(seconds: float, duration: float) -> None:
 
 
 def integrate_taylor(
-    dynamics: Dynamics, initial: tuple[float, float], *, duration: float, rate: float, digits: int = 30
+    dynamics: Dynamics,
+    initial: tuple[float, float],
+    *,
+    duration: float,
+    rate: float,
+    digits: int = 30,
+    progress: Progress = silent,
 ) -> Trajectory:
     """Solve as ``trajectory.integrate`` does, by Taylor series; samples and events are rounded once to float64.
 
@@ -253,7 +262,7 @@ def integrate_taylor(
     True
     """
     check_request(dynamics, initial, duration=duration, rate=rate)
-    solution = taylor_solution(dynamics, initial, duration=duration, digits=digits)
+    solution = taylor_solution(dynamics, initial, duration=duration, digits=digits, progress=progress)
     time = np.minimum(sample_times(duration, rate), duration)
     states = [solution.state(t) for t in time.tolist()]
     crossings, turnings = solution.crossings(), solution.turnings()

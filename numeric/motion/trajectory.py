@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolution, Radau
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.arrays import Array, frozen, frozen_mask
 from ridgeback.numeric.motion.dynamics import Dynamics, well
 from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
@@ -27,6 +28,8 @@ AUTO = "auto"
 METHODS = (AUTO, *_SOLVERS)
 STIFF = 100_000
 """Evaluations beyond twenty times those of as many cycles by which an equation counts as stiff."""
+TOLD = 64
+"""Steps between two words of progress."""
 PILOT = 400
 """Steps after which the number of all is foretold."""
 RECENT = 100
@@ -112,6 +115,7 @@ def integrate(
     method: str = AUTO,
     rtol: float = 1e-12,
     atol: float | None = None,
+    progress: Progress = silent,
 ) -> Trajectory:
     """Solve ``u'' + f(u, u') = 0`` from an initial state.
 
@@ -132,6 +136,8 @@ def integrate(
         Relative tolerance of the solver.
     atol : float, optional
         Absolute tolerance on u, by default ``rtol`` times the size of the initial state; that on u' is k times it.
+    progress : callable
+        Told the share of the time that is integrated.
 
     Returns
     -------
@@ -163,12 +169,12 @@ def integrate(
         raise InputError(f"atol = {atol!r} must be finite and positive")
     tolerance = np.array([absolute, absolute * k])
     if method != AUTO:
-        return _Integration(dynamics, method, rtol, tolerance).run(state, duration, rate)
+        return _Integration(dynamics, method, rtol, tolerance, progress=progress).run(state, duration, rate)
     usual = _EVALUATIONS_PER_CYCLE * duration * k / (2 * math.pi)
     for chosen, most in (("DOP853", min(STIFF + 20.0 * usual, MAX_EVALUATIONS)), ("Radau", MAX_EVALUATIONS)):
         with suppress(TooManyStepsError):
-            return _Integration(dynamics, chosen, rtol, tolerance, most).run(state, duration, rate)
-    return _Integration(dynamics, "DOP853", rtol, tolerance).run(state, duration, rate)
+            return _Integration(dynamics, chosen, rtol, tolerance, most, progress).run(state, duration, rate)
+    return _Integration(dynamics, "DOP853", rtol, tolerance, progress=progress).run(state, duration, rate)
 
 
 class TooManyStepsError(InputError):
@@ -257,9 +263,16 @@ class _Integration:
     """One integration under way: counts evaluations and guards against escape."""
 
     def __init__(
-        self, dynamics: Dynamics, method: str, rtol: float, atol: Array, most: float = MAX_EVALUATIONS
+        self,
+        dynamics: Dynamics,
+        method: str,
+        rtol: float,
+        atol: Array,
+        most: float = MAX_EVALUATIONS,
+        progress: Progress = silent,
     ) -> None:
         self.dynamics, self.method, self.rtol, self.atol, self.most = dynamics, method, rtol, atol, most
+        self.progress = progress
         self.limits = well(dynamics)
         self.evaluations = 0
 
@@ -307,6 +320,8 @@ class _Integration:
         while solver.status == "running":
             message = solver.step()
             self.guard(solver, message, bound)
+            if len(times) % TOLD == 0:
+                self.progress(float(solver.t) / duration, f"integrating by {self.method}")
             if len(times) % PILOT == 0:
                 self.refuse_too_much(len(times), float(solver.t), float(solver.t) - times[-RECENT], duration)
             times.append(float(solver.t))

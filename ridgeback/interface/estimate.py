@@ -193,6 +193,7 @@ def model_fit(
     parameters: Mapping[str, Value] | None = None,
     free_offset: bool = True,
     band: tuple[float, float] | None = None,
+    progress: Wanted = None,
 ) -> ModelFit:
     """Fit an oscillator's own solutions to a signal: parameters with their covariance, and a test of the residual.
 
@@ -210,6 +211,8 @@ def model_fit(
         Whether the samples may read something else than 0 at rest.
     band : (float, float), optional
         Where the oscillation is looked for, rad per time unit.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the step.
 
     Returns
     -------
@@ -232,7 +235,10 @@ def model_fit(
     used = as_recording(x, rate, time=time, column=column)
     chosen_family = family_to_fit(oscillator, free, parameters)
     begin = float(used.time[0])
-    return fit.model_fit(used.values, used.rate, chosen_family, start=begin, free_offset=free_offset, band=band)
+    with showing(progress) as told:
+        return fit.model_fit(
+            used.values, used.rate, chosen_family, start=begin, free_offset=free_offset, band=band, progress=told
+        )
 
 
 def half_cycles(

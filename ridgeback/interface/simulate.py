@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
+from ridgeback.common.progress import Progress, Wanted, showing
 from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.binding.heyoka import integrate_heyoka
 from ridgeback.numeric.motion.dynamics import Dynamics
@@ -29,6 +30,7 @@ def simulate(
     rtol: float | None = None,
     parameters: Mapping[str, Value] | None = None,
     about: str | None = None,
+    progress: Wanted = None,
 ) -> Trajectory:
     """Integrate the equation of motion.
 
@@ -50,6 +52,8 @@ def simulate(
         Relative tolerance of SciPy's methods (1e-12 by default).
     parameters, about : optional
         As for :func:`ridgeback.oscillator`.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the step.  heyoka tells nothing.
 
     Returns
     -------
@@ -76,12 +80,14 @@ def simulate(
     if rtol is not None and name not in METHODS:
         raise InputError(f"rtol belongs to {', '.join(METHODS)}, not to {name}; leave it out")
     if isinstance(oscillator, Dynamics):
-        return of_dynamics(oscillator, initial, duration, rate, name, digits, rtol)
+        with showing(progress) as told:
+            return of_dynamics(oscillator, initial, duration, rate, name, digits, rtol, told)
     system = as_oscillator(oscillator, parameters=parameters, about=about)
     start = system.initial if initial is None else initial
     if name == "heyoka":
         return integrate_heyoka(system, start, duration=duration, rate=rate)
-    return of_dynamics(bind(system), start, duration, rate, name, digits, rtol)
+    with showing(progress) as told:
+        return of_dynamics(bind(system), start, duration, rate, name, digits, rtol, told)
 
 
 def of_dynamics(
@@ -92,6 +98,7 @@ def of_dynamics(
     method: str,
     digits: int | None,
     rtol: float | None,
+    told: Progress,
 ) -> Trajectory:
     """Integrate an oscillator that is bound to numbers."""
     if initial is None:
@@ -99,6 +106,6 @@ def of_dynamics(
     if method == "heyoka":
         raise InputError("heyoka forms its own derivatives; give the oscillator itself rather than its dynamics")
     if method == "taylor":
-        return integrate_taylor(dynamics, initial, duration=duration, rate=rate, digits=digits or DIGITS)
+        return integrate_taylor(dynamics, initial, duration=duration, rate=rate, digits=digits or DIGITS, progress=told)
     tolerance = 1e-12 if rtol is None else rtol
-    return integrate(dynamics, initial, duration=duration, rate=rate, method=method, rtol=tolerance)
+    return integrate(dynamics, initial, duration=duration, rate=rate, method=method, rtol=tolerance, progress=told)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -204,6 +205,24 @@ def test_checks_limits_and_orbits_take_any_form_of_an_oscillator() -> None:
     assert ridgeback.limits("u'' + sin(u) = 0", series).radius == pytest.approx(math.pi, abs=1e-3)
     orbit = ridgeback.periodic_orbit("u'' + eps*(u**2 - 1)*u' + u = 0", parameters={"eps": 1})
     assert ridgeback.precise_orbit("van_der_pol", digits=15, parameters={"eps": 1}).peak == pytest.approx(orbit.peak)
+
+
+def test_integrations_fits_and_proofs_tell_their_progress() -> None:
+    def shares(work: Callable[..., object], *given: object, **more: object) -> list[float]:
+        told: list[float] = []
+        work(*given, progress=lambda share, _: told.append(share), **more)
+        return told
+
+    runs = (
+        shares(ridgeback.simulate, "pendulum", (0.5, 0.0), duration=60.0),
+        shares(ridgeback.simulate, "pendulum", (0.5, 0.0), duration=5.0, method="taylor"),
+        shares(ridgeback.model_fit, X, RATE, oscillator="linear", free=["k"], parameters={"k": 2}),
+        shares(ridgeback.certified_rows, "pendulum", [2, 4], [0.5]),
+    )
+    for told in runs:
+        assert told == sorted(told)
+        assert len(told) > 1
+        assert 0 <= told[0] <= told[-1] <= 1
 
 
 def test_high_orders_tell_their_progress() -> None:
