@@ -39,10 +39,10 @@ def test_noise_alone_is_not_vouched_for(seed: int) -> None:
     noise = np.random.default_rng(seed).normal(size=801)
     track = estimate(noise, 20.0, method="hilbert")
     assert "no_interval" in track.settings
-    assert track.standard_deviation is not None
-    assert np.all(1.96 * track.standard_deviation[track.valid] <= 0.1 * track.omega[track.valid])
-    assert track.valid.mean() < 0.05
-    assert estimate(noise, 20.0, method="hilbert", bias=False).valid.mean() > 0.8  # nothing is judged there
+    assert track.interval is None
+    assert not track.valid.any()
+    assert track.presence is not None
+    assert track.presence.probability > 1e-3
 
 
 @pytest.mark.parametrize("scale", [1e100, 1e-100])
@@ -95,6 +95,6 @@ def test_turning_points_at_one_time_or_on_zero_give_no_damping() -> None:
 
 def test_a_window_below_a_sample_is_told_to_be_longer() -> None:
     noise = np.random.default_rng(1).normal(size=801)
-    for advice, lag in (("give a longer one, such as", 0.01), ("a shorter lag_seconds", 39.9)):
+    for advice, lag in (("use for example", 0.01), ("use at most", 39.9)):
         with pytest.raises(InputError, match=advice):
             estimate(noise + X, 20.0, method="pseudo-wigner", lag_seconds=lag, band=(3.9, 4.1), bias=False)

@@ -88,7 +88,7 @@ def test_a_certificate_is_printed_and_put_into_the_json(ridgeback: Ridgeback) ->
         (["derive", "--equation", "u'' + 2u = 0"], "2*u"),
         (["derive", "--equation", "u'' + u**3 = 0"], "no linear restoring force"),
         (["derive", "--equation", "u'' + abs(u)*u = 0"], "abs"),
-        (["derive", "pendulum", "--about", "1"], "not at rest"),
+        (["derive", "pendulum", "--about", "1"], "is not an equilibrium"),
         (["derive", "pendulum", "--about", "pi"], "saddle"),
         (["derive", "--equation", "u'' + u + c*u**3 = 0", "--set", "d=1"], "d"),
         (["simulate", "--equation", "u'' + u + c*u**3 = 0"], "c"),
