@@ -61,7 +61,7 @@ def size_warning(page: str) -> str | None:
 
 def _environment() -> Environment:
     environment = Environment(
-        loader=PackageLoader("reports"),
+        loader=PackageLoader("ridgeback.reports"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

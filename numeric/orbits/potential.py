@@ -138,7 +138,8 @@ def peak_of_potential(dynamics: Dynamics, energy: ArrayLike) -> Array:
     E = np.atleast_1d(np.asarray(energy, dtype=float))
     limit = peak_limit(dynamics)
     most = float(potential_at(dynamics, limit)[0]) if math.isfinite(limit) else math.inf
-    bad = E[~((E >= 0) & (most > E))]
+    below = most * (1 - 4 * np.finfo(float).eps)  # V at the edge of the well is known to a few roundings
+    bad = E[~((E >= 0) & (below > E))]
     if bad.size:
         raise InputError(
             f"{dynamics.name}: energy {bad[0]:.9g} is outside the well, 0 to {most:.9g}; start with less energy"
