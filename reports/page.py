@@ -73,7 +73,7 @@ def _environment() -> Environment:
 
 
 def _source(name: str) -> str:
-    return (resources.files("reports") / "templates" / name).read_text(encoding="utf-8")
+    return (resources.files("ridgeback.reports") / "templates" / name).read_text(encoding="utf-8")
 
 
 def _hash(script: str) -> str:
