@@ -103,7 +103,7 @@ def resigned(data: bytes, rng: Rng) -> bytes:
 
 def as_recording(path: Path) -> object:
     """Read all signals of a file, as ``estimate --column all`` does."""
-    from ridgeback.numeric.recording.recording import read_recordings
+    from ridgeback.numeric.recording.reading import read_recordings
 
     return read_recordings([path], columns="all", rate=None if path.suffix == ".csv" else 32.0)
 
