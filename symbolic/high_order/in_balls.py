@@ -182,6 +182,13 @@ class _Run:
             except KeyboardInterrupt:
                 self.save()
                 raise
+            except AssertionError as error:
+                if self.saved is None or self.path is None:
+                    raise
+                raise InputError(
+                    f"{self.path.name} holds numbers that contradict the equation ({error}); remove the file or name "
+                    "another"
+                ) from None
         with suppress(OSError):  # the result is there and must not be lost with its checkpoint
             self.save()
         with ctx.workprec(self.bits):

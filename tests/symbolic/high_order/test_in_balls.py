@@ -480,3 +480,21 @@ def test_the_blocks_meet_every_pair_once_and_in_time() -> None:
                         seen[pair] = seen.get(pair, 0) + 1
         assert all(seen.get((j, n - j)) == 1 for j in range(1, n))
     assert set(seen.values()) == {1}
+
+
+def test_a_checkpoint_whose_numbers_contradict_the_equation_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A re-signed forgery is balls that solve no equation: the recursion finds a secular term left over."""
+    path = tmp_path / "balls.state"
+    lindstedt_in_balls(find("van-der-pol"), 6, digits=10, checkpoint=path)
+
+    def contradicted(*_: object, **__: object) -> None:
+        raise AssertionError("secular sine left at order 3")
+
+    monkeypatch.setattr("ridgeback.symbolic.high_order.in_balls.cycle_recursion", contradicted)
+    with pytest.raises(InputError, match=r"balls\.state holds numbers that contradict the equation"):
+        lindstedt_in_balls(find("van-der-pol"), 6, digits=10, checkpoint=path)
+    path.unlink()
+    with pytest.raises(AssertionError):
+        lindstedt_in_balls(find("van-der-pol"), 6, digits=10)
