@@ -22,6 +22,7 @@ from numpy.polynomial import Polynomial
 from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.arrays import Array, Mask, as_rows, freeze
 from ridgeback.numeric.backbone.backbone import CLEAR
 from ridgeback.numeric.backbone.curve import Backbone, Crowding, Points, assemble
@@ -160,7 +161,12 @@ class HalfCycles(ShownBackbone):
 
 
 def half_cycles(
-    x: ArrayLike, rate: float, *, start: float = 0.0, band: tuple[float, float] | None = None
+    x: ArrayLike,
+    rate: float,
+    *,
+    start: float = 0.0,
+    band: tuple[float, float] | None = None,
+    progress: Progress = silent,
 ) -> HalfCycles:
     """Measure frequency, amplitude and growth rate of each half cycle.
 
@@ -174,6 +180,8 @@ def half_cycles(
         Time of the first sample.
     band : (float, float), optional
         Where the fundamental is looked for, rad per time unit.
+    progress : callable
+        Told the share of the work that is done and the step.
 
     Returns
     -------
@@ -198,10 +206,13 @@ def half_cycles(
     >>> bool(np.abs(found.growth_rate[inner] + 0.05).max() < 1e-4), bool(np.abs(found.omega / np.pi - 2.5).max() < 2e-3)
     (True, True)
     """
+    progress(0.0, "search band")
     samples = checked(x, rate, start=start, what="half_cycles", at_least=FEWEST_SAMPLES)
     request = prepared(samples, Options(band=band, bias=False))
     rate = samples.rate
+    progress(0.3, "local mean and noise")
     level = local_level(request)
+    progress(0.4, "crossings and turning points")
     x, noise = request.signal.x - level.offset, level.noise
     hysteresis = dead_zone(noise, level.smallest)
     crossings = interpolate(x, crossing_samples(x, hysteresis))

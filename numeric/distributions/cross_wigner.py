@@ -13,12 +13,15 @@ from numpy.typing import ArrayLike
 from scipy import fft
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.numeric.distributions.distribution import Distribution
 from ridgeback.numeric.distributions.lag_kernel import Complexes, LagKernel, lagged
+from ridgeback.numeric.distributions.shared_parameters import documented
 from ridgeback.numeric.distributions.wigner import wigner_kernel
 from ridgeback.numeric.signal.samples import MEMORY_BUDGET, checked_budget
 
 
+@documented
 def cross_wigner(
     x: ArrayLike,
     y: ArrayLike,
@@ -31,6 +34,7 @@ def cross_wigner(
     remove_mean: bool = True,
     memory: int = MEMORY_BUDGET,
     single: bool = False,
+    progress: Wanted = None,
 ) -> Distribution:
     """Return the cross-Wigner distribution of two signals of one length, over all lags or under a window of them.
 
@@ -46,14 +50,11 @@ def cross_wigner(
         Window over the lags, where ``lag_seconds`` is given.
     n_fft : int, optional
         Rows of the plane; as in ``wigner`` and ``pseudo_wigner`` by default.
-    start : float
-        Time of the first sample.
-    remove_mean : bool
-        Whether real signals lose their means first.
-    single : bool
-        Work in complex64: half the memory, an error near 3e-7 of the largest value.
-    memory : int
-        Bytes that the plane may take.
+    {start}
+    {remove_mean}
+    {single}
+    {memory}
+    {progress}
 
     Returns
     -------
@@ -92,8 +93,10 @@ def cross_wigner(
     kind = first.signal.dtype
     checked_budget(kind.itemsize * size * bins, memory, f"cross-wigner of {size} samples by {bins} bins", remedy)
     columns = np.empty((size, bins), dtype=kind)
-    for begin, end in first.spans(2 * bins):
-        columns[begin:end] = fft.fft(cross_columns(first, second, begin, end), axis=1, overwrite_x=True)
+    with showing(progress) as told:
+        for begin, end in first.spans(2 * bins):
+            told(begin / size, "cross-wigner")
+            columns[begin:end] = fft.fft(cross_columns(first, second, begin, end), axis=1, overwrite_x=True)
     settings = {
         "rate": first.rate,
         "n_fft": bins,

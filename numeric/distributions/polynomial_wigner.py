@@ -21,9 +21,11 @@ from numpy.typing import ArrayLike
 from scipy import fft
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, Wanted, showing, silent
 from ridgeback.numeric.arrays import Array, ComplexArray
 from ridgeback.numeric.distributions.distribution import Distribution
 from ridgeback.numeric.distributions.lag_kernel import BLOCK_BYTES
+from ridgeback.numeric.distributions.shared_parameters import documented
 from ridgeback.numeric.harmonics.noise import Level, phase_noise
 from ridgeback.numeric.signal.analytic import as_analytic
 from ridgeback.numeric.signal.samples import MEMORY_BUDGET, checked_budget, checked_rate
@@ -99,6 +101,7 @@ def polynomial_kernel(
     lag_window: str = "hann",
     n_fft: int | None = None,
     memory: int = MEMORY_BUDGET,
+    progress: Progress = silent,
 ) -> PolynomialKernel:
     """Build the polynomial lag kernel of complex samples, which have been checked, over ``lag_seconds`` of signal.
 
@@ -118,6 +121,7 @@ def polynomial_kernel(
     h = window(lag_window, M)[M:]
     products = np.empty((z.size, M + 1), dtype=np.complex128)
     for m in range(M + 1):
+        progress(m / (M + 1), "lag products")
         column = np.full(z.size, h[m], dtype=np.complex128)
         for power, c in DESIGNS[order]:
             column *= (shifted(z, 2.0 * c * m) * shifted(z, -2.0 * c * m).conj()) ** power
@@ -125,6 +129,7 @@ def polynomial_kernel(
     return PolynomialKernel(products, rate, bins)
 
 
+@documented
 def polynomial_wigner(
     x: ArrayLike,
     rate: float,
@@ -136,6 +141,7 @@ def polynomial_wigner(
     start: float = 0.0,
     remove_mean: bool = True,
     memory: int = MEMORY_BUDGET,
+    progress: Wanted = None,
 ) -> Distribution:
     """Return the polynomial Wigner distribution, whose ridge is exact for phases of degree 2 (order 2) or 4 (order 6).
 
@@ -143,24 +149,18 @@ def polynomial_wigner(
 
     Parameters
     ----------
-    x : array, shape (N,)
-        The signal.  Real samples are made analytic, complex ones are taken as they are.
-    rate : float
-        Samples per time unit.
+    {signal}
+    {rate}
     lag_seconds : float
         Stretch of signal that a column sees, in time units: the farthest factors lie within it.
-    lag_window : str
-        Window over the lags, 1 at tau = 0: one of ``signal.windows.WINDOWS``, such as ``"blackman"``.
+    {lag_window}
     order : int
         Number of factors: 2 (the pseudo-Wigner distribution), 4 (a quarter of its error from phi''') or 6.
-    n_fft : int, optional
-        Rows of the plane, about twice the number of lags by default.
-    start : float
-        Time of the first sample.
-    remove_mean : bool
-        Whether a real signal loses its mean first.
-    memory : int
-        Bytes that the lag products may take, and the plane.
+    {n_fft}
+    {start}
+    {remove_mean}
+    {memory}
+    {progress}
 
     Returns
     -------
@@ -184,15 +184,22 @@ def polynomial_wigner(
     >>> float(plane.frequency_hz[plane.values[:, 128].argmax()])
     3.0
     """
-    kernel = polynomial_kernel(
-        as_analytic(x, remove_mean=remove_mean),
-        checked_rate(rate),
-        lag_seconds=lag_seconds,
-        order=order,
-        lag_window=lag_window,
-        n_fft=n_fft,
-        memory=memory,
-    )
+    with showing(progress) as told:
+        kernel = polynomial_kernel(
+            as_analytic(x, remove_mean=remove_mean),
+            checked_rate(rate),
+            lag_seconds=lag_seconds,
+            order=order,
+            lag_window=lag_window,
+            n_fft=n_fft,
+            memory=memory,
+            progress=lambda share, step: told(0.9 * share, step),
+        )
+        told(0.9, "polynomial-wigner")
+        return _plane(kernel, order=order, start=start, memory=memory, border=0.5 * lag_seconds)
+
+
+def _plane(kernel: PolynomialKernel, *, order: int, start: float, memory: int, border: float) -> Distribution:
     size, M = kernel.products.shape[0], kernel.products.shape[1] - 1
     remedy = "shorten the signal or lower n_fft"
     checked_budget(8 * size * kernel.n_fft, memory, f"polynomial-wigner of {size} samples", remedy)
@@ -201,7 +208,7 @@ def polynomial_wigner(
         columns[first:last] = spectra
     settings = {"rate": kernel.rate, "n_fft": kernel.n_fft, "order": order, "lag_seconds": 2.0 * M / kernel.rate}
     time = start + np.arange(size) / kernel.rate
-    return Distribution(columns.T, kernel.omega, time, "polynomial-wigner", settings, 0.5 * lag_seconds)
+    return Distribution(columns.T, kernel.omega, time, "polynomial-wigner", settings, border)
 
 
 # The peak moves by (rate / 2) sum_m h m e[m] / sum_m h m^2, e[m] = sum_k b_k (eta[n + 2 c_k m] - eta[n - 2 c_k m]);

@@ -8,15 +8,19 @@ back: the sum over frequency of T is z itself.  (Auger and Flandrin 1995; Thakur
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.numeric.arrays import Array, ComplexArray
 from ridgeback.numeric.distributions.distribution import Distribution
 from ridgeback.numeric.distributions.lag_kernel import BLOCK_BYTES
 from ridgeback.numeric.distributions.reassignment import WindowFamily, first_order, second_order, window_family
+from ridgeback.numeric.distributions.shared_parameters import documented
 from ridgeback.numeric.distributions.short_time import short_time_spectra
 from ridgeback.numeric.signal.analytic import analytic_signal
 from ridgeback.numeric.signal.samples import MEMORY_BUDGET, TWO_PI, checked_budget, checked_rate, checked_real_samples
@@ -27,6 +31,14 @@ def blocks(size: int, n_fft: int, windows: int) -> list[tuple[int, int]]:
     """Consecutive (start, stop) whose spectra under so many windows fit into the working memory."""
     step = max(1, 2 * BLOCK_BYTES // (16 * n_fft * (windows + 3)))
     return [(start, min(start + step, size)) for start in range(0, size, step)]
+
+
+def told_blocks(size: int, n_fft: int, windows: int, name: str, progress: Wanted) -> Iterator[tuple[int, int]]:
+    """The same blocks; the progress is told as each begins."""
+    with showing(progress) as told:
+        for start, stop in blocks(size, n_fft, windows):
+            told(start / size, name)
+            yield start, stop
 
 
 def summed(cells: NDArray[np.intp], weights: Array, count: int) -> Array:
@@ -52,6 +64,7 @@ def prepared(
     return analytic_signal(samples, remove_mean=remove_mean), rate, half, length
 
 
+@documented
 def reassigned_spectrogram(
     x: ArrayLike,
     rate: float,
@@ -62,6 +75,7 @@ def reassigned_spectrogram(
     start: float = 0.0,
     remove_mean: bool = True,
     memory: int = MEMORY_BUDGET,
+    progress: Wanted = None,
 ) -> Distribution:
     """Return the reassigned spectrogram of a real signal: each value moved to where its energy sits.
 
@@ -70,22 +84,15 @@ def reassigned_spectrogram(
 
     Parameters
     ----------
-    x : array of float, shape (N,)
-        The real signal.
-    rate : float
-        Samples per time unit.
-    window_seconds : float
-        Full width of the window, in time units.
-    window_name : str
-        ``"hann"`` or ``"blackman"``: windows that end at zero.
-    n_fft : int, optional
-        Length of the transform, about twice the window by default.
-    start : float
-        Time of the first sample.
-    remove_mean : bool
-        Whether the signal loses its mean first.
-    memory : int
-        Bytes that the work may take.
+    {real_signal}
+    {rate}
+    {window_seconds}
+    {closed_window}
+    {transform}
+    {start}
+    {remove_mean}
+    {memory}
+    {progress}
 
     Returns
     -------
@@ -116,7 +123,7 @@ def reassigned_spectrogram(
     family = window_family(window_name, half, rate, scale=1.0 / float(window(window_name, half).sum()))
     omega = TWO_PI * rate * np.arange(n_fft) / n_fft
     columns = np.zeros((size, bins))
-    for first, last in blocks(size, n_fft, 3):
+    for first, last in told_blocks(size, n_fft, 3, "reassigned-spectrogram", progress):
         s, s_slope, s_lag = (short_time_spectra(z, w, first, last, n_fft) for w in family.three)
         shift, moved = first_order(omega, s, s_slope, s_lag)
         row = nearest(moved / omega[1])
@@ -137,6 +144,7 @@ def squeezed(z: ComplexArray, family: WindowFamily, omega: Array, first: int, la
     return spectra[0], second_order(omega, *spectra)
 
 
+@documented
 def synchrosqueezed_spectrogram(
     x: ArrayLike,
     rate: float,
@@ -147,6 +155,7 @@ def synchrosqueezed_spectrogram(
     start: float = 0.0,
     remove_mean: bool = True,
     memory: int = MEMORY_BUDGET,
+    progress: Wanted = None,
 ) -> Distribution:
     """Return |T|^2 of the second-order synchrosqueezed spectrum T of a real signal.
 
@@ -155,22 +164,15 @@ def synchrosqueezed_spectrogram(
 
     Parameters
     ----------
-    x : array of float, shape (N,)
-        The real signal.
-    rate : float
-        Samples per time unit.
-    window_seconds : float
-        Full width of the window, in time units.
-    window_name : str
-        ``"hann"`` or ``"blackman"``: windows that end at zero.
-    n_fft : int, optional
-        Length of the transform, about twice the window by default.
-    start : float
-        Time of the first sample.
-    remove_mean : bool
-        Whether the signal loses its mean first.
-    memory : int
-        Bytes that the work may take.
+    {real_signal}
+    {rate}
+    {window_seconds}
+    {closed_window}
+    {transform}
+    {start}
+    {remove_mean}
+    {memory}
+    {progress}
 
     Returns
     -------
@@ -200,7 +202,7 @@ def synchrosqueezed_spectrogram(
     family = window_family(window_name, half, rate, scale=1.0 / n_fft)
     omega = TWO_PI * rate * np.arange(n_fft) / n_fft
     columns = np.empty((size, bins))
-    for first, last in blocks(size, n_fft, 5):
+    for first, last in told_blocks(size, n_fft, 5, "synchrosqueezed", progress):
         s, moved = squeezed(z, family, omega, first, last)
         t = gathered(s, nearest(moved / omega[1]), bins)
         columns[first:last] = t.real**2 + t.imag**2

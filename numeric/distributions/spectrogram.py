@@ -8,11 +8,17 @@ from scipy import fft
 from scipy.signal import ShortTimeFFT
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.numeric.distributions.distribution import Distribution
+from ridgeback.numeric.distributions.shared_parameters import documented
 from ridgeback.numeric.signal.samples import MEMORY_BUDGET, TWO_PI, checked_budget, checked_rate, checked_real_samples
 from ridgeback.numeric.signal.windows import half_width, window
 
+WORKING_BYTES = 32_000_000
+"""Memory of the columns that are transformed at a time."""
 
+
+@documented
 def spectrogram(
     x: ArrayLike,
     rate: float,
@@ -24,6 +30,7 @@ def spectrogram(
     start: float = 0.0,
     remove_mean: bool = True,
     memory: int = MEMORY_BUDGET,
+    progress: Wanted = None,
 ) -> Distribution:
     """Return the spectrogram |S(omega, t)|^2 of a real signal, S its short-time Fourier transform.
 
@@ -33,24 +40,18 @@ def spectrogram(
 
     Parameters
     ----------
-    x : array of float, shape (N,)
-        The real signal.
-    rate : float
-        Samples per time unit.
-    window_seconds : float
-        Full width of the window, in time units.
+    {real_signal}
+    {rate}
+    {window_seconds}
     window_name : str
         ``"rectangular"``, ``"hann"``, ``"hamming"``, ``"blackman"`` or ``"gaussian"``.
     hop : int
         Samples from one column to the next.
-    n_fft : int, optional
-        Length of the transform, about twice the window by default.
-    start : float
-        Time of the first sample.
-    remove_mean : bool
-        Whether the signal loses its mean first.
-    memory : int
-        Bytes that the work may take.
+    {transform}
+    {start}
+    {remove_mean}
+    {memory}
+    {progress}
 
     Returns
     -------
@@ -85,7 +86,13 @@ def spectrogram(
     remedy = "use a larger hop"
     checked_budget(24 * frames * (n_fft // 2 + 1), memory, f"spectrogram of {frames} columns", remedy)
     transform = ShortTimeFFT(2.0 * w / w.sum(), hop=hop, fs=rate, fft_mode="onesided", mfft=n_fft)
-    values = np.abs(transform.stft(samples, p0=0, p1=frames)) ** 2
+    values = np.empty((n_fft // 2 + 1, frames))
+    block = max(1, WORKING_BYTES // (16 * n_fft))
+    with showing(progress) as told:
+        for first in range(0, frames, block):
+            told(first / frames, "spectrogram")
+            last = min(first + block, frames)
+            values[:, first:last] = np.abs(transform.stft(samples, p0=first, p1=last)) ** 2
     settings = {"rate": rate, "n_fft": n_fft, "hop": hop, "window": window_name, "window_seconds": 2 * half / rate}
     time = start + np.arange(frames) * hop / rate
     return Distribution(values, TWO_PI * transform.f, time, "spectrogram", settings, half / rate)

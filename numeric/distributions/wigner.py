@@ -14,9 +14,11 @@ from numpy.typing import ArrayLike
 from scipy import fft
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, Wanted, showing
 from ridgeback.numeric.arrays import ComplexArray
 from ridgeback.numeric.distributions.distribution import Distribution
 from ridgeback.numeric.distributions.lag_kernel import Complexes, LagKernel
+from ridgeback.numeric.distributions.shared_parameters import documented
 from ridgeback.numeric.signal.analytic import as_analytic
 from ridgeback.numeric.signal.band_limit import BandLimited, band_limited
 from ridgeback.numeric.signal.samples import MEMORY_BUDGET, checked_budget, checked_rate
@@ -112,7 +114,9 @@ def kernel_of(
     return LagKernel(signal, rate, h[::step], g / g.sum(), int(n_fft), step, limited.origin)
 
 
-def plane(kernel: LagKernel, name: str, *, start: float, memory: int, border: float = 0.0) -> Distribution:
+def plane(
+    kernel: LagKernel, name: str, *, start: float, memory: int, progress: Progress, border: float = 0.0
+) -> Distribution:
     """Evaluate every column of a kernel; refuses before the work when the plane is over the budget ``memory``."""
     size, real = kernel.signal.size, kernel.signal.real.dtype
     remedy = "shorten the signal, lower n_fft, or follow the ridge with estimate(...), which stores no plane"
@@ -121,6 +125,7 @@ def plane(kernel: LagKernel, name: str, *, start: float, memory: int, border: fl
     )
     columns = np.empty((size, kernel.n_fft), dtype=real)
     for start_block, stop_block in kernel.spans(kernel.n_fft):
+        progress(start_block / size, name)
         for first, last, spectra in kernel.spectra(start_block, stop_block, kernel.n_fft):
             columns[first:last] = spectra
     settings = {
@@ -134,6 +139,7 @@ def plane(kernel: LagKernel, name: str, *, start: float, memory: int, border: fl
     return Distribution(columns.T, kernel.omega, time, name, settings, border)
 
 
+@documented
 def wigner(
     x: ArrayLike,
     rate: float,
@@ -143,25 +149,21 @@ def wigner(
     remove_mean: bool = True,
     single: bool = False,
     memory: int = MEMORY_BUDGET,
+    progress: Wanted = None,
 ) -> Distribution:
     """Return the Wigner distribution of a signal, over all lags that the record has.
 
     Parameters
     ----------
-    x : array, shape (N,)
-        The signal.  Real samples are made analytic, complex ones are taken as they are.
-    rate : float
-        Samples per time unit.
+    {signal}
+    {rate}
     n_fft : int, optional
         Rows of the plane, one per sample by default.
-    start : float
-        Time of the first sample.
-    remove_mean : bool
-        Whether a real signal loses its mean first.
-    single : bool
-        Work in single precision: half the memory, an error near 3e-7 of the largest value.
-    memory : int
-        Bytes that the plane may take.
+    {start}
+    {remove_mean}
+    {single}
+    {memory}
+    {progress}
 
     Returns
     -------
@@ -187,9 +189,11 @@ def wigner(
     2.0
     """
     kernel = wigner_kernel(x, rate, n_fft=n_fft, remove_mean=remove_mean, single=single)
-    return plane(kernel, "wigner", start=start, memory=memory)
+    with showing(progress) as told:
+        return plane(kernel, "wigner", start=start, memory=memory, progress=told)
 
 
+@documented
 def pseudo_wigner(
     x: ArrayLike,
     rate: float,
@@ -201,6 +205,7 @@ def pseudo_wigner(
     remove_mean: bool = True,
     single: bool = False,
     memory: int = MEMORY_BUDGET,
+    progress: Wanted = None,
 ) -> Distribution:
     """Return the pseudo-Wigner distribution: the lag product under a window, so that a column sees what is near it.
 
@@ -208,24 +213,16 @@ def pseudo_wigner(
 
     Parameters
     ----------
-    x : array, shape (N,)
-        The signal.  Real samples are made analytic, complex ones are taken as they are.
-    rate : float
-        Samples per time unit.
-    lag_seconds : float
-        Stretch of signal that a column sees, in time units: the lag tau runs over -lag_seconds .. lag_seconds.
-    lag_window : str
-        Window over the lags, 1 at tau = 0: one of ``signal.windows.WINDOWS``, such as ``"blackman"``.
-    n_fft : int, optional
-        Rows of the plane, about twice the number of lags by default.
-    start : float
-        Time of the first sample.
-    remove_mean : bool
-        Whether a real signal loses its mean first.
-    single : bool
-        Work in single precision: half the memory, an error near 3e-7 of the largest value.
-    memory : int
-        Bytes that the plane may take.
+    {signal}
+    {rate}
+    {lag_seconds}
+    {lag_window}
+    {n_fft}
+    {start}
+    {remove_mean}
+    {single}
+    {memory}
+    {progress}
 
     Returns
     -------
@@ -252,9 +249,11 @@ def pseudo_wigner(
     kernel = wigner_kernel(
         x, rate, lag_seconds=lag_seconds, lag_window=lag_window, n_fft=n_fft, remove_mean=remove_mean, single=single
     )
-    return plane(kernel, "pseudo-wigner", start=start, memory=memory, border=0.5 * lag_seconds)
+    with showing(progress) as told:
+        return plane(kernel, "pseudo-wigner", start=start, memory=memory, progress=told, border=0.5 * lag_seconds)
 
 
+@documented
 def smoothed_pseudo_wigner(
     x: ArrayLike,
     rate: float,
@@ -268,6 +267,7 @@ def smoothed_pseudo_wigner(
     remove_mean: bool = True,
     single: bool = False,
     memory: int = MEMORY_BUDGET,
+    progress: Wanted = None,
 ) -> Distribution:
     """Return the smoothed pseudo-Wigner distribution: convolved along time with a window of sum 1.
 
@@ -276,27 +276,20 @@ def smoothed_pseudo_wigner(
 
     Parameters
     ----------
-    x : array, shape (N,)
-        The signal.  Real samples are made analytic, complex ones are taken as they are.
-    rate : float
-        Samples per time unit.
-    lag_seconds : float
-        Stretch of signal that a column sees, in time units: the lag tau runs over -lag_seconds .. lag_seconds.
+    {signal}
+    {rate}
+    {lag_seconds}
     smoothing_seconds : float
         Full width of the smoothing window, in time units.
     lag_window, smoothing_window : str
         Windows over the lags and along time: ``"rectangular"``, ``"hann"``, ``"hamming"``, ``"blackman"`` or
         ``"gaussian"``.
-    n_fft : int, optional
-        Rows of the plane, about twice the number of lags by default.
-    start : float
-        Time of the first sample.
-    remove_mean : bool
-        Whether a real signal loses its mean first.
-    single : bool
-        Work in single precision: half the memory, an error near 3e-7 of the largest value.
-    memory : int
-        Bytes that the plane may take.
+    {n_fft}
+    {start}
+    {remove_mean}
+    {single}
+    {memory}
+    {progress}
 
     Returns
     -------
@@ -331,6 +324,6 @@ def smoothed_pseudo_wigner(
         remove_mean=remove_mean,
         single=single,
     )
-    return plane(
-        kernel, "smoothed-pseudo-wigner", start=start, memory=memory, border=0.5 * (lag_seconds + smoothing_seconds)
-    )
+    border = 0.5 * (lag_seconds + smoothing_seconds)
+    with showing(progress) as told:
+        return plane(kernel, "smoothed-pseudo-wigner", start=start, memory=memory, progress=told, border=border)

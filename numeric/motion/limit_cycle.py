@@ -15,6 +15,7 @@ import mpmath as mp
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.motion.precise_ring import Precise
 from ridgeback.numeric.motion.taylor import taylor_solution
@@ -58,7 +59,7 @@ class _Return:
     trough: float
 
 
-def periodic_orbit(dynamics: Dynamics, *, start: float = 1.0) -> PeriodicOrbit:
+def periodic_orbit(dynamics: Dynamics, *, start: float = 1.0, progress: Progress = silent) -> PeriodicOrbit:
     """Find the limit cycle that a motion from rest approaches.
 
     Parameters
@@ -67,6 +68,8 @@ def periodic_orbit(dynamics: Dynamics, *, start: float = 1.0) -> PeriodicOrbit:
         The oscillator with numbers.
     start : float
         Where it starts from rest, in the unit of u.
+    progress : callable
+        Told the share of the work that is done and the step.
 
     Returns
     -------
@@ -88,8 +91,11 @@ def periodic_orbit(dynamics: Dynamics, *, start: float = 1.0) -> PeriodicOrbit:
     """
     if not (math.isfinite(start) and start > 0):
         raise InputError(f"start = {start} must be finite and positive")
+    progress(0.0, "the first cycles")
     guess = _settle(dynamics, start)
+    progress(0.1, "the return map")
     rough, _ = _fixed_point(dynamics, guess, 1e-11)
+    progress(0.6, "the return map, more tightly")
     fine, multiplier = _fixed_point(dynamics, rough.peak, 1e-13)
     floor = 1e-13
     return PeriodicOrbit(
@@ -169,7 +175,9 @@ def _next_peak(run: Trajectory) -> _Return | None:
     return _Return(float(time[high[0]]), float(value[high[0]]), float(value[low[0]]))
 
 
-def precise_orbit(dynamics: Dynamics, orbit: PeriodicOrbit, *, digits: int = 30) -> PreciseOrbit:
+def precise_orbit(
+    dynamics: Dynamics, orbit: PeriodicOrbit, *, digits: int = 30, progress: Progress = silent
+) -> PreciseOrbit:
     """Refine a limit cycle to many digits: the secant method on the return map, by Taylor series.
 
     Parameters
@@ -180,6 +188,8 @@ def precise_orbit(dynamics: Dynamics, orbit: PeriodicOrbit, *, digits: int = 30)
         The cycle to start from.
     digits : int
         Digits wanted.
+    progress : callable
+        Told the share of the work that is done and the step.
 
     Returns
     -------
@@ -213,6 +223,8 @@ def precise_orbit(dynamics: Dynamics, orbit: PeriodicOrbit, *, digits: int = 30)
         slope = mp.mpf(orbit.multiplier) - 1
         for _ in range(12):
             step = -value / slope
+            known = -math.log10(max(abs(float(step)), 1e-300))
+            progress(min(0.95, max(0.0, known / digits)), f"about {max(0, int(known))} of {digits} digits")
             following, period = growth(a + step)
             converged = abs(step) < mp.mpf(10) ** -digits
             if step != 0 and not converged:

@@ -248,6 +248,7 @@ def half_cycles(
     time: Any = None,
     column: str | int | None = None,
     band: tuple[float, float] | None = None,
+    progress: Wanted = None,
 ) -> HalfCycles:
     """Frequency, peak amplitude and growth rate of each half cycle, from zero crossings and turning points alone.
 
@@ -257,6 +258,8 @@ def half_cycles(
         The signal, as for :func:`estimate`.
     band : (float, float), optional
         Search band in rad per time unit.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the step.
 
     Returns
     -------
@@ -277,7 +280,9 @@ def half_cycles(
     True
     """
     used = as_recording(x, rate, time=time, column=column)
-    found = cycles.half_cycles(used.values, used.rate, start=float(used.time[0]), band=band)
+    begin = float(used.time[0])
+    with showing(progress) as told:
+        found = cycles.half_cycles(used.values, used.rate, start=begin, band=band, progress=told)
     return replace(found, units=used.units)
 
 
@@ -331,7 +336,7 @@ def backbone(
     name = chosen(method, (*ESTIMATORS, "half-cycles"), "method")
     used = as_recording(x, rate, time=time, column=column)
     if name == "half-cycles":
-        return replace(half_cycles(used, **settings).backbone(), units=used.units)
+        return replace(half_cycles(used, progress=progress, **settings).backbone(), units=used.units)
     found = estimate(used, method=name, progress=progress, **settings) if track is None else track
     return replace(measured_along(found, used, window_seconds), units=used.units)
 

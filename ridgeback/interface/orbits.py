@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.binding.bind import bind
 from ridgeback.numeric.motion import limit_cycle
 from ridgeback.numeric.motion.dynamics import Dynamics
@@ -13,7 +14,11 @@ from ridgeback.symbolic.systems.parameters import Value
 
 
 def periodic_orbit(
-    oscillator: OscillatorLike | Dynamics, *, start: float = 1.0, parameters: Mapping[str, Value] | None = None
+    oscillator: OscillatorLike | Dynamics,
+    *,
+    start: float = 1.0,
+    parameters: Mapping[str, Value] | None = None,
+    progress: Wanted = None,
 ) -> PeriodicOrbit:
     """Find the limit cycle that a motion from rest approaches, in double precision.
 
@@ -25,6 +30,8 @@ def periodic_orbit(
         Where it starts from rest, in the unit of u.
     parameters : mapping of str to number or str, optional
         Values of parameters.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the step.
 
     Returns
     -------
@@ -48,7 +55,9 @@ def periodic_orbit(
     >>> round(orbit.period, 9), round(orbit.peak, 9)
     (6.663286859, 2.008619861)
     """
-    return limit_cycle.periodic_orbit(bound(oscillator, parameters), start=start)
+    dynamics = bound(oscillator, parameters)
+    with showing(progress) as told:
+        return limit_cycle.periodic_orbit(dynamics, start=start, progress=told)
 
 
 def precise_orbit(
@@ -57,6 +66,7 @@ def precise_orbit(
     *,
     digits: int = 30,
     parameters: Mapping[str, Value] | None = None,
+    progress: Wanted = None,
 ) -> PreciseOrbit:
     """Find a limit cycle to many digits, by Taylor series at multiple precision.
 
@@ -70,6 +80,8 @@ def precise_orbit(
         Digits wanted.
     parameters : mapping of str to number or str, optional
         Values of parameters.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the digits that are known.
 
     Returns
     -------
@@ -89,8 +101,9 @@ def precise_orbit(
     6.6632868593231301897
     """
     dynamics = bound(oscillator, parameters)
-    found = limit_cycle.periodic_orbit(dynamics) if orbit is None else orbit
-    return limit_cycle.precise_orbit(dynamics, found, digits=digits)
+    with showing(progress) as told:
+        found = limit_cycle.periodic_orbit(dynamics) if orbit is None else orbit
+        return limit_cycle.precise_orbit(dynamics, found, digits=digits, progress=told)
 
 
 def bound(oscillator: OscillatorLike | Dynamics, parameters: Mapping[str, Value] | None) -> Dynamics:

@@ -10,9 +10,10 @@ from typing import TypeAlias
 from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.symbolic.arithmetic.balls import rational
 from ridgeback.symbolic.certificates.accuracy import check_belongs
-from ridgeback.symbolic.enclosure.enclosure import Enclosure, enclose, rounded_up
+from ridgeback.symbolic.enclosure.enclosure import Enclosure, brief_number, enclose, rounded_up
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, ball_row
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.resummation import Resummation
@@ -119,7 +120,12 @@ def reading(oscillator: Oscillator, formula: Formula, amplitude: Fraction, *, bi
 
 
 def certified_frequencies(
-    oscillator: OscillatorLike, formula: Formula, amplitudes: Sequence[Fraction], *, bits: int = 128
+    oscillator: OscillatorLike,
+    formula: Formula,
+    amplitudes: Sequence[Fraction],
+    *,
+    bits: int = 128,
+    progress: Wanted = None,
 ) -> tuple[Reading, ...]:
     """Enclose omega0 at each amplitude, in the formula's own definition, and the formula with its error.
 
@@ -133,6 +139,8 @@ def certified_frequencies(
         In the formula's definition and the unit of u.
     bits : int, optional
         The relative radius of each enclosure is about 2**-bits.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the amplitude.
 
     Returns
     -------
@@ -154,4 +162,9 @@ def certified_frequencies(
     ('0.937792258051', '1.71087e-7')
     """
     oscillator = as_oscillator(oscillator)
-    return tuple(reading(oscillator, formula, amplitude, bits=bits) for amplitude in amplitudes)
+    found = []
+    with showing(progress) as told:
+        for done, amplitude in enumerate(amplitudes):
+            told(done / len(amplitudes), f"amplitude {brief_number(Fraction(amplitude))}")
+            found.append(reading(oscillator, formula, amplitude, bits=bits))
+    return tuple(found)

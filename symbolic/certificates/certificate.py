@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import TypeAlias
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.symbolic.expansion.amplitude import measured
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
@@ -42,7 +44,11 @@ class Check:
         return {"check": self.name, "passed": self.passed, "statement": self.statement}
 
 
-def certify(oscillator: OscillatorLike, result: Expansion | SlowFlow) -> tuple[Check, ...]:
+Checks: TypeAlias = dict[str, Callable[[], Check]]
+"""Checks still to be run, by name."""
+
+
+def certify(oscillator: OscillatorLike, result: Expansion | SlowFlow, *, progress: Wanted = None) -> tuple[Check, ...]:
     """Run every independent check that applies to a result.
 
     Parameters
@@ -51,6 +57,8 @@ def certify(oscillator: OscillatorLike, result: Expansion | SlowFlow) -> tuple[C
         Any form of the oscillator whose result it is.
     result : Expansion or SlowFlow
         To be checked.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the check that begins.
 
     Returns
     -------
@@ -68,15 +76,32 @@ def certify(oscillator: OscillatorLike, result: Expansion | SlowFlow) -> tuple[C
     ['residual', 'normalisation', 'energy integral', 'multiple scales']
     """
     oscillator = as_oscillator(oscillator)
-    if isinstance(result, SlowFlow):
-        return (_flow_residual(result), _guarded("lindstedt", lambda: _flow_against_lindstedt(oscillator, result)))
-    if result.waveform is None:
-        return (_guarded("lindstedt", lambda: _against_lindstedt(oscillator, result)),)
-    checks = [_residual(result), _normalisation(result)]
-    if result.variable == "A":
-        checks.append(_guarded("energy integral", lambda: _against_energy(oscillator, result)))
-        checks.append(_guarded("multiple scales", lambda: _against_flow(oscillator, result)))
-    return tuple(checks)
+    checks = _of_flow(oscillator, result) if isinstance(result, SlowFlow) else _of_series(oscillator, result)
+    done: list[Check] = []
+    with showing(progress) as told:
+        for name, check in checks.items():
+            told(len(done) / len(checks), name)
+            done.append(check())
+    return tuple(done)
+
+
+def _of_flow(oscillator: Oscillator, flow: SlowFlow) -> Checks:
+    """The checks of a slow flow, by name."""
+    return {
+        "residual": lambda: _flow_residual(flow),
+        "lindstedt": lambda: _guarded("lindstedt", lambda: _flow_against_lindstedt(oscillator, flow)),
+    }
+
+
+def _of_series(oscillator: Oscillator, series: Expansion) -> Checks:
+    """The checks of a series, by name."""
+    if series.waveform is None:
+        return {"lindstedt": lambda: _guarded("lindstedt", lambda: _against_lindstedt(oscillator, series))}
+    checks: Checks = {"residual": lambda: _residual(series), "normalisation": lambda: _normalisation(series)}
+    if series.variable == "A":
+        checks["energy integral"] = lambda: _guarded("energy integral", lambda: _against_energy(oscillator, series))
+        checks["multiple scales"] = lambda: _guarded("multiple scales", lambda: _against_flow(oscillator, series))
+    return checks
 
 
 def certify_balls(oscillator: Oscillator, balls: BallExpansion) -> tuple[Check, ...]:

@@ -16,6 +16,7 @@ import sympy
 from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, Wanted, showing, silent
 from ridgeback.symbolic.arithmetic.balls import rational
 from ridgeback.symbolic.enclosure.analytic_strip import strip_of
 from ridgeback.symbolic.enclosure.ball_functions import number
@@ -96,6 +97,7 @@ def enclose(
     definition: str = "peak",
     bits: int = 128,
     method: Method | None = None,
+    progress: Wanted = None,
 ) -> Enclosure:
     """Enclose omega0 at an amplitude, rigorously, to a relative radius of about 2**-bits.
 
@@ -111,6 +113,8 @@ def enclose(
         128 (the default) gives 38 digits.
     method : str, optional
         ``closed form`` or ``quadrature``, to insist on one of the two routes.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the precision that is tried.
 
     Returns
     -------
@@ -138,12 +142,19 @@ def enclose(
         ...
     ridgeback.common.errors.InputError: duffing-softening: peak amplitude 1 is at or beyond the separatrix ...
     """
-    oscillator = as_oscillator(oscillator)
-    return enclose_in(well_of(oscillator), amplitude, definition=definition, bits=bits, method=method)
+    well = well_of(as_oscillator(oscillator))
+    with showing(progress) as told:
+        return enclose_in(well, amplitude, definition=definition, bits=bits, method=method, progress=told)
 
 
 def enclose_in(
-    well: Well, amplitude: Amplitude, *, definition: str = "peak", bits: int = 128, method: Method | None = None
+    well: Well,
+    amplitude: Amplitude,
+    *,
+    definition: str = "peak",
+    bits: int = 128,
+    method: Method | None = None,
+    progress: Progress = silent,
 ) -> Enclosure:
     """Enclose omega0 at an amplitude of the motion in a well; see ``enclose``."""
     size, bits = _exact(amplitude), _checked_bits(bits)
@@ -153,7 +164,7 @@ def enclose_in(
             f"use {' or '.join(DEFINITIONS)}"
         )
     well = well.mirrored() if definition == "trough" else well
-    value, place, how = _at_rest(well, bits) if size == 0 else _swinging(well, size, bits, method, definition)
+    value, place, how = _at_rest(well, bits) if size == 0 else _swinging(well, size, bits, method, definition, progress)
     peak, trough = (place.peak, place.trough) if definition == "peak" else (-place.trough, -place.peak)
     exact = sympy.Rational(size.numerator, size.denominator)
     return Enclosure(value, exact, definition, peak, trough, how, bits, well.scale)
@@ -165,7 +176,7 @@ def _at_rest(well: Well, bits: int) -> tuple[arb, Orbit, Method]:
 
 
 def _swinging(
-    well: Well, size: Fraction, bits: int, method: Method | None, definition: str
+    well: Well, size: Fraction, bits: int, method: Method | None, definition: str, progress: Progress
 ) -> tuple[arb, Orbit, Method]:
     peak = rational(size)
 
@@ -179,7 +190,7 @@ def _swinging(
             raise UndecidedError
         return _widened(omega, bits), path, how
 
-    return decided(attempt, well.name, bits + GUARD_BITS + _cancelled(well, size))
+    return decided(attempt, well.name, bits + GUARD_BITS + _cancelled(well, size), progress)
 
 
 def _natural(well: Well, path: Orbit, bits: int, method: Method | None) -> tuple[arb, Method]:

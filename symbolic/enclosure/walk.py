@@ -15,6 +15,7 @@ from typing import Final, Literal, TypeAlias, TypeVar
 from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
 from ridgeback.symbolic.enclosure.ball_functions import Function
 
 MAX_STEPS: Final = 4000
@@ -36,13 +37,16 @@ class UndecidedError(ArithmeticError):
 T = TypeVar("T")
 
 
-def decided(attempt: Callable[[int], T], name: str, working: int) -> T:
+def decided(attempt: Callable[[int], T], name: str, working: int, progress: Progress = silent) -> T:
     """The answer of ``attempt(bits)`` at the first precision, doubled a few times, at which balls can decide.
+
+    ``progress`` is told each precision that is tried, whose cost about doubles from one to the next.
 
     Raises InputError when none of them can.
     """
     for doubling in range(ATTEMPTS):
         precision = working << doubling
+        progress(((1 << doubling) - 1) / ((1 << ATTEMPTS) - 1), f"balls of {precision} bits")
         try:
             with ctx.workprec(precision):
                 return attempt(precision)

@@ -16,6 +16,7 @@ import sympy
 from flint import fmpq
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, Wanted, showing
 from ridgeback.symbolic.arithmetic import truncated
 from ridgeback.symbolic.expansion.amplitude import check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check
@@ -32,7 +33,12 @@ ALLOWED = ("peak", "trough", "action", "energy")
 
 
 def energy_integral(
-    oscillator: OscillatorLike, order: int, *, amplitude: str = "peak", budget: Budget | None = None
+    oscillator: OscillatorLike,
+    order: int,
+    *,
+    amplitude: str = "peak",
+    budget: Budget | None = None,
+    progress: Wanted = None,
 ) -> Expansion:
     """Expand omega0 in the amplitude from the energy integral, without oscillator theory.
 
@@ -47,6 +53,8 @@ def energy_integral(
         does not have.
     budget : Budget, optional
         What the derivation may cost; 10 minutes and 4 GB by default.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the step.
 
     Returns
     -------
@@ -79,13 +87,8 @@ def energy_integral(
             "use --method multiple-scales or lindstedt, or set its damping to 0"
         )
     check("energy-integral", order, budget or Budget(), parameters=len(names))
-    length = order + 1
-    twice_potential = _twice_potential(force, names, length)
-    root = truncated.square_root(twice_potential)  # s(u) / u
-    u_of_s = truncated.revert([fmpq(0), *root])
-    period = _period(u_of_s, length)
-    energy = _energy_of(amplitude, twice_potential, period)
-    inverse = truncated.reciprocal(truncated.compose(period, energy))
+    with showing(progress) as told:
+        inverse = _frequency(_twice_potential(force, names, order + 1), amplitude, told)
     return Expansion(
         system=oscillator.name,
         method="energy-integral",
@@ -101,6 +104,18 @@ def energy_integral(
         names=names,
         constants=natural.constants,
     )
+
+
+def _frequency(twice_potential: list[Scalar], amplitude: str, told: Progress) -> list[Scalar]:
+    """omega0 in powers of the amplitude, from 2 V(u) / u^2."""
+    told(0.1, "reversion of the potential")
+    root = truncated.square_root(twice_potential)  # s(u) / u
+    u_of_s = truncated.revert([fmpq(0), *root])
+    period = _period(u_of_s, len(twice_potential))
+    told(0.5, f"{amplitude} amplitude in the energy")
+    energy = _energy_of(amplitude, twice_potential, period)
+    told(0.7, "frequency in the amplitude")
+    return truncated.reciprocal(truncated.compose(period, energy))
 
 
 def _twice_potential(force: sympy.Expr, names: tuple[str, ...], length: int) -> list[Scalar]:

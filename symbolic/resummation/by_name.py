@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Literal, TypeAlias
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Wanted
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.elliptic_nome import nome
 from ridgeback.symbolic.resummation.pade import mapped, mapping_for, pade
@@ -26,6 +27,7 @@ def resum(
     degrees: tuple[int, int] | None = None,
     growth: Fraction = Fraction(0),
     up_to: Fraction | None = None,
+    progress: Wanted = None,
 ) -> Resummation:
     """Resum a series of omega0.
 
@@ -44,6 +46,8 @@ def resum(
         The power of x that omega0 follows at infinity (maps only, see ``pade.mapped``).
     up_to : Fraction, optional
         A pole at or below this value of the variable is refused, as one inside the radius of convergence always is.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done of the longer series that settles the radius.
 
     Returns
     -------
@@ -71,7 +75,7 @@ def resum(
         return _nome(oscillator, series, degrees)
     if not series.names and all(c == 0 for c in series.coefficients[1:]):
         raise InputError(f"{series.system}: omega0 is constant through order {series.order}; nothing is to be resummed")
-    limits = settled_limits(oscillator, series)
+    limits = settled_limits(oscillator, series, progress=progress)
     reach = max(Fraction(limits.radius or 0), up_to or Fraction(0))
     m, n = degrees or (None, None)
     if kind == "map":

@@ -21,6 +21,7 @@ import sympy
 from flint import arb, ctx, fmpq
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Wanted
 from ridgeback.symbolic.arithmetic import truncated
 from ridgeback.symbolic.arithmetic.balls import natural_frequency
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
@@ -352,7 +353,9 @@ def _scaled(value: float) -> tuple[float, int]:
     return float(Decimal(value).scaleb(-power)), power
 
 
-def settled_limits(oscillator: OscillatorLike, expansion: Expansion | BallExpansion) -> Limits:
+def settled_limits(
+    oscillator: OscillatorLike, expansion: Expansion | BallExpansion, *, progress: Wanted = None
+) -> Limits:
     """Return the limits of an expansion; a short one is settled by the same expansion carried further.
 
     Parameters
@@ -361,6 +364,8 @@ def settled_limits(oscillator: OscillatorLike, expansion: Expansion | BallExpans
         Any form of the oscillator whose expansion it is.
     expansion : Expansion or BallExpansion
         Balls that are too wide are settled by the exact series.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the order about to be found.
 
     Returns
     -------
@@ -383,7 +388,7 @@ def settled_limits(oscillator: OscillatorLike, expansion: Expansion | BallExpans
         found = limits(expansion)
         if found.radius is not None or isinstance(expansion, Expansion):
             return found
-    return limits(expansion, longer=lindstedt(oscillator, _SETTLING, amplitude=expansion.amplitude))
+    return limits(expansion, longer=lindstedt(oscillator, _SETTLING, amplitude=expansion.amplitude, progress=progress))
 
 
 _SETTLING = 48
