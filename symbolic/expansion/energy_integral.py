@@ -108,13 +108,13 @@ def energy_integral(
 
 def _frequency(twice_potential: list[Scalar], amplitude: str, told: Progress) -> list[Scalar]:
     """omega0 in powers of the amplitude, from 2 V(u) / u^2."""
-    told(0.1, "reversion of the potential")
+    told(1 / 10, "reversion of the potential")
     root = truncated.square_root(twice_potential)  # s(u) / u
     u_of_s = truncated.revert([fmpq(0), *root])
     period = _period(u_of_s, len(twice_potential))
-    told(0.5, f"{amplitude} amplitude in the energy")
+    told(1 / 2, f"{amplitude} amplitude in the energy")
     energy = _energy_of(amplitude, twice_potential, period)
-    told(0.7, "frequency in the amplitude")
+    told(7 / 10, "frequency in the amplitude")
     return truncated.reciprocal(truncated.compose(period, energy))
 
 
