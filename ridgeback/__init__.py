@@ -40,6 +40,7 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.interface.orbits import precise_orbit as precise_orbit
     from ridgeback.interface.report import report as report
     from ridgeback.interface.report import study as study
+    from ridgeback.interface.simulate import energy_terms as energy_terms
     from ridgeback.interface.simulate import simulate as simulate
     from ridgeback.numeric.backbone.curve import Backbone as Backbone
     from ridgeback.numeric.backbone.half_cycles import HalfCycles as HalfCycles
@@ -58,6 +59,7 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.numeric.model_fit.fit import ModelFit as ModelFit
     from ridgeback.numeric.motion.dynamics import Dynamics as Dynamics
     from ridgeback.numeric.motion.trajectory import Trajectory as Trajectory
+    from ridgeback.numeric.orbits.energy import EnergyTerms as EnergyTerms
     from ridgeback.numeric.recording.reading import read_recording as read_recording
     from ridgeback.numeric.recording.reading import read_recordings as read_recordings
     from ridgeback.numeric.recording.recording import Recording as Recording

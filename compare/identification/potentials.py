@@ -141,9 +141,6 @@ def stop_orbits(shape: Shape, *, side: int) -> ScaledOrbits:
     return ScaledOrbits(A, scaled.omega, scaled.action, scaled.cosine * signs[:, None], scaled.cubic, scaled.quartic)
 
 
-K = ("k", "rad/T", "natural frequency")
-
-
 def _k(k: float) -> tuple[str, float, str, str]:
     return ("k", k, "rad/T", "frequency of small oscillations")
 

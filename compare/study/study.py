@@ -229,10 +229,6 @@ def _smallest(reach: Mapping[int, float | None], amplitude: float) -> int | None
     return min(serving, default=None)
 
 
-def _within(result: Study, target: float) -> Array:
-    return np.asarray(np.abs(result.relative_error) <= target)
-
-
 def _checked_orders(orders: Sequence[int]) -> tuple[int, ...]:
     if not isinstance(orders, Sequence | np.ndarray):
         raise InputError(f"orders {orders!r} are not a list of whole numbers; use orders such as (2, 4, 8)")

@@ -6,9 +6,9 @@ the parameters cannot be estimated without bias better than
     var g >= sigma^2 |R^-T grad g|^2,       D = Q R                           (Kay 1993, section 3.8 and 3.9).
 
 Here s is the model that harmonic least squares fits: a phase and slow amplitudes, each a combination of basis
-functions of time, and an offset.  The *local* form takes polynomials in a window; the *global* form takes splines
-over the record.  Nuisance parameters (amplitudes, harmonics, offset) cost what they cost: nothing is neglected.
-With one tone, constant amplitude and many cycles, the local form of phase degree 1 is 12 sigma^2 rate^2 / (A^2/2 N^3).
+functions of time, and an offset: polynomials in a window.  Nuisance parameters (amplitudes, harmonics, offset) cost
+what they cost: nothing is neglected.  With one tone, constant amplitude and many cycles, the bound of phase degree 1 is
+12 sigma^2 rate^2 / (A^2/2 N^3).
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
@@ -28,7 +27,6 @@ PHASE_DEGREE = 3
 AMPLITUDE_DEGREE = 2
 DRIFT_DEGREE = 1
 BLOCK_VALUES = 2_000_000
-SPLINE_DEGREE = 3
 
 
 @dataclass(frozen=True)
@@ -170,63 +168,3 @@ def deviation(jacobian: Array, gradients: Array) -> Array:
     target = np.zeros((*scale.shape, gradients.shape[-2]))
     target[..., :known, :] = np.swapaxes(gradients / scale[..., None, :known], -1, -2)
     return np.asarray(np.linalg.norm(np.linalg.solve(np.swapaxes(triangle, -1, -2), target), axis=-2))
-
-
-def global_bound(
-    signal: HarmonicSignal,
-    noise: float,
-    *,
-    phase_knots: Array,
-    amplitude_knots: Array,
-    multiples: tuple[int, ...] = (),
-    degree: int = SPLINE_DEGREE,
-) -> Array:
-    """Least standard deviation of omega when phase and amplitudes are splines over the whole record.
-
-    Parameters
-    ----------
-    signal : HarmonicSignal
-        The true signal.
-    noise : float
-        Standard deviation of the white noise, in the signal's unit.
-    phase_knots, amplitude_knots : array of float
-        Clamped knots in time units from the first sample (``uniform_knots``); the offset is a straight line.
-    multiples : tuple of int
-        Harmonics that are fitted beside the fundamental.
-    degree : int
-        Of the splines.
-
-    Returns
-    -------
-    array of float, shape (N,)
-        Rad per time unit, at every sample.
-
-    Raises
-    ------
-    InputError
-        For work over the budget, and for splines that the samples do not determine.
-
-    Examples
-    --------
-    >>> from ridgeback.numeric.harmonics.harmonic_signal import uniform_knots
-    >>> tone = HarmonicSignal(1.0, 0.7 * np.arange(401.0), np.full(401, 0.7), (1,), np.ones((1, 401)),
-    ...     np.zeros((1, 401)), np.zeros(401))
-    >>> knots = uniform_knots(400.0, 400.0)
-    >>> whole = global_bound(tone, 0.1, phase_knots=knots, amplitude_knots=knots)
-    >>> local = local_bound(tone, 0.1, half=200, order=Order(amplitude_degree=3), centres=np.arange(401))
-    >>> bool(np.allclose(whole, local, rtol=1e-9))
-    True
-    """
-    time = np.arange(signal.phase.size) / signal.rate
-    slow = BSpline.design_matrix(time, amplitude_knots, degree).toarray()
-    phase = BSpline.design_matrix(time, phase_knots, degree).toarray()
-    size = phase.shape[1] + slow.shape[1] * (1 + 2 * len(multiples)) + 2
-    checked_work(2.0 * time.size * size**2, f"the bound of {size} splines", "use fewer knots, or the local form")
-    columns = [signal.turning()[:, None] * phase, np.cos(signal.phase)[:, None] * slow]
-    for h in multiples:
-        angle = h * signal.phase[:, None]
-        columns += [np.cos(angle) * slow, np.sin(angle) * slow]
-    columns.append(np.vander(time / time[-1], 2))
-    slope = BSpline(phase_knots, np.eye(phase.shape[1]), degree).derivative()(time)
-    jacobian = np.concatenate(columns, axis=1)
-    return noise * deviation(jacobian, slope)

@@ -285,38 +285,3 @@ def integrate_taylor(
         steps=frozen([float(t) for t in solution.knots]),
         interpolant=solution.float_interpolant(),
     )
-
-
-@dataclass(frozen=True)
-class Disagreement:
-    """Difference of u between two solutions at common times, and of their crossing times.
-
-    ``crossings`` is the largest difference in time, or None when they do not have the same number.
-    """
-
-    max_abs: float
-    rms: float
-    at: float
-    """Time of the largest difference."""
-    crossings: float | None
-
-
-def disagreement(first: Trajectory, second: Trajectory) -> Disagreement:
-    """Compare two solutions sampled at the same times; InputError when the times differ.
-
-    >>> from ridgeback.numeric.motion.dynamics import linear
-    >>> run = integrate_taylor(linear(), (1.0, 0.0), duration=7.0, rate=10.0, digits=20)
-    >>> disagreement(run, run).max_abs
-    0.0
-    """
-    if first.time.shape != second.time.shape or not np.array_equal(first.time, second.time):
-        raise InputError("the two trajectories are not sampled at the same times; use one duration and rate")
-    difference = np.abs(first.u - second.u)
-    worst = int(difference.argmax())
-    a, b = first.crossings.time, second.crossings.time
-    return Disagreement(
-        max_abs=float(difference[worst]),
-        rms=float(np.sqrt(np.mean(difference**2))),
-        at=float(first.time[worst]),
-        crossings=float(np.abs(a - b).max(initial=0.0)) if a.size == b.size else None,
-    )

@@ -8,12 +8,14 @@ an error of the computation.  ``averaging`` gives the smooth decay.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import Array, frozen
+from ridgeback.common.show.displayed import Displayed
+from ridgeback.common.show.picture import Picture, Stroke
+from ridgeback.numeric.arrays import Array, as_rows, frozen
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.motion.trajectory import Trajectory
 from ridgeback.numeric.orbits.action_loss import damping_force
@@ -22,21 +24,70 @@ from ridgeback.numeric.orbits.potential import peak_of_potential, potential_at, 
 _GAUSS_POINTS = 8  # exact to degree 15: beyond the dense output, a polynomial of degree 7, squared
 
 
-@dataclass(frozen=True)
-class EnergyTerms:
-    """The terms of the energy balance at the samples of a trajectory, per unit mass; 1-D arrays of one length."""
+@dataclass(frozen=True, repr=False)
+class EnergyTerms(Displayed):
+    """The terms of the energy balance at the samples of a trajectory, per unit of mass.
 
+    Parameters
+    ----------
+    name : str
+        The oscillator's.
+    time : array of float, shape (N,)
+        Sample times.
+    kinetic : array of float, shape (N,)
+        E_k = u'^2 / 2, eq. (16).
+    potential : array of float, shape (N,)
+        E_p = V(u) - V(u(0)), eq. (17).
+    dissipated : array of float, shape (N,)
+        E_d = the integral of u' d(u, u') from 0, d what damps: 2 mu times that of u'^2, eq. (18), for linear damping.
+    mechanical : array of float, shape (N,)
+        E_m = E_k + E_p, eq. (19).
+    balance : array of float, shape (N,)
+        E_k + E_p + E_d - E_k(0): zero by eq. (15), here the error of solver and quadrature together.
+
+    Examples
+    --------
+    >>> from ridgeback.numeric.motion.dynamics import linear
+    >>> from ridgeback.numeric.motion.trajectory import integrate
+    >>> terms = energy_terms(linear(), integrate(linear(), (1.0, 0.0), duration=10.0, rate=8.0))
+    >>> round(float(terms.kinetic.max()), 2), float(terms.dissipated.max())
+    (0.5, 0.0)
+    """
+
+    INDEX: ClassVar[tuple[str, ...]] = ("time_s",)
+
+    name: str
     time: Array
     kinetic: Array
-    """E_k = u'^2 / 2, eq. (16)."""
     potential: Array
-    """E_p = V(u) - V(u(0)), eq. (17)."""
     dissipated: Array
-    """E_d = the integral of u' d(u, u') from 0, d what damps: 2 mu times that of u'^2, eq. (18), for linear damping."""
     mechanical: Array
-    """E_m = E_k + E_p, eq. (19)."""
     balance: Array
-    """E_k + E_p + E_d - E_k(0): zero by eq. (15), here the error of solver and quadrature together."""
+
+    def rows(self) -> list[dict[str, float]]:
+        """One row per sample."""
+        columns = {
+            "time_s": self.time,
+            "kinetic_energy": self.kinetic,
+            "potential_energy": self.potential,
+            "dissipated_energy": self.dissipated,
+            "mechanical_energy": self.mechanical,
+            "energy_balance": self.balance,
+        }
+        return as_rows(columns)
+
+    def headline(self) -> str:
+        """What was lost, and how well the balance closes."""
+        return (
+            f"{self.name}, energy per unit of mass at {self.time.size} samples, {self.dissipated[-1]:.6g} dissipated, "
+            f"balance within {np.abs(self.balance).max():.1e}"
+        )
+
+    def picture(self) -> Picture:
+        """The terms over time."""
+        parts = {"kinetic": self.kinetic, "potential": self.potential, "dissipated": self.dissipated}
+        strokes = tuple(Stroke(self.time, part, label) for label, part in parts.items())
+        return Picture(f"{self.name}, energy per unit of mass", "time, s", "energy per unit of mass", strokes)
 
 
 @dataclass(frozen=True)
@@ -91,6 +142,7 @@ def energy_terms(dynamics: Dynamics, trajectory: Trajectory) -> EnergyTerms:
     dissipated = _dissipated(dynamics, trajectory)
     mechanical = kinetic + potential
     return EnergyTerms(
+        name=dynamics.name,
         time=trajectory.time,
         kinetic=frozen(kinetic),
         potential=frozen(potential),
@@ -170,17 +222,3 @@ def amplitude_from_energy(dynamics: Dynamics, energy: ArrayLike) -> Amplitude:
     """
     peak = peak_of_potential(dynamics, energy)
     return Amplitude(peak=frozen(peak), trough=trough(dynamics, peak))
-
-
-def pendulum_amplitude(mechanical: ArrayLike, *, k: float, theta0: float) -> Array:
-    """Return A = arccos(-E_m / k^2 + cos(theta0)) as eq. (21) is printed, E_m by (19), relative to theta0.
-
-    Raises InputError where E_m would carry the pendulum over the top.
-
-    >>> round(float(pendulum_amplitude([0.0], k=2.0, theta0=1.0)[0]), 15)
-    1.0
-    """
-    cosine = -np.atleast_1d(np.asarray(mechanical, dtype=float)) / k**2 + np.cos(theta0)
-    if not np.all((cosine > -1) & (cosine <= 1 + 1e-12)):
-        raise InputError(f"energy {np.max(mechanical):.6g} is outside the pendulum's well; it would rotate")
-    return frozen(np.arccos(np.minimum(cosine, 1.0)))

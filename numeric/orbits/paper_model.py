@@ -17,7 +17,7 @@ from scipy.interpolate import make_interp_spline
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, frozen
-from ridgeback.numeric.motion.dynamics import Dynamics, agm
+from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
 
 MAX_TERMS = 100_000
@@ -248,23 +248,3 @@ def multicomponent_model(
     components = tuple(Component(m, frozen(cosine[m]), frozen(m * w), frozen(m * slope)) for m in range(1, count + 1))
     signal = cosine[0] + sum(c.amplitude * np.cos(c.multiple * phi) for c in components)
     return MulticomponentModel(frozen(t), frozen(cosine[0]), components, frozen(signal))
-
-
-def pendulum_harmonics(peak: ArrayLike, *, count: int = 9) -> Array:
-    """Return the exact Fourier amplitudes ``[m, amplitude]``, m = 0..count, of the undamped pendulum from its peak.
-
-    theta = 8 sum_n (-1)^n q^(n + 1/2) / ((2n + 1) (1 + q^(2n + 1))) cos((2n + 1) omega0 t), with the nome
-    q = exp(-pi K'/K): the integral of theta' = 2 k z cn, DLMF 22.11.2.  K'/K = agm(1, cos(A/2)) / agm(1, sin(A/2)).
-
-    >>> pendulum_harmonics([0.1], count=3)[1].round(9).tolist()
-    [0.100005211]
-    """
-    z = modulus(peak)
-    cosine = np.cos(0.5 * np.atleast_1d(np.asarray(peak, dtype=float)))
-    with np.errstate(divide="ignore"):
-        nome = np.where(z > 0, np.exp(-np.pi * agm(1.0, cosine) / agm(1.0, np.where(z > 0, z, 1.0))), 0.0)
-    table = np.zeros((count + 1, z.size))
-    for n in range((count + 1) // 2):
-        m = 2 * n + 1
-        table[m] = 8 * (-1) ** n * nome ** (0.5 * m) / (m * (1 + nome**m))
-    return frozen(table)

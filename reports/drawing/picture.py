@@ -12,7 +12,6 @@ import matplotlib.style
 from ridgeback.reports.drawing.canvas import Canvas
 from ridgeback.reports.drawing.theme import DRAWING, plain_colours, sentinel
 
-KINDS = ("svg", "png", "pdf")
 RESOLUTION = 160.0
 _NO_DATES = {
     "svg": dict.fromkeys(("Creator", "Date", "Format", "Type")),

@@ -1,4 +1,4 @@
-"""``ridgeback.simulate``: an integrated trajectory, by any of the integrators."""
+"""``ridgeback.simulate`` and ``energy_terms``: a trajectory by any of the integrators, and the energy along it."""
 
 from __future__ import annotations
 
@@ -9,9 +9,12 @@ from ridgeback.common.names import chosen
 from ridgeback.common.progress import Progress, Wanted, showing
 from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.binding.heyoka import integrate_heyoka
+from ridgeback.interface.orbits import bound
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.motion.taylor import integrate_taylor
 from ridgeback.numeric.motion.trajectory import METHODS, Trajectory, integrate
+from ridgeback.numeric.orbits import energy
+from ridgeback.numeric.orbits.energy import EnergyTerms
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
@@ -44,8 +47,9 @@ def simulate(
         Time to integrate over.
     rate : float
         Samples per time unit.
-    method : {"DOP853", "RK45", "Radau", "BDF", "LSODA", "taylor", "heyoka"}
-        The integrator: one of SciPy's, a Taylor method at any precision, or heyoka where it is installed.
+    method : {"DOP853", "auto", "RK45", "Radau", "BDF", "LSODA", "taylor", "heyoka"}
+        The integrator: one of SciPy's (``auto`` turns to Radau where the equation is stiff), a Taylor method at any
+        precision, or heyoka where it is installed.
     digits : int, optional
         Digits that ``taylor`` works with (30 by default).
     rtol : float, optional
@@ -109,3 +113,38 @@ def of_dynamics(
         return integrate_taylor(dynamics, initial, duration=duration, rate=rate, digits=digits or DIGITS, progress=told)
     tolerance = 1e-12 if rtol is None else rtol
     return integrate(dynamics, initial, duration=duration, rate=rate, method=method, rtol=tolerance, progress=told)
+
+
+def energy_terms(
+    oscillator: OscillatorLike | Dynamics, trajectory: Trajectory, *, parameters: Mapping[str, Value] | None = None
+) -> EnergyTerms:
+    """Return the terms of the energy balance along a trajectory: E_k + E_p + E_d = E_k(0).
+
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq, sympy.Expr or Dynamics
+        The oscillator that the trajectory is of, in any of the forms that :func:`ridgeback.oscillator` takes.
+    trajectory : Trajectory
+        The motion.
+    parameters : mapping of str to number or str, optional
+        Values of parameters, those that the trajectory was made with.
+
+    Returns
+    -------
+    EnergyTerms
+        Kinetic, potential, dissipated and mechanical energy per unit of mass, and what the balance misses (the error of
+        integrator and quadrature together), each of shape (N,), in the unit of u'^2.
+
+    Raises
+    ------
+    InputError
+        For an oscillator without a potential, and for a parameter without a value.
+
+    Examples
+    --------
+    >>> run = simulate("damped_pendulum", (1.0, 0.0), duration=10.0)
+    >>> terms = energy_terms("damped_pendulum", run)
+    >>> bool(terms.dissipated[-1] > 0), bool(abs(terms.balance).max() < 1e-11)
+    (True, True)
+    """
+    return energy.energy_terms(bound(oscillator, parameters), trajectory)

@@ -12,6 +12,7 @@ from typing import Final, NamedTuple
 
 OF_SIGNAL: Final = "unit of the signal"
 OF_OSCILLATOR: Final = "unit of the unknown"
+PER_MASS: Final = f"({OF_OSCILLATOR})^2/s^2"
 
 
 class Quantity(NamedTuple):
@@ -58,6 +59,11 @@ QUANTITIES: Final[Mapping[str, Quantity]] = MappingProxyType(
         "runs": Quantity("1", "number of runs that reach this amplitude"),
         "u": Quantity(OF_OSCILLATOR, "the unknown"),
         "velocity": Quantity(f"{OF_OSCILLATOR}/s", "time derivative of the unknown"),
+        "kinetic_energy": Quantity(PER_MASS, "kinetic energy u'^2/2 per unit of mass"),
+        "potential_energy": Quantity(PER_MASS, "potential energy per unit of mass, from the first sample"),
+        "dissipated_energy": Quantity(PER_MASS, "energy per unit of mass that damping has taken"),
+        "mechanical_energy": Quantity(PER_MASS, "kinetic and potential energy per unit of mass"),
+        "energy_balance": Quantity(PER_MASS, "what the energy balance misses per unit of mass"),
         "value": Quantity(OF_SIGNAL, "value"),
         "clipped": Quantity("", "whether the sample lies in a flat top"),
         "filled": Quantity("", "whether the sample was interpolated"),

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.harmonics.cramer_rao import Order, deviation, global_bound, local_bound
-from ridgeback.numeric.harmonics.harmonic_signal import HarmonicSignal, decompose, uniform_knots
+from ridgeback.numeric.harmonics.cramer_rao import Order, deviation, local_bound
+from ridgeback.numeric.harmonics.harmonic_signal import HarmonicSignal, decompose
 from ridgeback.numeric.harmonics.local_fit import Shape, harmonic_fit
 
 NOISE = 0.1
@@ -110,16 +110,6 @@ def test_more_parameters_never_lower_the_bound(degree: int, amplitude: int, more
     centres = np.array([0, 60, 150, 299])
     fewer = local_bound(signal, NOISE, half=60, order=small, centres=centres)
     assert np.all(local_bound(signal, NOISE, half=60, order=large, centres=centres) >= fewer * (1 - 1e-9))
-
-
-def test_global_bound_lies_between_a_stiffer_and_a_looser_spline() -> None:
-    signal, amplitude = chirp(), uniform_knots(299 / 20, 5.0)
-    bounds = [
-        global_bound(signal, NOISE, phase_knots=uniform_knots(299 / 20, gap), amplitude_knots=amplitude)
-        for gap in (15.0, 3.75, 1.875)
-    ]
-    assert np.all(bounds[1] >= bounds[0] * (1 - 1e-9))
-    assert np.all(bounds[2] >= bounds[1] * (1 - 1e-9))
 
 
 def test_harmonic_least_squares_attains_the_bound() -> None:

@@ -17,8 +17,8 @@ from ridgeback.numeric.orbits.energy import (
     energy_of,
     energy_terms,
     is_linearly_damped,
-    pendulum_amplitude,
 )
+from tests.numeric.orbits.closed_forms import pendulum_amplitude
 
 K, THETA0 = 4 * math.pi, 0.95 * math.pi
 

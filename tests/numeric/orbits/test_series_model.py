@@ -17,7 +17,6 @@ from ridgeback.numeric.orbits.averaging import averaged_decay
 from ridgeback.numeric.orbits.paper_model import (
     modulus,
     multicomponent_model,
-    pendulum_harmonics,
     phase_of_samples,
     series_coefficients,
     series_frequency,
@@ -25,6 +24,7 @@ from ridgeback.numeric.orbits.paper_model import (
     simple_model,
     slope_of_samples,
 )
+from tests.numeric.orbits.closed_forms import pendulum_harmonics
 
 K = 4 * math.pi
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.motion.dynamics import helmholtz_duffing, linear, pendulum
 from ridgeback.numeric.motion.trajectory import integrate
-from ridgeback.numeric.orbits.paper_model import pendulum_harmonics
 from ridgeback.numeric.orbits.waveform import orbit_harmonics, orbit_position
+from tests.numeric.orbits.closed_forms import pendulum_harmonics
 
 
 @settings(deadline=None, max_examples=25)

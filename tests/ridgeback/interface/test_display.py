@@ -31,6 +31,7 @@ def results() -> dict[str, Displayed]:
         "flow": ridgeback.derive("damped_pendulum", 6),
         "recording": recording,
         "trajectory": ridgeback.simulate("pendulum", (1.0, 0.0)),
+        "energy": ridgeback.energy_terms("pendulum", ridgeback.simulate("pendulum", (1.0, 0.0), duration=5.0)),
         "track": ridgeback.estimate(recording, method="pseudo-wigner"),
         "backbone": ridgeback.backbone(recording, method="hilbert"),
         "half cycles": ridgeback.half_cycles(recording),
@@ -46,8 +47,8 @@ def results() -> dict[str, Displayed]:
 
 
 KINDS = (
-    *("expansion", "long expansion", "cycle", "flow", "recording", "trajectory", "track", "backbone", "half cycles"),
-    *("fit", "plane", "study", "cycle study", "benchmark", "identification", "prediction", "report"),
+    *("expansion", "long expansion", "cycle", "flow", "recording", "trajectory", "energy", "track", "backbone"),
+    *("half cycles", "fit", "plane", "study", "cycle study", "benchmark", "identification", "prediction", "report"),
 )
 
 

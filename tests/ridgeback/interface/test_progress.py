@@ -14,6 +14,7 @@ from ridgeback.public import PUBLIC
 
 QUICK = {
     *("oscillator", "bind"),  # an equation is parsed
+    "energy_terms",  # one quadrature along a trajectory that is there
     *("fixed_points", "cycle_series", "frequency_series"),  # algebra on a flow that is there
     *("read_recording", "read_recordings", "recordings_from_arrays"),  # a million rows in about two seconds
     "ridge",  # one search along a plane that is there
