@@ -25,6 +25,7 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.compare.identification.results import Identification as Identification
     from ridgeback.compare.recording.measurements import measure_recordings as measure_recordings
     from ridgeback.compare.report.results import Report as Report
+    from ridgeback.compare.studies.result import StudyResult as StudyResult
     from ridgeback.compare.study.certified import certified_rows as certified_rows
     from ridgeback.compare.study.results import Study as Study
     from ridgeback.interface.benchmark import benchmark as benchmark
@@ -42,6 +43,7 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.interface.report import study as study
     from ridgeback.interface.simulate import energy_terms as energy_terms
     from ridgeback.interface.simulate import simulate as simulate
+    from ridgeback.interface.studies import run_study as run_study
     from ridgeback.numeric.backbone.curve import Backbone as Backbone
     from ridgeback.numeric.backbone.half_cycles import HalfCycles as HalfCycles
     from ridgeback.numeric.distributions.cross_wigner import cross_wigner as cross_wigner

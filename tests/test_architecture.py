@@ -43,7 +43,7 @@ ORDER: dict[str, tuple[str, ...]] = {
         *("signal", "harmonics", "tracking", "motion", "model_fit", "distributions", "estimators", "orbits"),
         *("files", "recording", "backbone"),
     ),
-    "compare": ("binding", "study", "identification", "motion", "benchmark", "noise", "recording", "report"),
+    "compare": ("binding", "study", "identification", "motion", "benchmark", "noise", "studies", "recording", "report"),
     "reports": ("text", "drawing", "figures"),
     "ridgeback": ("common", "console", "interface", "options", "answers", "verbs"),
 }

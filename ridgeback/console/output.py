@@ -146,6 +146,16 @@ def write_text(path: str, text: str) -> None:
         write_bytes(path, visible(text).encode("utf-8", "backslashreplace"))
 
 
+def write_parts(path: str, parts: Iterable[str]) -> None:
+    """Write a text that comes piece by piece and is never held whole: the whole of it, or leave what was there."""
+    if path == STDOUT or open_descriptor(path) is not None or is_special(path):
+        for part in parts:
+            write_text(path, part)
+    else:
+        check_writable(path)
+        write_whole(Path(path), (visible(part).encode("utf-8", "backslashreplace") for part in parts))
+
+
 def write_bytes(path: str, data: bytes) -> None:
     """Write the whole content, or leave what was there; devices and pipes are written to."""
     check_writable(path)

@@ -70,8 +70,12 @@ def choosing(command: Command) -> Command:
     ) -> None:
         command(*args, choice=Choice(system, equation, about, potential, assignments), **rest)
 
+    return named_by(set_option(wrapped))
+
+
+def named_by(command: Command) -> Command:
+    """Give a verb the argument SYSTEM and what may stand in its place."""
     for option in (
-        set_option,
         click.option(
             "--about",
             default=None,
@@ -92,5 +96,5 @@ def choosing(command: Command) -> Command:
         ),
         click.argument("system", required=False, metavar="[SYSTEM|FILE.toml]"),
     ):
-        wrapped = option(wrapped)
-    return wrapped
+        command = option(command)
+    return command

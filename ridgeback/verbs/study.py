@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 import click
 
 from ridgeback.answers.estimator_table import estimator_options, estimators_verb
+from ridgeback.answers.study_file import is_study_file, study_file_verb
 from ridgeback.console.failure import PartialError
 from ridgeback.console.output import json_text, write_text
 from ridgeback.console.tables import Row, aligned, csv_text
 from ridgeback.console.verb import Verb
 from ridgeback.options.arguments import GRID, ORDERS
 from ridgeback.options.shared import format_option, output_option
-from ridgeback.options.system import Choice, choosing
+from ridgeback.options.study import Run, studying, with_parameters
+from ridgeback.options.system import Choice
 
 if TYPE_CHECKING:
     from ridgeback.compare.study.results import Study
@@ -22,9 +24,9 @@ if TYPE_CHECKING:
 
 
 @click.command("study", cls=Verb, short_help="Error of expansions over order and amplitude.")
-@choosing
+@studying
 @click.option(
-    "--orders", type=ORDERS, default="2,4,8,16", show_default=True, metavar="N,N,...", help="Orders to compare."
+    "--orders", type=ORDERS, default=None, show_default="2,4,8,16", metavar="N,N,...", help="Orders to compare."
 )
 @click.option(
     "--amplitudes",
@@ -51,7 +53,9 @@ if TYPE_CHECKING:
 def command(
     *,
     choice: Choice,
-    orders: tuple[int, ...],
+    run: Run,
+    example: str | None,
+    orders: tuple[int, ...] | None,
     amplitudes: tuple[float, ...] | None,
     method: str,
     certified: bool,
@@ -64,12 +68,30 @@ def command(
 ) -> None:
     """Hold truncated expansions of SYSTEM against its exact frequency: one row per order and amplitude.
 
+    With a study file (TOML with a table [study]) run all that it asks: in parallel, kept as it goes, resumable.
+
     \b
     ridgeback study pendulum --orders 2,4,8,16 --amplitudes 0.1:3.0:30
     ridgeback study pendulum --orders 8,16 --amplitudes 1,2,3 --certified
     ridgeback study van-der-pol --orders 4,8 --amplitudes 0.1,0.5,1 --format csv
     ridgeback study --estimators --checkpoint estimators.json
+    ridgeback study --example five-oscillators > five.toml
+    ridgeback study five.toml --workers 2 --format csv -o cells.csv
+    ridgeback study five.toml --set orders=2,4,8,16,32 --store other.db
     """
+    if example is not None:
+        from ridgeback.compare.studies.examples import example as text_of
+
+        write_text(output, text_of(example))
+        return
+    if is_study_file(choice.system):
+        if orders or amplitudes or certified or estimators or trials is not None or checkpoint is not None:
+            raise click.UsageError(
+                "a study file has orders, amplitudes and trials of its own; use --set to change them"
+            )
+        study_file_verb(str(choice.system), run, style=style, output=output)
+        return
+    choice, orders = with_parameters(choice, run), orders or (2, 4, 8, 16)
     if estimators:
         if choice.made or amplitudes is not None or certified:
             raise click.UsageError("--estimators is a study of its own; leave out what belongs to expansions")

@@ -1,0 +1,23 @@
+"""The questions by name, each with what answers it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+
+from ridgeback.compare.studies.answer import Answer
+from ridgeback.compare.studies.plan import Plan
+from ridgeback.compare.studies.questions import error, observed_order, order_needed
+from ridgeback.compare.studies.tasks import Finished
+
+Answering = Callable[[Plan, Iterable[Finished]], Answer]
+ANSWERS: Mapping[str, Answering] = {
+    "error": error.answer,
+    "order-needed": order_needed.answer,
+    "observed-order": observed_order.answer,
+}
+
+
+def answers(plan: Plan, blocks: Callable[[], Iterable[Finished]]) -> Iterator[Answer]:
+    """The answer to each question of a plan; ``blocks`` gives its finished cells, from the beginning each time."""
+    for question in plan.ask:
+        yield ANSWERS[question](plan, blocks())

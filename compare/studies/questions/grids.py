@@ -1,0 +1,94 @@
+"""Finished backbone cells, one grid of orders and amplitudes for each oscillator and method."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+
+from ridgeback.compare.studies.measures.backbone import BackboneTask
+from ridgeback.compare.studies.systems import System
+from ridgeback.compare.studies.tasks import Column, Finished
+from ridgeback.numeric.arrays import Array
+
+ERROR = 3
+UNCERTAINTY = 2
+"""Places of the relative error and of the reference's uncertainty among the values of a cell."""
+SHOWN_STROKES = 8
+POINTS = 400
+"""Points of a curve in a figure, about."""
+WHO = (
+    Column("oscillator", "", "name of the oscillator"),
+    Column("parameters", "", "its parameters"),
+    Column("method", "", "how the frequency is computed"),
+)
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Errors of one method on one oscillator; NaN where a cell has a reason and no value."""
+
+    system: System
+    method: str
+    orders: tuple[int, ...]
+    amplitudes: Array
+    error: Array
+    """Signed relative error, ``[order, amplitude]``."""
+    uncertainty: Array
+    """Of the reference, relative, ``[amplitude]``."""
+    failed: int
+
+    def who(self) -> dict[str, str]:
+        """The first columns of a row about it."""
+        return {"oscillator": self.system.name, "parameters": parameters_text(self.system), "method": self.method}
+
+
+def grids(blocks: Iterable[Finished]) -> Iterator[Grid]:
+    """Put the blocks of each oscillator and method together; amplitudes rise."""
+    for _, group in groupby(blocks, key=lambda block: (task_of(block).system, task_of(block).method)):
+        yield _grid(list(group))
+
+
+def task_of(block: Finished) -> BackboneTask:
+    """The task of a block, which is of the backbone."""
+    task = block.task
+    if not isinstance(task, BackboneTask):
+        raise TypeError(f"{type(task).__name__} is no task of the backbone")
+    return task
+
+
+def _grid(blocks: Sequence[Finished]) -> Grid:
+    first = task_of(blocks[0])
+    nothing = (np.nan,) * (ERROR + 1)
+    values = [o if isinstance(o, tuple) else nothing for block in blocks for o in block.outcomes]
+    table = np.array([(v[ERROR], v[UNCERTAINTY]) for v in values], dtype=float).reshape(-1, len(first.orders), 2)
+    known = np.where(np.isfinite(table[..., 1]), table[..., 1], -1.0).max(axis=1)
+    return Grid(
+        system=first.system,
+        method=first.method,
+        orders=first.orders,
+        amplitudes=np.array([a for block in blocks for a in task_of(block).amplitudes]),
+        error=table[..., 0].T,
+        uncertainty=np.where(known < 0, np.nan, known),
+        failed=sum(block.failures for block in blocks),
+    )
+
+
+def parameters_text(system: System) -> str:
+    """The parameters of an oscillator in a cell.
+
+    >>> parameters_text(System("pendulum", "pendulum", parameters=(("mu", "1/100"),)))
+    'mu = 0.01, k = 1'
+    """
+    return ", ".join(f"{name} = {value:.6g}" for name, value in system.numbers().items())
+
+
+def thinned(count: int) -> Array:
+    """Indices of at most about POINTS of so many points, the last among them.
+
+    >>> thinned(3).tolist()
+    [0, 1, 2]
+    """
+    return np.unique(np.linspace(0, count - 1, min(count, POINTS)).round().astype(int))

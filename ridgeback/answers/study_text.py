@@ -1,0 +1,107 @@
+"""The answers of a study as text and JSON, its cells as CSV: cells are read and written one after the other."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Iterable, Iterator
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+from ridgeback.common.csv_text import cell
+from ridgeback.common.visible import no_formula
+from ridgeback.console.output import plain
+from ridgeback.console.tables import aligned
+
+if TYPE_CHECKING:
+    from ridgeback.compare.studies.answer import Answer
+    from ridgeback.compare.studies.result import StudyResult
+
+SHOWN_ROWS = 40
+"""Rows of a table for reading; the others are counted."""
+SHOWN_FAILURES = 8
+AT_ONCE = 2000
+"""Rows that are turned into text at once."""
+
+
+def parts(found: StudyResult, style: str) -> Iterator[str]:
+    """The output in the form asked for, piece by piece."""
+    if style == "csv":
+        yield from csv_parts(found)
+    elif style == "json":
+        yield from json_parts(found)
+    else:
+        yield readable(found)
+
+
+def csv_parts(found: StudyResult) -> Iterator[str]:
+    """A header and one line for each cell."""
+    from ridgeback.compare.studies.tidy import columns_of
+
+    names = [column.name for column in columns_of(found.plan)]
+    yield csv_lines([[no_formula(name) for name in names]])
+    for rows in batches(found.rows(), AT_ONCE):
+        yield csv_lines([cell(row[name]) for name in names] for row in rows)
+
+
+def csv_lines(rows: Iterable[list[str]]) -> str:
+    """Lines of CSV."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
+
+
+def json_parts(found: StudyResult) -> Iterator[str]:
+    """One JSON object: about, columns, answers, failures, cells; a cell a line."""
+    from ridgeback.compare.studies.tidy import columns_of
+
+    columns = {column.name: {"unit": column.unit, "meaning": column.meaning} for column in columns_of(found.plan)}
+    head: dict[str, Any] = {
+        "about": found.about(),
+        "plan": found.plan.to_dict(),
+        "answers": [answer.to_dict() for answer in found.answers],
+        "failures": [vars(failure) for failure in found.failures],
+        "columns": columns,
+    }
+    text = json.dumps(plain(head), indent=2, allow_nan=False)
+    yield text.removesuffix("\n}") + ',\n  "cells": [\n'
+    for i, row in enumerate(found.rows()):
+        yield ("" if i == 0 else ",\n") + "    " + json.dumps(plain(row), allow_nan=False)
+    yield "\n  ]\n}\n"
+
+
+def readable(found: StudyResult) -> str:
+    """The answers, then what gave no value."""
+    head = found.plan.title or "Study"
+    subjects = len(found.plan.subjects)
+    lines = [f"{head}: {found.cells} cells, {subjects} oscillator{'' if subjects == 1 else 's'}; {found.program}"]
+    for answer in found.answers:
+        lines += ["", *answer_lines(answer)]
+    if found.failures:
+        lines += ["", f"{found.failed} cells have no value and are left out:"]
+        shown = found.failures[:SHOWN_FAILURES]
+        lines += [f"  {f.cells} of {f.oscillator} (and others like it): {f.reason}" for f in shown]
+        lines += [f"  {len(found.failures) - len(shown)} more reasons"] if len(found.failures) > len(shown) else []
+    return "\n".join(lines) + "\n"
+
+
+def answer_lines(answer: Answer) -> Iterator[str]:
+    """One answer: its title, its table, what follows from it."""
+    yield f"{answer.question}: {answer.title}"
+    if answer.table:
+        yield aligned([column.name for column in answer.columns], answer.table[:SHOWN_ROWS])
+    if len(answer.table) > SHOWN_ROWS:
+        yield f"... {len(answer.table) - SHOWN_ROWS} more rows; --format json has them all"
+    yield from answer.sentences
+
+
+def batches(rows: Iterable[Any], size: int) -> Iterator[list[Any]]:
+    """Rows in lists of so many.
+
+    >>> list(batches(range(5), 2))
+    [[0, 1], [2, 3], [4]]
+    """
+    source = iter(rows)
+    while batch := list(islice(source, size)):
+        yield batch
