@@ -57,6 +57,8 @@ BY_NAME: dict[str, frozenset[str]] = {
     "ridgeback/common/show/page.py": frozenset({"ridgeback.reports.page"}),
     "compare/binding/heyoka.py": frozenset({"heyoka"}),
 }
+OF_THE_HOUSE = frozenset({"faults", "fuzz", "kill", "mutants", "packaging"})
+"""Folders of tests/ that stand for no folder of a room: what they try goes through the whole house."""
 MOST_FILES = 14
 """Files in one folder, its ``__init__`` left out."""
 
@@ -296,6 +298,16 @@ def test_derivations_hold_no_float() -> None:
 def test_every_room_ships_its_types(room: str) -> None:
     assert (ROOT / room / "py.typed").is_file()
     assert (ROOT / room / "__init__.py").is_file()
+
+
+def test_tests_mirror_the_rooms() -> None:
+    """Each folder of a room has its folder of tests, and a folder of tests stands for one, or is of the whole house."""
+    folders = {path.parent.relative_to(ROOT) for path in modules().values() if path.name != "__init__.py"}
+    tested = {path.parent.relative_to(ROOT / "tests") for path in (ROOT / "tests").rglob("test_*.py")}
+    deep = {folder for folder in folders if len(folder.parts) > 1}
+    assert sorted(map(str, deep - tested)) == []
+    strangers = {folder for folder in tested - folders if folder.parts and folder.parts[0] not in OF_THE_HOUSE}
+    assert sorted(map(str, strangers)) == []
 
 
 def test_tests_are_no_package() -> None:

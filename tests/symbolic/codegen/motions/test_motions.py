@@ -1,21 +1,16 @@
-"""Code of every oscillator of the catalogue, with its motion, and of languages that come from elsewhere."""
+"""Code of every oscillator of the catalogue, with its motion, its slow flow and its transient."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-from importlib.metadata import EntryPoint
-from pathlib import Path
 
 import pytest
 import sympy
 
-from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.generated_code import check, tool_of
-from ridgeback.symbolic.codegen import form_of, generate
+from ridgeback.symbolic.codegen import form_of
 from ridgeback.symbolic.codegen.evaluation import value_at
-from ridgeback.symbolic.codegen.languages import registry
-from ridgeback.symbolic.codegen.languages.python import Python
 from ridgeback.symbolic.codegen.program import Form, Function
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -105,44 +100,3 @@ def test_steps_make_the_transient(system: str, small: float, start: float) -> No
     assert errors[1][0] < 1e-6
     assert errors[1][1] < 1e-6
     assert all(fine < max(coarse / 12, 1e-10) for fine, coarse in zip(errors[1], errors[0], strict=True))
-
-
-class Shouting(Python):
-    name = "shouting"
-
-    def write(self, form: Form) -> str:
-        return super().write(form).upper()
-
-
-def test_another_distribution_adds_a_language(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Point(EntryPoint):
-        def load(self) -> object:
-            return Shouting() if self.name == "shouting" else object()
-
-    points = tuple(Point(name, "elsewhere:language", registry.GROUP) for name in ("shouting", "broken"))
-    monkeypatch.setattr(registry, "entry_points", lambda group: points if group == registry.GROUP else ())
-    registry.languages.cache_clear()
-    try:
-        assert "DEF OMEGA0" in generate(lindstedt(find("pendulum"), 2), "shouting")
-        with pytest.raises(InputError, match="shouting"):
-            generate(lindstedt(find("pendulum"), 2), "broken")
-    finally:
-        monkeypatch.undo()
-        registry.languages.cache_clear()
-
-
-def test_a_package_is_written_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from ridgeback.console.folder import write_folder
-
-    write_folder(f"{tmp_path}/clock/", {"src/a.c": "x", "b.txt": "y"})
-    assert (tmp_path / "clock" / "src" / "a.c").read_text() == "x"
-    with pytest.raises(InputError, match="exists already"):
-        write_folder(f"{tmp_path}/clock/", {"a": "z"})
-
-    def fails(self: Path, *_: object, **__: object) -> int:
-        raise OSError(28, "No space left on device", str(self))
-
-    monkeypatch.setattr(Path, "write_text", fails)
-    with pytest.raises(OSError, match="No space"):
-        write_folder(f"{tmp_path}/second/", {"a": "z"})
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["clock"]

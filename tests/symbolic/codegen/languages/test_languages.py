@@ -24,7 +24,7 @@ from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
-from tests.symbolic.codegen.drivers import DRIVERS, POINTS, STEP
+from tests.symbolic.codegen.languages.drivers import DRIVERS, POINTS, STEP
 
 ORDERS = (10, 40, 100, 200)
 END = Fraction("2.9")
