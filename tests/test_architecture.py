@@ -37,7 +37,7 @@ ALLOWED: dict[str, frozenset[str]] = {
 ORDER: dict[str, tuple[str, ...]] = {
     "symbolic": (
         *("arithmetic", "grammar", "systems", "series", "expansion", "singularities", "resummation", "enclosure"),
-        *("flow", "certificates", "codegen", "high_order"),
+        *("cycles", "flow", "certificates", "codegen", "high_order"),
     ),
     "numeric": (
         *("signal", "harmonics", "tracking", "motion", "model_fit", "distributions", "estimators", "orbits"),

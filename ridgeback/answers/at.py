@@ -17,10 +17,15 @@ from ridgeback.options.derivation import Request
 
 if TYPE_CHECKING:
     from ridgeback.symbolic.certificates.at_amplitudes import Formula, Reading, Unread
+    from ridgeback.symbolic.certificates.at_cycles import CycleReading
     from ridgeback.symbolic.systems.oscillator import Oscillator
+
+    Row = CycleReading | Reading | Unread
 
 DIGITS = 20
 """Digits printed when ``--digits`` does not say."""
+CYCLE_DIGITS = 30
+"""Likewise of limit cycles, each of which costs a second, however many digits it has."""
 TEXT = {
     "amplitude_exact": "A",
     "omega0": "omega0",
@@ -28,16 +33,31 @@ TEXT = {
     "formula_omega0": "formula",
     "relative_error": "relative error",
 }
+CYCLE_TEXT = {
+    "omega0": "omega0",
+    "radius": "radius",
+    "amplitude": "peak",
+    "amplitude_radius": "its radius",
+    "stable": "stable",
+    "formula_omega0": "formula",
+    "relative_error": "relative error",
+}
 
 
-def read_at(oscillator: Oscillator, formula: Any, demand: Demand) -> tuple[Reading | Unread, ...]:
-    """Hold the formula against the enclosures, wherever there is one.
+def read_at(oscillator: Oscillator, formula: Any, demand: Demand) -> tuple[CycleReading | Reading | Unread, ...]:
+    """Hold the formula against the enclosures, wherever there is one; of a limit cycle at values of its parameter.
 
-    Raises click.UsageError for a slow flow.  An amplitude without an enclosure leaves the series standing.
+    Raises click.UsageError for a slow flow without limit cycles.  What has no enclosure leaves the series standing.
     """
     from ridgeback.symbolic.certificates.at_amplitudes import reading, wherever
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
 
+    small = cycle_parameter(oscillator, formula)
+    if small is not None:
+        from ridgeback.symbolic.certificates.at_cycles import certified_cycles
+
+        held, precision = None if isinstance(formula, SlowFlow) else formula, bits(demand, CYCLE_DIGITS)
+        return certified_cycles(oscillator, demand.at or (), small=small, formula=held, bits=precision)
     if isinstance(formula, SlowFlow):
         raise click.UsageError(
             "--at belongs to a series in the amplitude, and a slow flow is none: set the damping to 0 "
@@ -47,52 +67,84 @@ def read_at(oscillator: Oscillator, formula: Any, demand: Demand) -> tuple[Readi
     return wherever(lambda a: reading(oscillator, series, a, bits=bits(demand)), demand.at or ())
 
 
-def complete(found: Sequence[Reading | Unread]) -> None:
+def cycle_parameter(oscillator: Oscillator, formula: Any) -> str | None:
+    """The parameter whose values ``--at`` gives, where there are limit cycles; None where it gives amplitudes."""
+    if oscillator.kind == "limit-cycle" and oscillator.small is not None:
+        return oscillator.small
+    from ridgeback.symbolic.cycles.found import limits_itself
+    from ridgeback.symbolic.flow.slow_flow import SlowFlow
+
+    if not isinstance(formula, SlowFlow) or len(formula.weights) != 1:
+        return None
+    name = next(iter(formula.weights))
+    return name if limits_itself(oscillator, name) else None
+
+
+def complete(found: Sequence[Row]) -> None:
     """Raise PartialError, which names the first, when amplitudes were refused; the output is written by then."""
     from ridgeback.symbolic.certificates.at_amplitudes import Unread
 
     refused = [row for row in found if isinstance(row, Unread)]
     if refused:
+        first = refused[0]
+        what = "amplitudes" if first.variable == "A" else f"values of {first.variable}"
         raise PartialError(
-            f"{len(refused)} of {len(found)} amplitudes have no enclosure and are left empty in the output; "
-            f"A = {refused[0].amplitude}: {refused[0].why}"
+            f"{len(refused)} of {len(found)} {what} have no enclosure and are left empty in the output; "
+            f"{first.variable} = {first.amplitude}: {first.why}"
         )
 
 
-def bits(demand: Demand) -> int:
+def bits(demand: Demand, usual: int = DIGITS) -> int:
     """The precision that the digits need.
 
     >>> bits(Demand(digits=30))
     116
     """
-    return max(64, math.ceil((demand.digits or DIGITS) * math.log2(10)) + 16)
+    return max(64, math.ceil((demand.digits or usual) * math.log2(10)) + 16)
 
 
-def rows(found: Sequence[Reading | Unread], demand: Demand) -> list[dict[str, object]]:
+def rows(found: Sequence[Row], demand: Demand) -> list[dict[str, object]]:
     """The public rows."""
-    return [reading.to_dict(demand.digits or DIGITS) for reading in found]
+    return [reading.to_dict(demand.digits or (CYCLE_DIGITS if small_of(found) else DIGITS)) for reading in found]
 
 
-def as_csv(found: Sequence[Reading | Unread], demand: Demand) -> str:
+def small_of(found: Sequence[Row]) -> str:
+    """The name of the small parameter that the readings are at; empty where they are at amplitudes."""
+    names = (getattr(row, "variable", "A") for row in found)
+    return next((name for name in names if name != "A"), "")
+
+
+def as_csv(found: Sequence[Row], demand: Demand) -> str:
     """One row per amplitude, the public keys as columns."""
     public = rows(found, demand)
     keys = dict.fromkeys(key for row in public for key in row)
     return csv_text(sorted(keys, key="refused".__eq__), public)  # the reason last, and only where there is one
 
 
-def as_text(found: Sequence[Reading | Unread], demand: Demand, what: str, definition: str) -> str:
+def as_text(found: Sequence[Row], demand: Demand, what: str, definition: str) -> str:
     """A table for reading; ``what`` says which formula stands beside the exact frequency."""
-    public = [
-        {title: zero_error(row) if key == "relative_error" else row.get(key) for key, title in TEXT.items()}
-        for row in rows(found, demand)
-    ]
-    columns = list(TEXT.values()) if what else list(TEXT.values())[:3]
+    small = small_of(found)
+    titles = {f"{small}_exact": small, **CYCLE_TEXT} if small else TEXT
+    public = [{title: shown(row, key) for key, title in titles.items()} for row in rows(found, demand)]
+    columns = list(titles.values()) if what else list(titles.values())[:-2]
     beside = f"; formula: {what}, and its relative error, proved" if what else ""
+    where = f"values of {small}, limit cycles" if small else f"amplitudes ({definition})"
     return (
-        f"\nomega0 at given amplitudes ({definition}), within the radius of the exact frequency, certified{beside}\n"
+        f"\nomega0 at given {where}, within the radius of the exact frequency, certified{beside}\n"
         + aligned(columns, public)
         + "\n"
     )
+
+
+def shown(row: dict[str, object], key: str) -> object:
+    """What stands in a cell of the table.
+
+    >>> shown({"stable": False}, "stable")
+    'no'
+    """
+    if key == "relative_error":
+        return zero_error(row)
+    return {True: "yes", False: "no"}.get(bool(row[key])) if key == "stable" and key in row else row.get(key)
 
 
 def zero_error(row: dict[str, object]) -> object:

@@ -24,7 +24,7 @@ from ridgeback.options.shared import format_option, output_option
 from ridgeback.options.system import Choice, choosing
 
 if TYPE_CHECKING:
-    from ridgeback.symbolic.certificates.at_amplitudes import Reading, Unread
+    from ridgeback.answers.at import Row
     from ridgeback.symbolic.certificates.certificate import Check
     from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
     from ridgeback.symbolic.expansion.expansion import Expansion
@@ -55,6 +55,7 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     ridgeback derive van-der-pol --order 400 --digits 30 --checkpoint vdp.state --budget 30min
     ridgeback derive van-der-pol --order 96 --workers 8
     ridgeback derive pendulum --at 1,2.5                       certified errors of the series
+    ridgeback derive van-der-pol --at 0.1,1,3                  the limit cycle at these eps, enclosed
     ridgeback derive --equation "u'' + u**3 = 0" --at 1,2      no expansion, but an exact frequency
     ridgeback derive pendulum --order 16 --resummed pade --at 2.5
     ridgeback derive damped-pendulum --order 2 --transient 0.5 --until 100
@@ -65,8 +66,10 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     uncertainty, range_of_use (null: not known), singularities and the sentence; for a slow flow also which frequency
     they are of.  With --verify certificate.
     With --at a list of amplitude, omega0, radius (of its certified ball), formula_omega0, relative_error and
-    error_bound; an amplitude without an enclosure has refused, the reason, and the exit code is 3.  Of a self-excited
-    slow flow fixed_points with slope, stable, last_change (by the terms of the last orders) and beyond_reach with why,
+    error_bound; an amplitude without an enclosure has refused, the reason, and the exit code is 3.  Of limit cycles
+    the values are those of eps (eps, eps_exact), a row for each cycle, amplitude the peak with amplitude_radius, trough,
+    multiplier (of the return map, with its radius) and stable; the formula stands at the one that the series is of.
+    Of a self-excited slow flow fixed_points with slope, stable, last_change (by the terms of the last orders) and beyond_reach with why,
     and the complete_powers they are of, as is the transient; no_limit_cycle says why there is none at eps = 0.  With
     --resummed expression, and of a quotient numerator, denominator (in w), growth and the first pole.  With
     --transient closed_form (or null) and rows of time, amplitude, phase, omega0, u.  With --harmonics, harmonics.
@@ -75,14 +78,14 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
         oscillator = choice.oscillator()
     except ValueError as refusal:
         oscillator = unexpandable(refusal, demand)
-        found = read_strong(oscillator, request, demand)
-        write_text(output, strong(oscillator, found, request, demand))
-        complete(found)
+        enclosed = read_strong(oscillator, request, demand)
+        write_text(output, strong(oscillator, enclosed, request, demand))
+        complete(enclosed)
         return
     with kept_until_written(demand.checkpoint):
         result = derived_as(oscillator, request, demand)
         formula = formula_of(oscillator, result, demand)
-        found = read_at(oscillator, formula, demand) if demand.at else ()
+        found: Sequence[Row] = read_at(oscillator, formula, demand) if demand.at else ()
         checks = certificate(oscillator, result) if demand.verify else None
         write_text(
             output, made_of(oscillator, formula, found, demand) or printed(oscillator, result, found, demand, checks)
@@ -117,7 +120,7 @@ def formula_of(oscillator: Oscillator, result: Any, demand: Demand) -> Any:
     return result if demand.resummed is None else resummed_from(oscillator, result, demand)
 
 
-def made_of(oscillator: Oscillator, formula: Any, found: Sequence[Reading | Unread], demand: Demand) -> str | None:
+def made_of(oscillator: Oscillator, formula: Any, found: Sequence[Row], demand: Demand) -> str | None:
     """The output of what is made of an expansion, in place of the expansion itself; None where nothing is."""
     if demand.transient is not None:
         return transient_output(oscillator, formula, demand)
@@ -126,7 +129,7 @@ def made_of(oscillator: Oscillator, formula: Any, found: Sequence[Reading | Unre
     return None if demand.resummed is None else resummation(oscillator, formula, found, demand)
 
 
-def resummation(oscillator: Oscillator, formula: Any, found: Sequence[Reading | Unread], demand: Demand) -> str:
+def resummation(oscillator: Oscillator, formula: Any, found: Sequence[Row], demand: Demand) -> str:
     """The output of another formula from the coefficients, with its certified errors where they are asked for."""
     if demand.style == "json":
         return json_text({**formula.to_dict(), **at_rows(found, demand)})
@@ -147,7 +150,7 @@ def certificate(oscillator: Oscillator, result: Result | BallExpansion) -> tuple
 def printed(
     oscillator: Oscillator,
     result: Result | BallExpansion,
-    found: Sequence[Reading | Unread],
+    found: Sequence[Row],
     demand: Demand,
     checks: tuple[Check, ...] | None,
 ) -> str:
@@ -160,10 +163,18 @@ def printed(
             more |= fixed_rows(oscillator, result)
             return json_text({**result.to_dict(), **more})
         case "text":
-            table = at_text(found, demand, f"{result.method} to order {result.order}", result.amplitude)
+            held = "" if slow(result) else f"{result.method} to order {result.order}"
+            table = at_text(found, demand, held, result.amplitude)
             below = range_of_use(oscillator, result) + (table if found else "") + certified(checks)
             return as_text(oscillator, result.to_dict()) + below
     return formulas(result, demand.style)
+
+
+def slow(result: Any) -> bool:
+    """Whether a result is a slow flow, which is no formula for the frequency of a cycle."""
+    from ridgeback.symbolic.flow.slow_flow import SlowFlow
+
+    return isinstance(result, SlowFlow)
 
 
 def formulas(result: Any, style: str) -> str:
@@ -176,7 +187,7 @@ def formulas(result: Any, style: str) -> str:
     return joined(tuple(map(str, expressions(result))))
 
 
-def at_rows(found: Sequence[Reading | Unread], demand: Demand) -> dict[str, list[dict[str, object]]]:
+def at_rows(found: Sequence[Row], demand: Demand) -> dict[str, list[dict[str, object]]]:
     """The frequencies at amplitudes in JSON, when they are asked for."""
     return {"at": rows(found, demand)} if found else {}
 

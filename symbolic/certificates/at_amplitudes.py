@@ -61,16 +61,18 @@ class Reading:
 
 @dataclass(frozen=True)
 class Unread:
-    """An amplitude at which omega0 could not be enclosed, and why."""
+    """An amplitude, or value of a small parameter, at which omega0 could not be enclosed, and why."""
 
     amplitude: Fraction
     why: str
+    variable: str = "A"
 
     def to_dict(self, digits: int) -> dict[str, object]:  # noqa: ARG002 - the signature of Reading
         """The public JSON form: the keys of a reading with nothing in them, and the reason."""
+        name = "amplitude" if self.variable == "A" else self.variable
         return {
-            "amplitude": float(self.amplitude),
-            "amplitude_exact": str(self.amplitude),
+            name: float(self.amplitude),
+            f"{name}_exact": str(self.amplitude),
             "omega0": None,
             "radius": None,
             "refused": self.why,

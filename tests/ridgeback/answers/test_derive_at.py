@@ -100,18 +100,42 @@ def test_an_amplitude_without_an_enclosure_leaves_the_others(
     assert all(str(row["omega0"]) in text.out for row in rows if row["omega0"])
 
 
-def test_an_expansion_in_eps_says_what_there_is_in_place_of_an_enclosure(ridgeback: Ridgeback) -> None:
-    for code, words in (
-        (3, ("derive", "van-der-pol", "--order", "20", "--resummed", "map", "--at", "1")),
-        (2, ("study", "van-der-pol", "--amplitudes", "0.5", "--certified")),
-    ):
-        done = ridgeback(*words)
-        assert (done.code, done.out == "") == (code, code == 2)
-        assert "by shooting (not proved)" in done.err
-    studied = ridgeback("study", "van-der-pol", "--amplitudes", "0.5", "--orders", "8")
-    assert "periodic orbit found by shooting" in studied.out
+def test_a_series_in_eps_stands_beside_the_enclosed_limit_cycle(ridgeback: Ridgeback) -> None:
+    row = json.loads(said(ridgeback, "van-der-pol --order 8 --resummed pade --at 1 --format json"))["at"][0]
+    assert (row["eps"], row["eps_exact"], row["stable"]) == (1.0, "1", True)
+    assert row["omega0"].startswith("0.94295584744161004386124611908")
+    assert row["amplitude"].startswith("2.00861986087484313650964018836")
+    assert float(row["radius"]) < 1e-25
+    assert float(row["amplitude_radius"]) < 1e-25
+    assert float(row["relative_error"]) == pytest.approx(
+        float(row["formula_omega0"]) / 0.9429558474416100 - 1, rel=1e-3
+    )
+    text = said(ridgeback, "van-der-pol --order 20 --at 1")
+    assert row["omega0"] in text
     certified = ridgeback("derive", "van-der-pol", "--order", "8", "--digits", "20")
     assert "certain digits" in certified.out
+
+
+def test_a_repelling_limit_cycle_is_enclosed_beside_its_slow_flow(ridgeback: Ridgeback) -> None:
+    words = ("--equation", "u'' + eps*(1 - u**2)*u' + u = 0", "--order", "4", "--at", "1/10", "--format", "json")
+    done = ridgeback("derive", *words)
+    (row,) = json.loads(done.out)["at"]
+    assert (done.code, row["stable"], row["multiplier"]) == (0, False, "1.87593")
+    assert row["omega0"].startswith("0.99937555342364552401")
+    refused = ridgeback("derive", "--equation", "u'' + 2*mu*u' + u + u**3 = 0", "--order", "4", "--at", "1/10")
+    assert refused.code == 2
+    assert "--at belongs to a series in the amplitude" in refused.err
+
+
+def test_a_limit_cycle_that_cannot_be_proved_leaves_the_series_standing(ridgeback: Ridgeback) -> None:
+    words = ("--equation", "u'' - eps*(1 - u**2)*u' + u - u**3/3 = 0", "--order", "4", "--method", "multiple-scales")
+    done = ridgeback("derive", *words, "--at", "1", "--format", "json")
+    assert done.code == 3
+    public = json.loads(done.out)
+    assert public["frequency"]
+    assert public["at"][0]["omega0"] is None
+    assert "found no limit cycle" in public["at"][0]["refused"]
+    assert "values of eps have no enclosure" in done.err
 
 
 def test_a_force_with_a_velocity_squared_has_its_enclosure(ridgeback: Ridgeback, tmp_path: Path) -> None:
@@ -173,7 +197,6 @@ def test_options_of_expansions_are_refused_where_there_is_none(ridgeback: Ridgeb
     [
         ("pendulum --at 4", "separatrix at 3.14159"),
         ("pendulum --at 1 --amplitude energy", "no enclosure"),
-        ("van-der-pol --at 1", "limit cycle"),
     ],
 )
 def test_where_no_amplitude_has_an_enclosure_the_series_is_printed(ridgeback: Ridgeback, words: str, why: str) -> None:

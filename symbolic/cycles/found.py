@@ -1,0 +1,105 @@
+"""The limit cycles of an oscillator: where the search finds one, the proof."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import sympy
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.balls import natural_frequency
+from ridgeback.symbolic.cycles.averaged import balanced_amplitudes
+from ridgeback.symbolic.cycles.enclose import Cycle, enclose_cycle, turns_of
+from ridgeback.symbolic.cycles.search import OCTAVES, peaks
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+
+
+@dataclass(frozen=True)
+class Unproved:
+    """A place where the search saw a cycle that could not be enclosed, and why."""
+
+    peak: float
+    why: str
+
+
+def limit_cycles(oscillator: OscillatorLike, *, bits: int = 128) -> tuple[Cycle | Unproved, ...]:
+    """Enclose every limit cycle about the origin that a scan of the return map finds.
+
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Any form of an oscillator with numbers for its parameters.
+    bits : int, optional
+        The relative radius of each frequency is at most about 2**-bits.
+
+    Returns
+    -------
+    tuple of Cycle or Unproved
+        By rising peak.  Each ball holds a true limit cycle; that the scan has found all of them is not proved.
+
+    Raises
+    ------
+    InputError
+        For an oscillator whose orbits all close, for one with a symbolic parameter, and where none is found.
+
+    Examples
+    --------
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> [cycle.omega.str(12, radius=False) for cycle in limit_cycles(find("van-der-pol"), bits=64)]
+    ['0.984720976645']
+    """
+    own = as_oscillator(oscillator)
+    _check(own)
+    force, k = own.substituted_force, float(natural_frequency(own.natural_frequency))
+    turns = turns_of(force)
+    expected = balanced_amplitudes(force, k) or (1.0,)
+    ways = {backwards: in_time(force, backwards=backwards) for backwards in (False, True)}
+    seen = sorted((a, backwards) for backwards, way in ways.items() for a in peaks(way, turns=turns, near=expected))
+    if not seen:
+        low, high = expected[0] / 2**OCTAVES, expected[-1] * 2**OCTAVES
+        raise InputError(
+            f"{own.name}: a scan of the return map found no limit cycle with a peak in {low:.3g} .. {high:.3g}"
+        )
+    return tuple(_proved(ways[backwards], peak, k, bits, backwards=backwards) for peak, backwards in seen)
+
+
+def in_time(force: sympy.Expr, *, backwards: bool) -> sympy.Expr:
+    """The force as time runs: backwards, what repels attracts, and can be followed.
+
+    >>> in_time(U - V, backwards=True)
+    u + u'
+    """
+    return force.subs(V, -V) if backwards else force
+
+
+def limits_itself(oscillator: Oscillator, small: str) -> bool:
+    """Whether the averaged loss of an oscillator changes its sign at some amplitude, for a small parameter above 0.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> limits_itself(find("van-der-pol"), "eps"), limits_itself(find("damped-pendulum"), "mu")
+    (True, False)
+    """
+    own = oscillator.with_parameters({small: "1/10"})
+    return not own.natural_frequency.free_symbols and bool(
+        balanced_amplitudes(own.substituted_force, float(natural_frequency(own.natural_frequency)))
+    )
+
+
+def _check(oscillator: Oscillator) -> None:
+    if oscillator.closes:
+        raise InputError(
+            f"{oscillator.name}: every orbit near the origin closes, so that there is no limit cycle to enclose; "
+            "use its amplitude, or another value of the small parameter"
+        )
+    names = sorted(str(symbol) for symbol in oscillator.substituted_force.free_symbols if symbol not in (U, V))
+    if names:
+        raise InputError(f"{oscillator.name}: a limit cycle is enclosed with numbers only; set {', '.join(names)}")
+
+
+def _proved(force: sympy.Expr, peak: float, k: float, bits: int, *, backwards: bool) -> Cycle | Unproved:
+    try:
+        cycle = enclose_cycle(force, peak, unit=k, bits=bits)
+    except InputError as refusal:
+        return Unproved(peak, str(refusal))
+    return replace(cycle, multiplier=1 / cycle.multiplier) if backwards else cycle
