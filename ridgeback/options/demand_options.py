@@ -64,8 +64,8 @@ FORMULA: Final = (
         type=written(amplitudes),
         default=None,
         metavar="A,...",
-        help="Enclose the exact frequency at these amplitudes (or START:STOP:COUNT), and prove the error of the "
-        "series there.",
+        help="Enclose the exact frequency at these amplitudes, or values of eps for a limit cycle (or "
+        "START:STOP:COUNT), and prove the error of the series there.",
     ),
     click.option(
         "--resummed",
