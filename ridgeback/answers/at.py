@@ -7,13 +7,10 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
-from click.core import ParameterSource
 
 from ridgeback.console.failure import PartialError
-from ridgeback.console.output import json_text
 from ridgeback.console.tables import aligned, csv_text
 from ridgeback.options.demand import Demand
-from ridgeback.options.derivation import Request
 
 if TYPE_CHECKING:
     from ridgeback.symbolic.certificates.at_amplitudes import Formula, Reading, Unread
@@ -155,59 +152,3 @@ def zero_error(row: dict[str, object]) -> object:
     """
     bound = row.get("error_bound")
     return row.get("relative_error") or (f"below {1.1 * bound:.1e}" if isinstance(bound, float) else None)
-
-
-def read_strong(oscillator: Oscillator, request: Request, demand: Demand) -> tuple[Reading | Unread, ...]:
-    """The enclosures for an oscillator without a linear restoring force, which has no expansion but orbits.
-
-    Raises click.UsageError for options of expansions, InputError for forces that have no enclosure.
-    """
-    refuse_expansion(demand)
-    from ridgeback.common.errors import InputError
-    from ridgeback.symbolic.certificates.at_amplitudes import Reading, Unread, wherever
-    from ridgeback.symbolic.enclosure.no_linear_part import enclose_strong
-
-    definition, precision = request.amplitude or "peak", bits(demand)
-    found = wherever(
-        lambda a: Reading(enclose_strong(oscillator, a, definition=definition, bits=precision)), demand.at or ()
-    )
-    refused = [row for row in found if isinstance(row, Unread)]
-    if refused and len(refused) == len(found):  # and no series stands beside them
-        raise InputError(refused[0].why)
-    return found
-
-
-def strong(oscillator: Oscillator, found: Sequence[Reading | Unread], request: Request, demand: Demand) -> str:
-    """The output for an oscillator without a linear restoring force: its law where it has one, and the enclosures."""
-    from ridgeback.symbolic.enclosure.no_linear_part import law_of, law_row
-
-    definition, law = request.amplitude or "peak", law_of(oscillator)
-    if demand.style == "csv":
-        return as_csv(found, demand)
-    public = {
-        "system": oscillator.name,
-        "method": "enclosure",
-        "amplitude": definition,
-        **law_row(law, demand.digits or DIGITS),
-    }
-    if demand.style == "json":
-        return json_text({**public, "at": rows(found, demand)})
-    heading = (
-        f"{oscillator.title}: {oscillator.equation}\nno linear restoring force, so no expansion in the amplitude\n"
-    )
-    formula = f"\nomega0 = {public['law']}\n       = {public['factor']} * A^{public['power']}\n" if law else ""
-    return heading + formula + as_text(found, demand, "", definition)
-
-
-def refuse_expansion(demand: Demand) -> None:
-    """Raise click.UsageError for options that only an expansion has."""
-    context = click.get_current_context()
-    names = ("order", "method", "weight", "weights", "workers", "checkpoint", "verify", "resummed")
-    given = [name for name in names if context.get_parameter_source(name) is ParameterSource.COMMANDLINE]
-    if given:
-        raise click.UsageError(
-            f"--{given[0]} belongs to an expansion, and without a linear restoring force there is none; "
-            "leave it out, --at encloses the frequency itself"
-        )
-    if demand.style not in ("text", "json", "csv"):
-        raise click.UsageError(f"--format {demand.style} writes an expansion, and here is none; use text, json or csv")

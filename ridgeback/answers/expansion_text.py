@@ -11,11 +11,12 @@ if TYPE_CHECKING:
     from ridgeback.symbolic.certificates.certificate import Check
     from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
     from ridgeback.symbolic.expansion.expansion import Expansion
+    from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
     from ridgeback.symbolic.flow.fixed_points import FixedPoint
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
-    Result = Expansion | SlowFlow
+    Result = Expansion | PowerExpansion | SlowFlow
 
 TITLES = {"frequency": "omega0", "growth_rate": "a'/a", "amplitude_series": "amplitude"}
 _STABILITY = {True: "stable", False: "unstable", None: "of undecided stability"}
@@ -68,10 +69,11 @@ def balls(terms: list[dict[str, Any]]) -> str:
 def power(term: dict[str, Any]) -> str:
     """The powers of a term.
 
-    >>> power({"powers": {"a": 2, "mu": 1}}), power({"powers": {"a": 0}})
-    ('a^2*mu', '1')
+    >>> power({"powers": {"a": 2, "mu": 1}}), power({"powers": {"a": 0}}), power({"powers": {"A": "-1/2"}})
+    ('a^2*mu', '1', 'A^(-1/2)')
     """
-    return "*".join(f"{v}^{p}" if p > 1 else v for v, p in term["powers"].items() if p) or "1"
+    written = {v: f"({p})" if isinstance(p, str) or p < 0 else str(p) for v, p in term["powers"].items() if p}
+    return "*".join(v if p == "1" else f"{v}^{p}" for v, p in written.items()) or "1"
 
 
 def decimal(exact: str) -> float | None:

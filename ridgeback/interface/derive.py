@@ -15,9 +15,11 @@ from ridgeback.symbolic.codegen.closed_forms import mean_form, sine_series
 from ridgeback.symbolic.codegen.program import MODES as ARITHMETIC
 from ridgeback.symbolic.codegen.program import Mode
 from ridgeback.symbolic.expansion.cost import Budget
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.resummation.by_name import resum
@@ -41,7 +43,7 @@ def derive(
     about: str | None = None,
     budget: Budget | None = None,
     progress: Wanted = None,
-) -> Expansion | SlowFlow:
+) -> Expansion | PowerExpansion | SlowFlow:
     """Derive the fundamental frequency as an exact series.
 
     Parameters
@@ -51,7 +53,8 @@ def derive(
     order : int
         Highest power of the amplitude, or of eps, that is kept; for multiple scales the highest weighted degree.
     method : {"lindstedt", "multiple-scales", "energy-integral"}, optional
-        The derivation; by default multiple scales for a damped oscillator, else Lindstedt's.
+        The derivation; by default multiple scales for a damped oscillator, the energy integral for a force with a kink
+        at rest or without a linear part, else Lindstedt's.
     amplitude : {"peak", "trough", "fundamental", "action", "energy"}, optional
         Which amplitude the series is in; ``"peak"`` by default, and ``"fundamental"`` for multiple scales.
     weight : int, optional
@@ -69,8 +72,9 @@ def derive(
 
     Returns
     -------
-    Expansion or SlowFlow
-        The series; a slow flow (phi' and a'/a) by multiple scales.
+    Expansion, PowerExpansion or SlowFlow
+        The series; one in rational powers of A for a force that begins with another power than the first; a slow flow
+        (phi' and a'/a) by multiple scales.
 
     Raises
     ------
@@ -94,6 +98,8 @@ def derive(
         )
     if weight is not None or weights is not None:
         raise InputError(f"weights belong to multiple-scales, not to {name}; leave them out")
+    if name == "energy-integral" and system.by_sides:
+        return energy_on_each_side(system, order, amplitude=amplitude or "peak", budget=budget)
     if name == "energy-integral":
         return energy_integral(system, order, amplitude=amplitude or "peak", budget=budget)
     return lindstedt(system, order, amplitude=amplitude or "peak", budget=budget, progress=progress)
@@ -101,13 +107,15 @@ def derive(
 
 def method_for(oscillator: Oscillator, method: str | None) -> str:
     """The method asked for, or the one that suits the oscillator."""
+    if method is None and oscillator.kind == "damped":
+        return "multiple-scales"
     if method is None:
-        return "multiple-scales" if oscillator.kind == "damped" else "lindstedt"
+        return "energy-integral" if oscillator.by_sides and oscillator.is_conservative else "lindstedt"
     return chosen(method, METHODS, "method")
 
 
 def generate(
-    formula: OscillatorLike | Expansion | SlowFlow | Resummation,
+    formula: OscillatorLike | Expansion | PowerExpansion | SlowFlow | Resummation,
     language: str = "python",
     *,
     oscillator: OscillatorLike | None = None,
@@ -175,12 +183,17 @@ def generate(
     """
     series: Expansion | SlowFlow
     result: Formula
+    if isinstance(formula, PowerExpansion):
+        raise InputError(formula.without_code())
     if isinstance(formula, Expansion | SlowFlow | Resummation):
         system, result = as_oscillator(formula.system if oscillator is None else oscillator), formula
         series = lindstedt(system, formula.order) if isinstance(formula, Resummation) else formula
     else:
         system = as_oscillator(formula, parameters=parameters)
-        result = series = derive(system, order, method=method, amplitude=amplitude, progress=progress)
+        found = derive(system, order, method=method, amplitude=amplitude, progress=progress)
+        if isinstance(found, PowerExpansion):
+            raise InputError(found.without_code())
+        result = series = found
     if resummed is not None:
         result = in_its_place(system, series, resummed, degrees=degrees, growth=growth, terms=terms, up_to=up_to)
     how = cast(Mode, chosen(mode, ARITHMETIC, "mode"))

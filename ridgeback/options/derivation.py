@@ -16,6 +16,7 @@ from ridgeback.options.shared import expansion_options
 if TYPE_CHECKING:
     from ridgeback.symbolic.expansion.cost import Budget
     from ridgeback.symbolic.expansion.expansion import Expansion
+    from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -35,7 +36,11 @@ class Request:
 
     def method_for(self, oscillator: Oscillator) -> str:
         """The method asked for, or the one that suits the oscillator."""
-        return self.method or ("multiple-scales" if oscillator.kind == "damped" else "lindstedt")
+        if self.method is not None:
+            return self.method
+        if oscillator.kind == "damped":
+            return "multiple-scales"
+        return "energy-integral" if oscillator.by_sides and oscillator.is_conservative else "lindstedt"
 
 
 def requesting(command: Command) -> Command:
@@ -55,7 +60,7 @@ def requesting(command: Command) -> Command:
     return wrapped
 
 
-def derived(oscillator: Oscillator, request: Request) -> Expansion | SlowFlow:
+def derived(oscillator: Oscillator, request: Request) -> Expansion | PowerExpansion | SlowFlow:
     """Derive by the method asked for, or by the one that suits the oscillator.
 
     Raises click.UsageError for options that the method does not have, InputError from the derivation.
@@ -69,12 +74,21 @@ def derived(oscillator: Oscillator, request: Request) -> Expansion | SlowFlow:
         return slow_flow(oscillator, request)
     refuse_weights(request, name)
     if name == "energy-integral":
+        if oscillator.by_sides:
+            return on_each_side(oscillator, request)
         from ridgeback.symbolic.expansion.energy_integral import energy_integral
 
         return energy_integral(oscillator, request.order, amplitude=request.amplitude or "peak", budget=request.budget)
     from ridgeback.symbolic.expansion.lindstedt import lindstedt
 
     return lindstedt(oscillator, request.order, amplitude=request.amplitude or "peak", budget=request.budget)
+
+
+def on_each_side(oscillator: Oscillator, request: Request) -> Expansion | PowerExpansion:
+    """The energy integral of a force with a kink at rest, or without a linear part."""
+    from ridgeback.symbolic.expansion.each_side import energy_on_each_side
+
+    return energy_on_each_side(oscillator, request.order, amplitude=request.amplitude or "peak", budget=request.budget)
 
 
 def refuse_weights(request: Request, name: str) -> None:

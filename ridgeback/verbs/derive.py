@@ -10,7 +10,7 @@ import click
 
 from ridgeback.answers.at import as_csv as at_csv
 from ridgeback.answers.at import as_text as at_text
-from ridgeback.answers.at import complete, read_at, read_strong, rows, strong
+from ridgeback.answers.at import complete, read_at, rows
 from ridgeback.answers.expansion_text import as_text, certified, expressions, joined, limit_rows, range_of_use
 from ridgeback.answers.high_order import by_primes, in_balls, kept_until_written
 from ridgeback.answers.motion import fixed_rows, harmonic_output, transient_output
@@ -28,10 +28,11 @@ if TYPE_CHECKING:
     from ridgeback.symbolic.certificates.certificate import Check
     from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
     from ridgeback.symbolic.expansion.expansion import Expansion
+    from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
-    Result = Expansion | SlowFlow
+    Result = Expansion | PowerExpansion | SlowFlow
 
 
 @click.command("derive", cls=Verb, short_help="Derive the frequency as an exact series.")
@@ -56,7 +57,8 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     ridgeback derive van-der-pol --order 96 --workers 8
     ridgeback derive pendulum --at 1,2.5                       certified errors of the series
     ridgeback derive van-der-pol --at 0.1,1,3                  the limit cycle at these eps, enclosed
-    ridgeback derive --equation "u'' + u**3 = 0" --at 1,2      no expansion, but an exact frequency
+    ridgeback derive --equation "u'' + u**3 = 0" --at 1,2      no linear force: another power of A
+    ridgeback derive --equation "u'' + u + eps*u*abs(u) = 0"   a kink at rest: coefficients in 1/pi
     ridgeback derive pendulum --order 16 --resummed pade --at 2.5
     ridgeback derive damped-pendulum --order 2 --transient 0.5 --until 100
     ridgeback derive damped-pendulum --order 4 --harmonics
@@ -74,14 +76,7 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     --resummed expression, and of a quotient numerator, denominator (in w), growth and the first pole.  With
     --transient closed_form (or null) and rows of time, amplitude, phase, omega0, u.  With --harmonics, harmonics.
     """
-    try:
-        oscillator = choice.oscillator()
-    except ValueError as refusal:
-        oscillator = unexpandable(refusal, demand)
-        enclosed = read_strong(oscillator, request, demand)
-        write_text(output, strong(oscillator, enclosed, request, demand))
-        complete(enclosed)
-        return
+    oscillator = choice.oscillator()
     with kept_until_written(demand.checkpoint):
         result = derived_as(oscillator, request, demand)
         formula = formula_of(oscillator, result, demand)
@@ -95,18 +90,10 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     complete(found)
 
 
-def unexpandable(refusal: ValueError, demand: Demand) -> Oscillator:
-    """The oscillator that has no expansion for want of a linear force but can be enclosed; raises what else it is."""
-    from ridgeback.symbolic.systems.oscillator import NoLinearForceError
-
-    if demand.at is None or not isinstance(refusal, NoLinearForceError):
-        raise refusal
-    return refusal.oscillator
-
-
 def derived_as(oscillator: Oscillator, request: Request, demand: Demand) -> Result | BallExpansion:
     """The expansion, by the arithmetic asked for."""
-    if demand.digits is not None:
+    by_sides = oscillator.by_sides and demand.at is not None  # then the digits are those of the enclosures
+    if demand.digits is not None and not by_sides:
         return in_balls(oscillator, request, demand.digits, demand.checkpoint)
     if demand.workers is not None:
         return by_primes(oscillator, request, demand.workers, demand.checkpoint)

@@ -76,7 +76,12 @@ def formula_of(oscillator: Oscillator, request: Request, code: Code) -> tuple[Fo
 
         end, real = code.up_to or Fraction(0), REALS[code.real]
         return minimax(oscillator, end, degree=code.degree, tolerance=code.tolerance, real=real), None
+    from ridgeback.common.errors import InputError
+    from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+
     series = derived(oscillator, request)
+    if isinstance(series, PowerExpansion):
+        raise InputError(series.without_code())
     return _from_series(oscillator, series, code), series
 
 

@@ -20,6 +20,8 @@ REAL_FUNCTIONS: Final[dict[str, Callable[[arb], arb]]] = {
     name: getattr(arb, name) for name in (*MEROMORPHIC, "log", "asin", "acos", "atan", "asinh", "atanh")
 }
 """The functions that SymPy may form of those that can be written, by name, on real balls."""
+NUMBER_FUNCTIONS: Final[dict[str, Callable[[arb], arb]]] = {**REAL_FUNCTIONS, "gamma": arb.gamma}
+"""Those, and what stands in exact coefficients besides."""
 
 
 def rational(value: Fraction | sympy.Rational) -> fmpq:
@@ -164,7 +166,7 @@ def number_ball(value: sympy.Expr) -> arb:
     Parameters
     ----------
     value : sympy.Expr
-        Sums, products and rational powers of rationals, pi, e and the functions of ``REAL_FUNCTIONS``.
+        Sums, products and rational powers of rationals, pi, e and the functions of ``NUMBER_FUNCTIONS``.
 
     Returns
     -------
@@ -192,7 +194,7 @@ def number_ball(value: sympy.Expr) -> arb:
         return reduce(mul, parts)
     if value.is_Pow and value.exp.is_Rational:
         return arb(parts[0] ** (int(value.exp) if value.exp.is_Integer else parts[1]))
-    function = REAL_FUNCTIONS.get(type(value).__name__)
+    function = NUMBER_FUNCTIONS.get(type(value).__name__)
     if function is None or len(parts) != 1:
         raise InputError(f"{value} is no real number that balls know; write it with roots, pi and elementary functions")
     return function(parts[0])

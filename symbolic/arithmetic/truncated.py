@@ -80,6 +80,26 @@ def square_root(x: Sequence[Scalar]) -> Coefficients:
     return result
 
 
+def power(x: Sequence[Scalar], exponent: fmpq) -> Coefficients:
+    """Return x^r for x_0 = 1: n y_n = sum of ((r + 1) j - n) x_j y_(n-j) over 0 < j <= n (J. C. P. Miller).
+
+    >>> power([fmpq(1), fmpq(1), fmpq(0)], fmpq(1, 3))
+    [1, 1/3, -1/9]
+    """
+    if _rational(x):
+        return _by_flint(len(x), lambda: _raised(x, exponent))
+    result: Coefficients = [fmpq(1)]
+    for n in range(1, len(x)):
+        inner = sum((((exponent + 1) * j - n) * x[j] * result[n - j] for j in range(1, n + 1)), fmpq(0))
+        result.append(inner * fmpq(1, n))
+    return result
+
+
+def _raised(x: Sequence[Scalar], exponent: Scalar) -> Any:
+    scaled: Any = fmpq_series(list(x), prec=len(x)).log() * exponent
+    return scaled.exp()
+
+
 def compose(outer: Sequence[Scalar], inner: Sequence[Scalar]) -> Coefficients:
     """Return outer(inner) for inner_0 = 0, by Horner's rule.
 

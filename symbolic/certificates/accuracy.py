@@ -8,18 +8,20 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import TypeAlias
 
+import sympy
 from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import rational
 from ridgeback.symbolic.enclosure.enclosure import DEFINITIONS, Amplitude, enclose
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.resummation.elliptic_nome import nome
 from ridgeback.symbolic.resummation.pade import mapped, mapping_for, pade
 from ridgeback.symbolic.resummation.resummation import Resummation
-from ridgeback.symbolic.series.spaces import Scalar
 from ridgeback.symbolic.singularities.limits import limits
 from ridgeback.symbolic.systems.oscillator import Oscillator, V
 
@@ -65,7 +67,7 @@ def certified_error(oscillator: Oscillator, formula: Formula, amplitude: Amplitu
         return formula.in_balls(arb(rational(exact.amplitude))) / exact.omega - 1
 
 
-def check_belongs(oscillator: Oscillator, expansion: Expansion) -> None:
+def check_belongs(oscillator: Oscillator, expansion: Expansion | PowerExpansion) -> None:
     """Raise InputError unless the series is an amplitude series of this oscillator, judged by its first terms.
 
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -81,16 +83,23 @@ def check_belongs(oscillator: Oscillator, expansion: Expansion) -> None:
             f"{expansion.amplitude} in {expansion.variable}; derive it so"
         )
     own = _first_terms(oscillator, expansion.amplitude)
-    differ = any(a != b for a, b in zip(own, expansion.coefficients, strict=False))
-    if differ or expansion.scale != oscillator.natural_frequency:
+    differ = any(a != b for a, b in zip(own.coefficients, expansion.coefficients, strict=False))
+    if differ or _unit(own) != _unit(expansion):
         raise InputError(
             f"the expansion of {expansion.system} is not one of {oscillator.name}; derive it from the same parameters"
         )
 
 
 @lru_cache(maxsize=64)
-def _first_terms(oscillator: Oscillator, definition: str) -> tuple[Scalar, ...]:
-    return _series(oscillator, FIRST_TERMS, definition).coefficients
+def _first_terms(oscillator: Oscillator, definition: str) -> Expansion | PowerExpansion:
+    if oscillator.by_sides:
+        return energy_on_each_side(oscillator, FIRST_TERMS, amplitude=definition)
+    return _series(oscillator, FIRST_TERMS, definition)
+
+
+def _unit(expansion: Expansion | PowerExpansion) -> tuple[sympy.Expr, ...]:
+    """What the coefficients are measured in: the natural frequency, or the leading coefficient and its power."""
+    return (expansion.scale,) if isinstance(expansion, Expansion) else (expansion.lead, expansion.growth)
 
 
 def _series(oscillator: Oscillator, order: int, definition: str = "peak") -> Expansion:

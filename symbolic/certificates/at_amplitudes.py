@@ -16,11 +16,12 @@ from ridgeback.symbolic.certificates.accuracy import check_belongs
 from ridgeback.symbolic.enclosure.enclosure import Enclosure, brief_number, enclose, rounded_up
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, ball_row
 from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.resummation.resummation import Resummation
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
-Formula: TypeAlias = Expansion | BallExpansion | Resummation
+Formula: TypeAlias = Expansion | PowerExpansion | BallExpansion | Resummation
 
 GUARD = 40
 ERROR_DIGITS = 6
@@ -112,7 +113,7 @@ def wherever(read: Callable[[Fraction], Reading], amplitudes: Sequence[Fraction]
 def reading(oscillator: Oscillator, formula: Formula, amplitude: Fraction, *, bits: int = 128) -> Reading:
     """Enclose omega0 at one amplitude, and the formula with its error; raises as ``certified_frequencies``."""
     exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
-    if isinstance(formula, Expansion):
+    if isinstance(formula, Expansion | PowerExpansion):
         check_belongs(oscillator, formula)
     if formula.variable != "A" or formula.system != oscillator.name:
         raise InputError(f"{formula.method} of {formula.system} is no series of {oscillator.name} in its amplitude")

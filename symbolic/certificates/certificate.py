@@ -11,18 +11,30 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TypeAlias
 
+import sympy
+from flint import arb, ctx
+
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Wanted, showing
+from ridgeback.symbolic.arithmetic.balls import rational
+from ridgeback.symbolic.enclosure.enclosure import enclose, rounded_up
 from ridgeback.symbolic.expansion.amplitude import measured
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.series.trigonometric import at_zero, harmonic
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, V
+
+SMALL = 40
+"""The quadrature is held against a series at the amplitude 2^-SMALL."""
+
+MOST_BITS = 4000
 
 FLOW_ORDER = 24
 """Multiple scales is compared through this order at most; beyond it costs more than it tells."""
@@ -48,14 +60,16 @@ Checks: TypeAlias = dict[str, Callable[[], Check]]
 """Checks still to be run, by name."""
 
 
-def certify(oscillator: OscillatorLike, result: Expansion | SlowFlow, *, progress: Wanted = None) -> tuple[Check, ...]:
+def certify(
+    oscillator: OscillatorLike, result: Expansion | PowerExpansion | SlowFlow, *, progress: Wanted = None
+) -> tuple[Check, ...]:
     """Run every independent check that applies to a result.
 
     Parameters
     ----------
     oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
         Any form of the oscillator whose result it is.
-    result : Expansion or SlowFlow
+    result : Expansion, PowerExpansion or SlowFlow
         To be checked.
     progress : bool or callable, optional
         ``True`` shows a bar; a function is told the share done and the check that begins.
@@ -93,8 +107,10 @@ def _of_flow(oscillator: Oscillator, flow: SlowFlow) -> Checks:
     }
 
 
-def _of_series(oscillator: Oscillator, series: Expansion) -> Checks:
+def _of_series(oscillator: Oscillator, series: Expansion | PowerExpansion) -> Checks:
     """The checks of a series, by name."""
+    if isinstance(series, PowerExpansion) or oscillator.by_sides:
+        return {"quadrature": lambda: _guarded("quadrature", lambda: _against_quadrature(oscillator, series))}
     if series.waveform is None:
         return {"lindstedt": lambda: _guarded("lindstedt", lambda: _against_lindstedt(oscillator, series))}
     checks: Checks = {"residual": lambda: _residual(series), "normalisation": lambda: _normalisation(series)}
@@ -187,6 +203,34 @@ def _against_energy(oscillator: Oscillator, expansion: Expansion) -> Check:
     definition = "peak" if expansion.amplitude == "fundamental" else expansion.amplitude
     other = energy_integral(oscillator, expansion.order, amplitude=definition)
     return _same("energy integral", expansion.convert(definition), other, "series reversion, without oscillator theory")
+
+
+def _against_quadrature(oscillator: Oscillator, series: Expansion | PowerExpansion) -> Check:
+    """The series against an enclosed frequency at a small amplitude, where one wrong coefficient would show.
+
+    One order more than asked for is compared, so that a wrong coefficient of the last one stands out by 1/A.
+    Parameters without a value get one.
+    """
+    if series.symbolic_names:
+        values = {name: sympy.Rational(n + 1, n + 2) for n, name in enumerate(series.symbolic_names)}
+        oscillator = oscillator.with_parameters(values)
+        series = energy_on_each_side(oscillator, series.order, amplitude=series.amplitude)
+    order = series.order + 1
+    following = energy_on_each_side(oscillator, order, amplitude=series.amplitude)
+    if following.coefficients[: len(series.coefficients)] != series.coefficients:
+        return Check("quadrature", False, "derived again, the coefficients are others")
+    place = sympy.Rational(1, 2**SMALL)
+    bits = SMALL * (order + 3)
+    if bits > MOST_BITS:
+        raise InputError(f"order {series.order} takes more than {MOST_BITS} bits at A = 2^-{SMALL}")
+    exact = enclose(oscillator, place, definition=series.amplitude, bits=bits)
+    with ctx.workprec(bits + SMALL):
+        wrong = abs(following.in_balls(arb(rational(place))) / exact.omega - 1)
+        holds = bool(wrong < arb(2) ** (-SMALL * order))
+        found = f"below {rounded_up(wrong):.1e}" if wrong.contains(0) else wrong.str(3, radius=False)
+    less = "less" if holds else "not less"
+    text = f"at A = 2^-{SMALL} the series through order {order} differs from the enclosed frequency by {found} of it"
+    return Check("quadrature", holds, f"{text}, {less} than A^{order}")
 
 
 def _against_lindstedt(oscillator: Oscillator, expansion: Expansion) -> Check:

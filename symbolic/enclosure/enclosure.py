@@ -8,7 +8,7 @@ balls come out too wide to decide or to answer.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Final, Literal, TypeAlias
 
@@ -21,7 +21,9 @@ from ridgeback.symbolic.arithmetic.balls import rational
 from ridgeback.symbolic.enclosure.analytic_strip import strip_of
 from ridgeback.symbolic.enclosure.ball_functions import number
 from ridgeback.symbolic.enclosure.closed_form import closed_form
+from ridgeback.symbolic.enclosure.half_wells import quarter_times, two_sided
 from ridgeback.symbolic.enclosure.integrand import integrand_of
+from ridgeback.symbolic.enclosure.no_linear_part import strong_well
 from ridgeback.symbolic.enclosure.quadrature import frequency
 from ridgeback.symbolic.enclosure.separatrix import Separatrix, limits, separatrix
 from ridgeback.symbolic.enclosure.turning_points import Orbit, orbit
@@ -29,6 +31,7 @@ from ridgeback.symbolic.enclosure.walk import UndecidedError, decided
 from ridgeback.symbolic.enclosure.well import Well, well_of
 from ridgeback.symbolic.grammar.tokens import parse_number
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.oscillator import Oscillator
 
 __all__ = ["Amplitude", "Enclosure", "Separatrix", "enclose", "separatrix"]
 
@@ -142,9 +145,13 @@ def enclose(
         ...
     ridgeback.common.errors.InputError: duffing-softening: peak amplitude 1 is at or beyond the separatrix ...
     """
-    well = well_of(as_oscillator(oscillator))
+    oscillator = as_oscillator(oscillator)
+    if oscillator.by_sides:
+        return _by_sides(oscillator, amplitude, definition=definition, bits=bits, method=method)
     with showing(progress) as told:
-        return enclose_in(well, amplitude, definition=definition, bits=bits, method=method, progress=told)
+        return enclose_in(
+            well_of(oscillator), amplitude, definition=definition, bits=bits, method=method, progress=told
+        )
 
 
 def enclose_in(
@@ -158,16 +165,62 @@ def enclose_in(
 ) -> Enclosure:
     """Enclose omega0 at an amplitude of the motion in a well; see ``enclose``."""
     size, bits = _exact(amplitude), _checked_bits(bits)
-    if definition not in DEFINITIONS:
-        raise InputError(
-            f"amplitude {definition!r} has no enclosure, for which the turning point must be known exactly; "
-            f"use {' or '.join(DEFINITIONS)}"
-        )
+    _check_definition(definition)
     well = well.mirrored() if definition == "trough" else well
     value, place, how = _at_rest(well, bits) if size == 0 else _swinging(well, size, bits, method, definition, progress)
     peak, trough = (place.peak, place.trough) if definition == "peak" else (-place.trough, -place.peak)
     exact = sympy.Rational(size.numerator, size.denominator)
     return Enclosure(value, exact, definition, peak, trough, how, bits, well.scale)
+
+
+def _by_sides(
+    oscillator: Oscillator, amplitude: Amplitude, *, definition: str, bits: int, method: Method | None
+) -> Enclosure:
+    """Of a force that is analytic on each side of rest only, or has no linear part."""
+    well = None if oscillator.is_kinked else strong_well(oscillator)
+    if well is not None:
+        found = enclose_in(well, amplitude, definition=definition, bits=bits, method=method)
+        return replace(found, scale=sympy.S.Zero)
+    size, bits = _exact(amplitude), _checked_bits(bits)
+    _check_definition(definition)
+    if method == "closed form":
+        raise InputError(f"{oscillator.name} has no closed form here; use the quadrature, which holds for every force")
+    sides = two_sided(oscillator)
+    if size == 0:
+        return _limit_at_rest(oscillator, definition, bits)
+    sides = sides.mirrored() if definition == "trough" else sides
+    exact = sympy.Rational(size.numerator, size.denominator)
+
+    def attempt(working: int) -> Enclosure:  # noqa: ARG001 - the precision is that of the context
+        found = quarter_times(sides, exact, bits + GUARD_BITS // 2)
+        if found is None:
+            raise InputError(_no_orbit(f"{sides.name}: {definition} amplitude {brief_number(size)}"))
+        near, far, turn = found
+        omega = arb.pi() / (near + far)
+        if omega.rel_accuracy_bits() < bits + GUARD_BITS // 4:
+            raise UndecidedError
+        places = (arb(rational(exact)), -turn)
+        peak, trough = places if definition == "peak" else (-places[1], -places[0])
+        scale = oscillator.natural_frequency if oscillator.is_linear_at_rest else sympy.S.Zero
+        return Enclosure(_widened(omega, bits), exact, definition, peak, trough, "quadrature", bits, scale)
+
+    return decided(attempt, sides.name, bits + GUARD_BITS + GUARD_BITS + 2 * max(0, -_magnitude(size)))
+
+
+def _limit_at_rest(oscillator: Oscillator, definition: str, bits: int) -> Enclosure:
+    """omega0 at amplitude 0: the natural frequency, where there is one."""
+    k = oscillator.natural_frequency
+    with ctx.workprec(bits + GUARD_BITS):
+        value = _widened(number(k), bits)
+    return Enclosure(value, sympy.S.Zero, definition, arb(0), arb(0), "closed form", bits, k)
+
+
+def _check_definition(definition: str) -> None:
+    if definition not in DEFINITIONS:
+        raise InputError(
+            f"amplitude {definition!r} has no enclosure, for which the turning point must be known exactly; "
+            f"use {' or '.join(DEFINITIONS)}"
+        )
 
 
 def _at_rest(well: Well, bits: int) -> tuple[arb, Orbit, Method]:
@@ -277,6 +330,10 @@ def _beyond(well: Well, size: Fraction, definition: str) -> str:
         limit = None
     if limit is not None:
         return f"{what} is at or beyond the separatrix at {float(limit):.10g}; use less"
+    return _no_orbit(what)
+
+
+def _no_orbit(what: str) -> str:
     return (
         f"{what} has no closed orbit: the force vanishes or is not analytic on the way, or the potential does not rise "
         "as high on the other side as far as it was followed; use less"

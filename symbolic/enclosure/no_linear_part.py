@@ -1,33 +1,27 @@
-"""Oscillators without a linear restoring force, such as u'' + u^3 = 0: no expansion, but a certified frequency.
+"""Polynomial forces without a linear part, such as u'' + u^3 = 0: their well, and the power law of a single power.
 
-omega0 vanishes with the amplitude, so there is no natural frequency to expand about.  The orbits close all the same
-when the lowest term of the force is odd and restores, and their frequency has an enclosure like any other.
+omega0 vanishes with the amplitude, so there is no natural frequency.  The orbits close all the same when the lowest
+term of the force is odd and restores, and their frequency has an enclosure like any other.
 """
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import sympy
 from flint import ctx, fmpq_poly
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.enclosure.enclosure import Amplitude, Enclosure, enclose_in
 from ridgeback.symbolic.enclosure.power_law import PowerLaw, power_law
 from ridgeback.symbolic.enclosure.well import Well, exact_polynomial
 from ridgeback.symbolic.systems.oscillator import Oscillator, V
 from ridgeback.symbolic.systems.structure import free_names
 
-__all__ = ["enclose_strong", "law_of", "law_row", "peak_law", "strong_well"]
-
 GUARD = 40
 
 
-def strong_well(oscillator: Oscillator) -> Well:
-    """The well of a polynomial force without a linear term, in the oscillator's own units.
+def strong_well(oscillator: Oscillator) -> Well | None:
+    """The well of a polynomial force without a linear term, in the oscillator's own units; None for other forces.
 
-    ``oscillator`` is the one that a ``NoLinearForceError`` carries.  Raises InputError for terms in u', parameters
-    without a value, forces that are no rational polynomial, and forces that do not restore.
+    Raises InputError for terms in u', parameters without a value, and forces that do not restore.
     """
     name, force = oscillator.name, sympy.expand(oscillator.substituted_force)
     if force.has(V):
@@ -39,10 +33,7 @@ def strong_well(oscillator: Oscillator) -> Well:
     potential = oscillator.substituted_potential
     exact = None if potential is None else exact_polynomial(sympy.expand(potential))
     if potential is None or exact is None:
-        raise InputError(
-            f"{name}: without a linear restoring force only polynomials with rational coefficients have an enclosure; "
-            f"{force} is none"
-        )
+        return None
     _check_restores(name, exact)
     even = all(exact[j] == 0 for j in range(1, exact.degree() + 1, 2))
     inertia, drag, scale = sympy.S.One, sympy.S.Zero, sympy.S.One
@@ -62,61 +53,20 @@ def law_of(oscillator: Oscillator) -> PowerLaw | None:
     Parameters
     ----------
     oscillator : Oscillator
-        Without a linear force, as it was read (``NoLinearForceError.oscillator``).
+        Without a linear force.
 
     Returns
     -------
     PowerLaw or None
-        omega0 = factor * A^growth, exact; None for forces of several powers.
+        omega0 = factor * A^growth, exact; None for forces that are not one power.
 
     Raises
     ------
     InputError
-        For terms in u', parameters without a value, forces that are no rational polynomial, and forces that do not
-        restore.
+        For terms in u', parameters without a value, and forces that do not restore.
     """
-    exact = strong_well(oscillator).polynomial
-    return None if exact is None else power_law(exact)
-
-
-def enclose_strong(
-    oscillator: Oscillator, amplitude: Amplitude, *, definition: str = "peak", bits: int = 128
-) -> Enclosure:
-    """Enclose omega0 at an amplitude of an oscillator without a linear force; see ``enclose``.
-
-    Parameters
-    ----------
-    oscillator : Oscillator
-        Without a linear force, as it was read (``NoLinearForceError.oscillator``).
-    amplitude : float, int, str, Fraction or sympy.Rational
-        In the unit of u, positive.
-    definition : str, optional
-        ``peak`` (default) or ``trough``.
-    bits : int, optional
-        The relative radius is about 2**-bits.
-
-    Returns
-    -------
-    Enclosure
-        A ball around omega0 in rad per time unit, and balls around the turning points.
-
-    Raises
-    ------
-    InputError
-        As for ``law_of``, and for amplitudes at or beyond a separatrix.
-
-    Examples
-    --------
-    >>> from ridgeback.symbolic.systems.description import from_text
-    >>> from ridgeback.symbolic.systems.oscillator import NoLinearForceError
-    >>> try:
-    ...     from_text("u'' + u**3 = 0")
-    ... except NoLinearForceError as refusal:
-    ...     print(enclose_strong(refusal.oscillator, 2, bits=64).omega.str(15))
-    [1.69442616958796 +/- 1.83e-15]
-    """
-    found = enclose_in(strong_well(oscillator), amplitude, definition=definition, bits=bits)
-    return replace(found, scale=sympy.S.Zero)
+    well = strong_well(oscillator)
+    return None if well is None or well.polynomial is None else power_law(well.polynomial)
 
 
 def peak_law(law: PowerLaw) -> sympy.Expr:

@@ -20,6 +20,7 @@ from ridgeback.common.progress import Progress, Wanted, showing
 from ridgeback.symbolic.arithmetic import truncated
 from ridgeback.symbolic.expansion.amplitude import check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order
 from ridgeback.symbolic.series.program import Program
 from ridgeback.symbolic.series.ring import TrigRing
@@ -77,6 +78,14 @@ def energy_integral(
     (1, 0, -1/16, 0, 1/3072)
     """
     oscillator = as_oscillator(oscillator)
+    if oscillator.by_sides:
+        found = energy_on_each_side(oscillator, order, amplitude=amplitude, budget=budget)
+        if isinstance(found, Expansion):
+            return found
+        raise InputError(
+            f"{oscillator.name}: omega0 goes in other powers of A, from A^({found.growth}) in steps of "
+            f"1/{found.root}; ridgeback.derive, or energy_on_each_side, gives that series"
+        )
     order = check_order(order)
     check_amplitude(oscillator, amplitude, ALLOWED)
     natural = oscillator.normalised

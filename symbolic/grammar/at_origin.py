@@ -42,8 +42,8 @@ def value_at_origin(expression: sympy.Expr, values: Values) -> arb | None:
     Raises
     ------
     InputError
-        When the expression is not analytic and real there (1/u, log(u), u**(1/2), sqrt(-1)), when that cannot be
-        decided, or when it overflows.
+        When the expression is not analytic and real on each side of it (1/u, log(u), u**(1/2), sqrt(-1)), when that
+        cannot be decided, or when it overflows.
 
     Examples
     --------
@@ -121,6 +121,10 @@ def _combined(expression: sympy.Expr, known: list[arb]) -> arb:
         return product
     if isinstance(expression, sympy.Pow):
         return _power(known[0], expression)
+    if isinstance(expression, sympy.Abs):
+        return abs(known[0])
+    if isinstance(expression, sympy.sign):
+        return _sign(known[0], expression)
     function = REAL_FUNCTIONS.get(type(expression).__name__)
     if function is None:
         raise InputError(f"{brief(expression)} is not a real function analytic at the origin; rewrite that term")
@@ -137,11 +141,23 @@ def _power(base: arb, expression: sympy.Pow) -> arb:
     whole = isinstance(exponent, sympy.Integer)
     if whole and exponent >= 0:
         return base ** int(exponent)
+    if base.is_zero() and exponent > 0 and isinstance(expression.base, sympy.Abs):
+        return arb(0)
     if base.contains(0):
-        raise InputError(f"{brief(expression)} is not analytic at the origin (its base vanishes); rewrite that term")
+        raise InputError(
+            f"{brief(expression)} is not real and finite on both sides of the origin, where its base vanishes; rewrite "
+            "that term (powers of abs(u), and odd roots such as u**(1/3), are taken)"
+        )
     if not whole and not base > 0:
         raise InputError(f"{brief(expression)} is not real at the origin (its base is negative); rewrite that term")
     return base ** (int(exponent) if whole else arb(rational(exponent)))
+
+
+def _sign(ball: arb, expression: sympy.Expr) -> arb:
+    """0 at 0, the mean of both sides."""
+    if ball.contains(0) and not ball.is_zero():
+        raise InputError(f"the sign in {brief(expression)} cannot be told; rewrite that term")
+    return arb(0) if ball.is_zero() else arb(1 if ball > 0 else -1)
 
 
 def _checked(ball: arb, expression: sympy.Expr) -> arb:

@@ -158,6 +158,20 @@ def _decimal(value: Fraction) -> str:
     return f"{digits}e-{places}" if places else str(digits)
 
 
+def extreme(name: str, first: Node, second: Node, column: int = 0) -> Node:
+    """(a + b + abs(a - b))/2 for the larger, with a minus for the smaller.
+
+    >>> to_text(extreme("max", Unknown(0), Number(Fraction(0))))
+    '(u + abs(u))/2'
+    """
+    zero = isinstance(second, Number) and second.value == 0
+    apart = first if zero else Sum((first, Negate(second)))
+    size: Node = Call("abs", apart, column)
+    bent = size if name == "max" else Negate(size, column)
+    terms = (first, bent) if zero else (first, second, bent)
+    return Quotient(Sum(terms, column), Number(Fraction(2), column), column)
+
+
 def constant(node: Node) -> Fraction | None:
     """The rational value of a tree of numbers alone, None when a name, the unknown or a function occurs.
 

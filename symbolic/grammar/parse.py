@@ -8,6 +8,9 @@ Grammar (``^`` is ``**``, blanks are free, nothing multiplies implicitly)::
     signed     = ( "+" | "-" ) signed | power
     power      = atom [ "**" signed ]
     atom       = number | name | name "'" | name "''" | function "(" expression ")" | "(" expression ")"
+               | ( "max" | "min" ) "(" expression "," expression ")"
+
+``max(a, b)`` is read as (a + b + abs(a - b))/2, and an odd root of u or u' is the real one.
 """
 
 from __future__ import annotations
@@ -17,6 +20,7 @@ from dataclasses import dataclass
 from typing import Final, Literal, cast
 
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.grammar.kinks import U, V, W
 from ridgeback.symbolic.grammar.nodes import (
     Call,
     Name,
@@ -29,11 +33,12 @@ from ridgeback.symbolic.grammar.nodes import (
     Sum,
     Unknown,
     children,
+    extreme,
     names,
     to_text,
 )
 from ridgeback.symbolic.grammar.size import measure
-from ridgeback.symbolic.grammar.to_sympy import FUNCTIONS, U, V, W, to_sympy
+from ridgeback.symbolic.grammar.to_sympy import FUNCTIONS, to_sympy
 from ridgeback.symbolic.grammar.tokens import Token, number_value, parse_number, quoted, tokenize
 
 __all__ = [
@@ -71,14 +76,16 @@ _INSTEAD: Final = {
     "arcsinh": "asinh",
     "arctanh": "atanh",
     "sh": "sinh",
+    "Abs": "abs",
+    "fabs": "abs",
+    "sgn": "sign",
+    "Max": "max",
+    "Min": "min",
+    "heaviside": "sign",
+    "Heaviside": "sign",
 }
-_LAWS: Final = (
-    "a smooth stand-in such as tanh(20*u) has another law at small amplitudes.  To leading order, with k = 1, "
-    "c*abs(u')*u' gives a'/a = -4*c*a/(3*pi), F*sign(u') gives -2*F/(pi*a), and eps*u*abs(u) gives "
-    "omega0 = 1 + 4*eps*A/(3*pi)"
-)
-"""What is so of kinks, by averaging over u = a cos(tau)."""
-_KINKED: Final = ("abs", "Abs", "fabs", "sign", "sgn", "max", "min", "floor", "heaviside", "Heaviside")
+EXTREMES: Final = ("max", "min")
+"""Functions of two arguments, which abs expresses."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -299,7 +306,7 @@ class _Parser:
     def named(self, token: Token) -> Node:
         self.index += 1
         if self.current.text == "(":
-            return self.call(token)
+            return self.extreme(token) if token.text in EXTREMES else self.call(token)
         if token.text in FUNCTIONS:
             raise InputError(
                 f"the function {token.text} at column {token.column} has no argument; write {token.text}(u)"
@@ -316,6 +323,22 @@ class _Parser:
         if self.tokens[self.index + 1].text == ")":
             raise InputError(f"{token.text}() at column {token.column} has no argument; write {token.text}(u)")
         return Call(token.text, self.bracketed(opening), self.count(token.column))
+
+    def extreme(self, token: Token) -> Node:
+        """max or min of two expressions, by abs."""
+        opening = self.current
+        self.index += 1
+        self.enter(opening)
+        first = self.expression()
+        if self.take(",") is None:
+            raise InputError(f"{token.text} at column {token.column} takes two arguments; write {token.text}(u, 0)")
+        second = self.expression()
+        self.leave()
+        if self.take(")") is None:
+            raise InputError(f"the bracket opened at column {opening.column} is not closed; add )")
+        self.refuse_juxtaposition("(...)")
+        self.count(token.column)
+        return extreme(token.text, first, second, token.column)
 
     def refuse_juxtaposition(self, before: str) -> None:
         token = self.current
@@ -343,11 +366,10 @@ class _Parser:
 
 def _unknown_function(token: Token, *, is_unknown: bool) -> InputError:
     name, where = token.text, f"{quoted(token.text)} at column {token.column}"
-    if name in _KINKED:
-        return InputError(f"{where} is not analytic at the origin, so no power series holds it; {_LAWS}")
     if is_unknown or token.primes:
         mark = "'" * token.primes
         return InputError(f"{where} is the unknown, not a function; write {name}{mark} or {name}{mark}*(...)")
-    close = difflib.get_close_matches(_INSTEAD.get(name, name), FUNCTIONS, 1)
+    known = (*FUNCTIONS, *EXTREMES)
+    close = difflib.get_close_matches(_INSTEAD.get(name, name), known, 1)
     hint = f"did you mean {close[0]}?" if close else f"to multiply write {name}*(...)"
-    return InputError(f"{where} is not a known function; {hint} (known: {', '.join(FUNCTIONS)})")
+    return InputError(f"{where} is not a known function; {hint} (known: {', '.join(known)})")

@@ -8,6 +8,7 @@ import sympy
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.grammar.at_origin import value_at_origin
+from ridgeback.symbolic.grammar.kinks import U, V, W, absolute, real_power, sign
 from ridgeback.symbolic.grammar.nodes import (
     Call,
     Name,
@@ -25,10 +26,6 @@ from ridgeback.symbolic.grammar.nodes import (
 from ridgeback.symbolic.grammar.size import measure
 from ridgeback.symbolic.grammar.tokens import quoted
 
-U: Final = sympy.Symbol("u", real=True)
-V: Final = sympy.Symbol("u'", real=True)
-W: Final = sympy.Symbol("u''", real=True)
-
 FUNCTIONS: Final = {
     "sin": sympy.sin,
     "cos": sympy.cos,
@@ -43,6 +40,8 @@ FUNCTIONS: Final = {
     "atan": sympy.atan,
     "asinh": sympy.asinh,
     "atanh": sympy.atanh,
+    "abs": absolute,
+    "sign": sign,
 }
 
 
@@ -51,7 +50,7 @@ def to_sympy(node: Node) -> sympy.Expr:
 
     Only trees accepted by ``measure`` are built, so no number or power explodes.  Raises InputError for a parameter
     called ``u`` beside another unknown (it is the name of ``U``) or ``t`` (time does not occur in an autonomous
-    equation), and for what is not finite, real and analytic at the origin.
+    equation), and for what is not finite, real and analytic on each side of the origin.
 
     >>> to_sympy(Call("sin", Negate(Unknown(0))))
     -sin(u)
@@ -78,7 +77,7 @@ def _convert(node: Node) -> sympy.Expr:
         case Quotient():
             return _finite(below[0] / _bounded(below[1], node), node)
         case Power():
-            return _finite(sympy.Pow(_bounded(below[0], node), below[1]), node)
+            return _finite(real_power(_bounded(below[0], node), below[1]), node)
         case Call(function=function):
             return _finite(FUNCTIONS[function](_bounded(below[0], node)), node)
 

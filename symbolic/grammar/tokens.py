@@ -22,7 +22,7 @@ _NUMBER: Final = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 _TOKEN: Final = re.compile(
     rf"(?P<number>{_NUMBER})"
     r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)(?P<primes>'*)"
-    r"|(?P<operator>\*\*|[-+*/^()=])"
+    r"|(?P<operator>\*\*|[-+*/^()=,])"
 )
 _SIGNED: Final = re.compile(rf"[+-]?{_NUMBER}")
 

@@ -8,6 +8,7 @@ from typing import Literal, TypeAlias
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Wanted
 from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.resummation.elliptic_nome import nome
 from ridgeback.symbolic.resummation.pade import mapped, mapping_for, pade
 from ridgeback.symbolic.resummation.resummation import Resummation
@@ -21,7 +22,7 @@ KINDS: tuple[Kind, ...] = ("pade", "map", "nome")
 
 def resum(
     oscillator: OscillatorLike,
-    series: Expansion,
+    series: Expansion | PowerExpansion,
     kind: str,
     *,
     degrees: tuple[int, int] | None = None,
@@ -67,6 +68,8 @@ def resum(
     'Pade [2/2]'
     """
     oscillator = as_oscillator(oscillator)
+    if isinstance(series, PowerExpansion):
+        raise InputError(series.without_code())
     if kind not in KINDS:
         raise InputError(f"no resummation {kind!r}; there are {', '.join(KINDS)}")
     if growth and kind != "map":

@@ -27,6 +27,7 @@ from ridgeback.symbolic.arithmetic.balls import natural_frequency
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.singularities.darboux import Estimate, Point, nearest_singularities
 from ridgeback.symbolic.singularities.dlog_pade import dlog_singularities
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
@@ -55,6 +56,7 @@ _LAST: Final = 4
 
 
 CONSTANT = "every coefficient beyond the first is zero"
+ONE_POWER = "omega0 is one power of A through this order: no limit shows."
 _POWERS = {2: "²", 3: "³"}
 
 
@@ -119,6 +121,8 @@ class Limits:
 
     def sentence(self) -> str:
         """Say the limits in one line."""
+        if self.why == ONE_POWER:
+            return self.why
         if self.why == CONSTANT:
             return "omega0 is constant through this order: no limit shows."
         if self.radius is None or self.uncertainty is None:
@@ -256,7 +260,11 @@ def _is_zero(value: fmpq | arb) -> bool:
 
 
 def _unknown(expansion: Series, why: str) -> Limits:
-    return Limits(expansion.variable, 1, expansion.order, None, None, (), (), None, why)
+    return _nowhere(expansion.order, why, expansion.variable)
+
+
+def _nowhere(order: int, why: str, variable: str = "A") -> Limits:
+    return Limits(variable, 1, order, None, None, (), (), None, why)
 
 
 def _function(series: list[Any], of: str) -> list[Any]:
@@ -354,7 +362,7 @@ def _scaled(value: float) -> tuple[float, int]:
 
 
 def settled_limits(
-    oscillator: OscillatorLike, expansion: Expansion | BallExpansion, *, progress: Wanted = None
+    oscillator: OscillatorLike, expansion: Expansion | PowerExpansion | BallExpansion, *, progress: Wanted = None
 ) -> Limits:
     """Return the limits of an expansion; a short one is settled by the same expansion carried further.
 
@@ -362,7 +370,7 @@ def settled_limits(
     ----------
     oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
         Any form of the oscillator whose expansion it is.
-    expansion : Expansion or BallExpansion
+    expansion : Expansion, PowerExpansion or BallExpansion
         Balls that are too wide are settled by the exact series.
     progress : bool or callable, optional
         ``True`` shows a bar; a function is told the share done and the order about to be found.
@@ -383,12 +391,25 @@ def settled_limits(
     >>> settled_limits("pendulum", lindstedt("pendulum", 8)).sentence()
     'The series converges for |A| < 3.14159 ± ...'
     """
+    if isinstance(expansion, PowerExpansion):
+        return _of_powers(expansion)
     oscillator = as_oscillator(oscillator)
     if expansion.names or expansion.order >= _SETTLING:
         found = limits(expansion)
         if found.radius is not None or isinstance(expansion, Expansion):
             return found
     return limits(expansion, longer=lindstedt(oscillator, _SETTLING, amplitude=expansion.amplitude, progress=progress))
+
+
+def _of_powers(expansion: PowerExpansion) -> Limits:
+    """The limits of a series in rational powers: those of what stands beside the leading power, where it runs in A."""
+    if expansion.is_power_law:
+        return _nowhere(expansion.order, ONE_POWER)
+    if expansion.root != 1:
+        return _nowhere(
+            expansion.order, f"the series runs in powers of A^(1/{expansion.root}), for which no rule is known"
+        )
+    return limits(expansion.beside_leading())
 
 
 _SETTLING = 48

@@ -44,7 +44,7 @@ from ridgeback.symbolic.grammar.nodes import (
 )
 from ridgeback.symbolic.grammar.parse import Equation, U, V, W, parse_equation, parse_expression, to_sympy
 from ridgeback.symbolic.systems.equilibrium import near_equilibrium, numbers
-from ridgeback.symbolic.systems.oscillator import NoLinearForceError, Oscillator
+from ridgeback.symbolic.systems.oscillator import Oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
 TEXTS = ("title", "reference", "description", "potential", "unit", "symbol")
@@ -101,8 +101,6 @@ def from_text(
     moved = Equation(tree.unknown, moved_tree, to_text(moved_tree, unknown=tree.unknown) + " = 0")
     try:
         return Oscillator.from_tree(moved, parameters=parameters, **details)
-    except NoLinearForceError as reason:
-        raise NoLinearForceError(f"about {about}: {reason}", reason.oscillator) from None
     except InputError as reason:
         raise InputError(f"about {about}: {reason}") from None
 
@@ -161,8 +159,6 @@ def read_description(path: str | Path) -> Oscillator:
         raise InputError(f"{file} nests its values too deeply; a description is a table of texts and numbers") from None
     try:
         return from_table(table, name=file.stem)
-    except NoLinearForceError as reason:
-        raise NoLinearForceError(f"{file}: {reason}", reason.oscillator) from None
     except InputError as reason:
         raise InputError(f"{file}: {reason}") from None
 

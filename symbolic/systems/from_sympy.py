@@ -9,6 +9,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial, reduce
 from typing import Final, Literal, cast
 
 import sympy
@@ -26,12 +27,17 @@ from ridgeback.symbolic.grammar.nodes import (
     Quotient,
     Sum,
     Unknown,
+    extreme,
     to_text,
 )
 from ridgeback.symbolic.grammar.to_sympy import FUNCTIONS
 
 NAME: Final = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
-CALLS: Final[Mapping[type, str]] = {kind: name for name, kind in FUNCTIONS.items() if isinstance(kind, type)}
+CALLS: Final[Mapping[type, str]] = {
+    **{kind: name for name, kind in FUNCTIONS.items() if isinstance(kind, type)},
+    sympy.Abs: "abs",
+    sympy.sign: "sign",
+}
 
 
 @dataclass(frozen=True)
@@ -181,6 +187,9 @@ def compound(expression: sympy.Expr, roles: Roles) -> Node:
             return product(expression, roles)
         case sympy.Pow():
             return power(expression, roles)
+        case sympy.Max() | sympy.Min():
+            which = "max" if isinstance(expression, sympy.Max) else "min"
+            return reduce(partial(extreme, which), (converted(argument, roles) for argument in expression.args))
     name = CALLS.get(type(expression))
     if name is None:
         raise InputError(f"{shown(expression)} is not in the grammar; it has {', '.join(FUNCTIONS)}, powers and pi")

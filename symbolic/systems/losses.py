@@ -14,7 +14,7 @@ import sympy
 
 from ridgeback.symbolic.grammar.parse import U, V
 from ridgeback.symbolic.systems.parameters import Parameters, reciprocal, symbol_of
-from ridgeback.symbolic.systems.structure import dissipative_names, free_names
+from ridgeback.symbolic.systems.structure import dissipative_names, free_names, slope_at_rest, without_kinks
 
 INVERSE: Final = "inv_"
 """Begins the name of the reciprocal of a parameter."""
@@ -73,8 +73,8 @@ def _numbers_named(force: sympy.Expr, parameters: Parameters) -> Lossy:
     lossless = {symbol_of(name): 0 for name in dissipative_names(force)}
     left = force.subs(lossless)
     odd = (left - left.subs(V, -V)) / 2
-    lost = sympy.expand((odd + odd.subs(U, -U)) / 2)
-    slope = sympy.expand(lost.diff(V).subs({U: 0, V: 0}))
+    lost = without_kinks((odd + odd.subs(U, -U)) / 2)
+    slope = slope_at_rest(lost, V)
     if not slope.is_Rational or slope == 0:
         return Lossy(force, parameters)
     named, factor = ("mu", 2) if slope > 0 else ("eps", -1)

@@ -74,6 +74,20 @@ def in_natural_units(force: sympy.Expr, stiffness: sympy.Expr, small: Collection
     return Natural(whole, {str(symbol.name): value for value, symbol in names.items()})
 
 
+def over_leading(force: sympy.Expr, leading: sympy.Expr) -> Natural:
+    """The force over the coefficient that it begins with, with names for what is not polynomial over the rationals.
+
+    Of the series of the result the first coefficient is 1 and those before it are 0, which its reader must know.
+
+    >>> found = over_leading(sympy.sqrt(2) * U**3 + U**5, sympy.sqrt(2))
+    >>> found.force, found.values
+    (c1**u**5 + u**3, {'c1*': sqrt(2)/2})
+    """
+    names: dict[sympy.Expr, sympy.Symbol] = {}
+    named = sympy.Add(*(_named(term, names) for term in _terms(force, leading)))
+    return Natural(named, {str(symbol.name): value for value, symbol in names.items()})
+
+
 def _terms(force: sympy.Expr, stiffness: sympy.Expr) -> tuple[sympy.Expr, ...]:
     """The terms of the force over its stiffness, each with the parameters before it cancelled."""
     opened = _opened(_unit_bases(without_sizes(force)))

@@ -16,17 +16,18 @@ import sympy
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.grammar.at_origin import brief, sign_at_origin, value_at_origin
-from ridgeback.symbolic.grammar.parse import Equation, U, V, W, names, parse_equation, parse_expression, to_sympy
+from ridgeback.symbolic.grammar.parse import Equation, U, V, W, names, parse_equation, to_sympy
 from ridgeback.symbolic.systems.equation_latex import equation_latex
 from ridgeback.symbolic.systems.losses import by_reciprocals, with_named_losses
 from ridgeback.symbolic.systems.natural_units import Normalised, in_natural_units
 from ridgeback.symbolic.systems.parameters import Parameters, Value, merged, reciprocal, symbol_of
-from ridgeback.symbolic.systems.potential import checked_potential, potential_of
+from ridgeback.symbolic.systems.potential import force_potential, potential_of
+from ridgeback.symbolic.systems.sides import Half, check_restores, halves, is_kinked, kink_advice, without_velocity
 from ridgeback.symbolic.systems.structure import (
     damping_name,
-    dissipative_names,
     divided,
     positive_root,
+    slope_at_rest,
     small_name,
     solved_for_acceleration,
     without_sizes,
@@ -39,11 +40,7 @@ Kind: TypeAlias = Literal["conservative", "reversible", "damped", "limit-cycle"]
 
 
 class NoLinearForceError(InputError):
-    """There is nothing to expand about; ``oscillator`` is what was read, for ``enclosure.no_linear_part`` only."""
-
-    def __init__(self, message: str, oscillator: Oscillator) -> None:
-        super().__init__(message)
-        self.oscillator = oscillator
+    """There is no natural frequency: the frequency vanishes, or grows without bound, with the amplitude."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -87,7 +84,7 @@ class Oscillator:
     Raises
     ------
     InputError
-        When the origin is not an equilibrium with a positive linear restoring force, or f is not analytic there.
+        When the origin is not an equilibrium with a restoring force, or f is not analytic on each side of it.
 
     Examples
     --------
@@ -191,7 +188,7 @@ class Oscillator:
         value_at_origin(left, values)  # before SymPy is asked for any value there, which it may never finish
         lossy = with_named_losses(solved_for_acceleration(left), values)
         force = lossy.force
-        integral, note = _potential(force, potential, equation.unknown)
+        integral, note = force_potential(force, potential, equation.unknown)
         about.setdefault("title", name)
         about.setdefault("symbol", sympy.latex(sympy.Symbol(equation.unknown)))
         return cls(
@@ -247,7 +244,8 @@ class Oscillator:
     def substituted_potential(self) -> sympy.Expr | None:
         """The potential with every parameter that has a value inserted; integrated where these leave no u' at all."""
         if self.potential is None:
-            return None if self.substituted_force.has(V) else potential_of(self.substituted_force)
+            force = self.substituted_force
+            return None if force.has(V) else potential_of(force)
         return self._inserted(self.potential)
 
     @cached_property
@@ -278,23 +276,56 @@ class Oscillator:
             return "limit-cycle"
         if self.closes:
             return "conservative" if self.is_conservative else "reversible"
-        slope = sign_at_origin(self.force.diff(V), self.parameters)
+        slope = sign_at_origin(slope_at_rest(self.force, V), self.parameters)
         return "limit-cycle" if slope is not None and slope < 0 else "damped"
 
     @cached_property
     def stiffness(self) -> sympy.Expr:
-        """The linear restoring coefficient f_u(0, 0) = k**2, parameters inserted."""
+        """The linear restoring coefficient f_u(0, 0) = k**2, parameters inserted; see ``natural_frequency``."""
+        if self.is_kinked:
+            return sympy.expand(self.natural_frequency**2)
         return without_sizes(sympy.expand(self._inserted(self.force.diff(U)).subs({U: 0, V: 0})))
 
     @cached_property
+    def is_kinked(self) -> bool:
+        """Whether the force has a kink at u = 0: abs, sign or a broken power of u."""
+        return is_kinked(self.substituted_force, U)
+
+    @cached_property
+    def is_linear_at_rest(self) -> bool:
+        """Whether the force begins linearly in u on both sides of rest, so that there is a natural frequency."""
+        if self.is_kinked:
+            return all(found is not None and found.exponent == 1 for found in self.halves)
+        return bool(self.stiffness != 0)
+
+    @property
+    def by_sides(self) -> bool:
+        """Whether the motion has to be followed on each side of rest: the force has a kink there or no linear part."""
+        return self.is_kinked or not self.is_linear_at_rest
+
+    @cached_property
+    def halves(self) -> tuple[Half | None, Half | None]:
+        """The restoring force f(u, 0) on each side of rest, u > 0 first, parameters inserted."""
+        return halves(without_velocity(self.substituted_force))
+
+    @cached_property
     def natural_frequency(self) -> sympy.Expr:
-        """k, the positive root of the stiffness, exact; a symbolic parameter under the root is taken as positive."""
-        return positive_root(self.stiffness)
+        """k, the positive root of the stiffness, exact; a symbolic parameter under the root is taken as positive.
+
+        With another stiffness on each side, half a cycle takes pi/k1 and half pi/k2: k = 2 k1 k2 / (k1 + k2).
+        """
+        if not self.is_linear_at_rest:
+            raise NoLinearForceError(_no_linear_force(self.name))
+        if not self.is_kinked:
+            return positive_root(self.stiffness)
+        one, other = (positive_root(side.coefficient) for side in self.halves if side is not None)
+        mean = one if one == other else 2 * one * other / (one + other)
+        return sympy.radsimp(mean) if mean.is_number else mean
 
     @cached_property
     def linear_damping(self) -> sympy.Expr:
         """Half of f_u'(0, 0), parameters inserted: the mu of the linearised equation, whatever it is called."""
-        return sympy.expand(self._inserted(self.force.diff(V)).subs({U: 0, V: 0}) / 2)
+        return sympy.expand(self._inserted(slope_at_rest(self.force, V)) / 2)
 
     @property
     def equation_latex(self) -> str:
@@ -303,7 +334,7 @@ class Oscillator:
         return equation_latex(self.force.subs(zero), self.symbol)
 
     def check_at_origin(self) -> None:
-        """Raise InputError unless u = 0 is an equilibrium with a positive linear restoring force, f analytic there."""
+        """Raise InputError unless u = 0 is an equilibrium with a restoring force, f analytic on each side of it."""
         value_at_origin(self.force, self.parameters)
         rest = sympy.expand(self._inserted(self.force).subs({U: 0, V: 0}))
         if rest != 0:
@@ -311,10 +342,11 @@ class Oscillator:
                 f"{self.name}: u = 0 is not at rest, since f(0, 0) = {brief(rest)} and not 0; "
                 "measure the unknown from the equilibrium"
             )
+        if self.by_sides:
+            check_restores(self.name, self.halves)
+            return
         slope = self.force.diff(U)
         sign = sign_at_origin(slope, self.parameters)
-        if self.stiffness == 0 or sign == 0:
-            raise NoLinearForceError(_no_linear_force(self.name), self)
         if sign == -1 or self.stiffness.is_nonpositive:
             raise InputError(
                 f"{self.name}: the origin is a saddle, since the linear restoring coefficient "
@@ -329,6 +361,8 @@ class Oscillator:
         >>> own.normalised.force, own.normalised.damping
         (2*mu*u' + sin(u), 1/400)
         """
+        if is_kinked(self.substituted_force):
+            raise InputError(f"{self.name}: {kink_advice(self.substituted_force, conservative=self.is_conservative)}")
         k, kept = self.natural_frequency, [name for name in (self.damping, self.small) if name]
         symbols = {name: symbol_of(name) for name in kept}
         force = self._inserted(self.force, keep=kept).subs({V: k * V, **{s: k * s for s in symbols.values()}})
@@ -366,29 +400,9 @@ def _rebuilt(cls: type[Oscillator], values: dict[str, Any]) -> Oscillator:
     return cls(**values)
 
 
-def _potential(force: sympy.Expr, given: str | None, unknown: str) -> tuple[sympy.Expr | None, str]:
-    """The potential of f(u, 0) and, when that does not set the undamped motion, why."""
-    restoring = force.subs(V, 0)
-    velocity = force - restoring
-    checked = None
-    if given is not None:  # checked wherever it is given, also where it is not all that sets the motion
-        checked = checked_potential(to_sympy(parse_expression(given, unknown=unknown)), restoring)
-    if sympy.expand(velocity + velocity.subs(V, -V)) != 0:
-        return None, "the force has velocity terms that do not dissipate"
-    lossless = velocity.subs({symbol_of(name): 0 for name in dissipative_names(force)})
-    if sympy.expand(lossless - lossless.subs(U, -U)) != 0:
-        return None, f"{brief(lossless)} neither dissipates nor comes from a potential"
-    if small_name(force) is not None:
-        return None, "a limit cycle is not set by its potential"
-    if checked is not None:
-        return checked, ""
-    potential = potential_of(restoring)
-    return potential, "" if potential is not None else f"no rule integrates {brief(restoring)}"
-
-
 def _no_linear_force(name: str) -> str:
     return (
-        f"{name}: there is no linear restoring force at u = 0, so the frequency vanishes with the amplitude "
-        "(u'' + u**3 = 0 has omega proportional to A) and no expansion about a natural frequency exists; "
-        "add a linear term k**2*u, or compute the period by quadrature (derive --at 1 encloses it)"
+        f"{name}: there is no linear restoring force at u = 0, so the frequency is no constant at small amplitudes "
+        "(u'' + u**3 = 0 has omega proportional to A) and no natural frequency exists; derive gives the series in "
+        "powers of A, and derive --at 1 encloses it; for anything else add a linear term k**2*u"
     )

@@ -9,7 +9,10 @@ import sympy
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.grammar.at_origin import brief, value_at_origin
-from ridgeback.symbolic.grammar.parse import U
+from ridgeback.symbolic.grammar.parse import U, V, parse_expression, to_sympy
+from ridgeback.symbolic.systems.parameters import symbol_of
+from ridgeback.symbolic.systems.sides import half, is_kinked, whole, without_velocity
+from ridgeback.symbolic.systems.structure import dissipative_names, small_name
 
 MAX_OPERATIONS: Final = 300
 
@@ -29,7 +32,8 @@ def potential_of(restoring: sympy.Expr) -> sympy.Expr | None:
     """Return the potential P(u) with P' = restoring and P(0) = 0.
 
     The rules: powers of u; sin, cos, tan, sinh, cosh, tanh, exp of a*u + b; c * g'(u) * g(u)**r and c * g'(u) * F(g(u))
-    with F one of these functions; and p(u) * exp(q(u)) with polynomials p and q, where that is elementary.
+    with F one of these functions; and p(u) * exp(q(u)) with polynomials p and q, where that is elementary.  A force
+    with a kink at u = 0 is integrated on each side.
 
     Parameters
     ----------
@@ -46,8 +50,31 @@ def potential_of(restoring: sympy.Expr) -> sympy.Expr | None:
     >>> potential_of(U + sympy.sin(2 * U))
     u**2/2 - cos(2*u)/2 + 1/2
     """
+    if is_kinked(restoring):
+        right, left = (potential_of(half(restoring, side)) for side in (1, -1))
+        return None if right is None or left is None else whole(right, left)
     integral = _sum(restoring, lambda term: _sum(_expanded(term), lambda _: None))
     return None if integral is None else _from_zero(integral)
+
+
+def force_potential(force: sympy.Expr, given: str | None, unknown: str) -> tuple[sympy.Expr | None, str]:
+    """The potential of f(u, 0) and, when that does not set the undamped motion, why."""
+    restoring = without_velocity(force)
+    velocity = force - restoring
+    checked = None
+    if given is not None:  # checked wherever it is given, also where it is not all that sets the motion
+        checked = checked_potential(to_sympy(parse_expression(given, unknown=unknown)), restoring)
+    if sympy.expand(velocity + velocity.subs(V, -V)) != 0:
+        return None, "the force has velocity terms that do not dissipate"
+    lossless = velocity.subs({symbol_of(name): 0 for name in dissipative_names(force)})
+    if sympy.expand(lossless - lossless.subs(U, -U)) != 0:
+        return None, f"{brief(lossless)} neither dissipates nor comes from a potential"
+    if small_name(force) is not None:
+        return None, "a limit cycle is not set by its potential"
+    if checked is not None:
+        return checked, ""
+    potential = potential_of(restoring)
+    return potential, "" if potential is not None else f"no rule integrates {brief(restoring)}"
 
 
 def checked_potential(potential: sympy.Expr, restoring: sympy.Expr) -> sympy.Expr:

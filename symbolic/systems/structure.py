@@ -6,6 +6,7 @@ import sympy
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.grammar.at_origin import brief
+from ridgeback.symbolic.grammar.kinks import KINKS
 from ridgeback.symbolic.grammar.parse import U, V, W
 
 
@@ -33,10 +34,10 @@ def positive_root(square: sympy.Expr) -> sympy.Expr:
 def without_sizes(expression: sympy.Expr) -> sympy.Expr:
     """The expression with symbolic parameters taken as positive, so that the root of a square is the parameter itself.
 
-    >>> without_sizes(sympy.sqrt(sympy.Symbol("l", real=True) ** 2))
-    l
+    >>> without_sizes(sympy.sqrt(sympy.Symbol("l", real=True) ** 2) * abs(U))
+    l*Abs(u)
     """
-    return expression.replace(sympy.Abs, lambda inner: inner)
+    return expression.replace(lambda e: isinstance(e, sympy.Abs) and not e.has(U, V), lambda e: e.args[0])
 
 
 def solved_for_acceleration(left: sympy.Expr) -> sympy.Expr:
@@ -74,13 +75,32 @@ def divided(expression: sympy.Expr, divisor: sympy.Expr) -> sympy.Expr:
     return sympy.Add(*(term / divisor for term in sympy.Add.make_args(sympy.expand_mul(expression))))
 
 
+def slope_at_rest(force: sympy.Expr, unknown: sympy.Symbol) -> sympy.Expr:
+    """The coefficient of the linear term in u or u'; terms with a kink, such as sign(u'), have none.
+
+    >>> slope_at_rest(3 * V + sympy.sign(V) + U, V)
+    3
+    """
+    smooth = without_kinks(force) if force.has(*KINKS) else force
+    return sympy.expand(smooth.diff(unknown).subs({U: 0, V: 0}))
+
+
+def without_kinks(force: sympy.Expr) -> sympy.Expr:
+    """The terms of an expanded force in which neither abs nor sign of u or u' stands.
+
+    >>> without_kinks(U * (1 + abs(U)))
+    u
+    """
+    return sympy.Add(*(term for term in sympy.Add.make_args(sympy.expand(force)) if not term.has(*KINKS)))
+
+
 def damping_name(force: sympy.Expr) -> str | None:
     """The parameter p when the force is 2*p*u' plus terms without p, else None.
 
     >>> damping_name(2 * sympy.Symbol("c", real=True) * V + U)
     'c'
     """
-    slope = sympy.expand(force.diff(V).subs({U: 0, V: 0}))
+    slope = slope_at_rest(force, V)
     symbol = slope / 2
     if not isinstance(symbol, sympy.Symbol) or sympy.expand(force - slope * V).has(symbol):
         return None
@@ -95,7 +115,7 @@ def small_name(force: sympy.Expr) -> str | None:
     >>> small_name(U - sympy.Symbol("eps", real=True) * (1 - U**2) * V)
     'eps'
     """
-    slope, stiffness = (sympy.expand(force.diff(s).subs({U: 0, V: 0})) for s in (V, U))
+    slope, stiffness = (slope_at_rest(force, unknown) for unknown in (V, U))
     for symbol in sorted(slope.free_symbols, key=lambda s: str(s.name)):
         rate = sympy.expand(slope / symbol)
         linear = not force.diff(symbol).has(symbol) and not stiffness.has(symbol)

@@ -1,0 +1,191 @@
+"""A force that is analytic on each side of 0: what it is on a side, and whether it has a kink there."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import sympy
+
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.grammar.at_origin import brief, sign_at_origin
+from ridgeback.symbolic.grammar.kinks import KINKS, U, V
+from ridgeback.symbolic.systems.structure import without_sizes
+
+MOST_ORDERS: Final = 16
+"""A force that begins with a higher power of u than this is none."""
+
+
+def is_kinked(force: sympy.Expr, *unknowns: sympy.Symbol) -> bool:
+    """Whether abs, sign or a broken power of u or u' stands in a force.
+
+    Parameters
+    ----------
+    force : sympy.Expr
+        In ``U``, ``V`` and parameters.
+    unknowns : sympy.Symbol, optional
+        ``U`` or ``V``, to ask for one of them.
+
+    Returns
+    -------
+    bool
+        Whether there is a kink.
+
+    Examples
+    --------
+    >>> is_kinked(U * abs(U)), is_kinked(U * abs(U), V), is_kinked(U**3)
+    (True, False, False)
+    """
+    wanted = unknowns or (U, V)
+    return bool(force.has(*(kink for kink in KINKS if kink.args[0] in wanted)))
+
+
+def half(force: sympy.Expr, side: int) -> sympy.Expr:
+    """The restoring force at the distance u > 0 on one side of rest, counted positive towards rest.
+
+    Parameters
+    ----------
+    force : sympy.Expr
+        f(u) in ``U`` and parameters.
+    side : int
+        1 for u > 0, -1 for u < 0.
+
+    Returns
+    -------
+    sympy.Expr
+        side * f(side * u), without abs and sign; parameters left symbolic are taken as positive.
+
+    Examples
+    --------
+    >>> half(U * abs(U) + U**2, 1), half(U * abs(U) + U**2, -1)
+    (2*u**2, 0)
+    """
+    seen = force.xreplace({sympy.Abs(U): U, sympy.sign(U): sympy.Integer(side), U: side * U})
+    return sympy.expand(side * parameters_positive(seen))
+
+
+def parameters_positive(expression: sympy.Expr) -> sympy.Expr:
+    """Without abs and sign of parameters that are left symbolic: they are taken as positive."""
+    bare = without_sizes(expression)
+    return bare.replace(lambda e: isinstance(e, sympy.sign) and not e.has(U, V), lambda _: sympy.S.One)
+
+
+def whole(right: sympy.Expr, left: sympy.Expr) -> sympy.Expr:
+    """The even continuation of two functions of the distance, such as a potential: ``right`` for u > 0, else ``left``.
+
+    >>> whole(U**3, U**3), whole(3 * U**2, U**2)
+    (Abs(u)**3, u**2*sign(u) + 2*u**2)
+    """
+    size = sympy.Abs(U)
+    one, other = (e.xreplace({U: size}) for e in (right, left))
+    mean, half_difference = sympy.expand((one + other) / 2), sympy.expand((one - other) / 2)
+    return mean + sympy.expand(half_difference * sympy.sign(U))
+
+
+def without_velocity(force: sympy.Expr) -> sympy.Expr:
+    """f(u, 0), with sign(0) = 0."""
+    return force.xreplace({V: sympy.S.Zero})
+
+
+def kink_advice(force: sympy.Expr, *, conservative: bool) -> str:
+    """What to do with a force that has a kink, where an expansion about rest is asked for."""
+    if not conservative:
+        return (
+            f"the losses in {brief(force)} are not analytic at rest, so no power series holds them; "
+            "--method multiple-scales gives their slow flow, to first order in the losses"
+        )
+    if is_kinked(force, V):
+        return f"{brief(force)} has a kink in u' that takes no energy, for which there is no method here; leave it out"
+    return (
+        f"{brief(force)} is analytic on each side of u = 0 and not at it; --method energy-integral gives the series, "
+        "in the peak or trough amplitude"
+    )
+
+
+def root_of_u(*forces: sympy.Expr) -> int:
+    """The d for which forces of u > 0 are analytic in w = u^(1/d): the common denominator of the powers of u.
+
+    >>> root_of_u(U ** sympy.Rational(1, 3), sympy.sqrt(U) + U)
+    6
+    """
+    powers = {p for force in forces for p in force.atoms(sympy.Pow) if p.base == U and p.exp.is_Rational}
+    return math.lcm(1, *(int(p.exp.q) for p in powers))
+
+
+def in_root(force: sympy.Expr, d: int) -> sympy.Expr:
+    """The force of u = w^d, w named ``U``.
+
+    >>> in_root(U ** sympy.Rational(1, 3) + U**2, 3)
+    u**6 + u
+    """
+    if d == 1:
+        return force
+    w = sympy.Dummy("w", positive=True)
+    return force.subs(U, w**d).xreplace({w: U})
+
+
+@dataclass(frozen=True)
+class Half:
+    """The restoring force on one side of rest, and how it begins.
+
+    ``force`` is that of u = w^root at the distance u, w named ``U`` and the force analytic in it; it begins with
+    ``coefficient`` * w^power, and ``sign`` is that of the coefficient, None where a symbolic parameter hides it.
+    """
+
+    force: sympy.Expr
+    root: int
+    power: int
+    coefficient: sympy.Expr
+    sign: int | None
+
+    @property
+    def exponent(self) -> sympy.Rational:
+        """The power of u that the force begins with."""
+        return sympy.Rational(self.power, self.root)
+
+
+def halves(force: sympy.Expr) -> tuple[Half | None, Half | None]:
+    """Both sides of a restoring force, u > 0 first, in one root of u; None where there is no force.
+
+    Parameters
+    ----------
+    force : sympy.Expr
+        f(u), the parameters that have values inserted.
+
+    Returns
+    -------
+    pair of Half or None
+        The right and the left side.
+
+    Examples
+    --------
+    >>> right, left = halves(2 * U + U**2 + abs(U))
+    >>> (right.coefficient, right.exponent), (left.coefficient, left.exponent)
+    ((3, 1), (1, 1))
+    >>> halves(U - sympy.sin(U))[0].exponent
+    3
+    """
+    sides = [half(force, side) for side in (1, -1)]
+    d = root_of_u(*sides)
+    right, left = (_begun(in_root(side, d), d) for side in sides)
+    return right, left
+
+
+def check_restores(name: str, sides: tuple[Half | None, Half | None]) -> None:
+    """Raise InputError unless a force restores on both sides of u = 0."""
+    for where, found in zip(("u > 0", "u < 0"), sides, strict=True):
+        if found is None or found.sign == -1:
+            raise InputError(f"{name}: the force does not restore for {where}, so nothing oscillates about 0")
+
+
+def _begun(force: sympy.Expr, d: int) -> Half | None:
+    """A side with its first term, found by differentiating."""
+    slope, factor = force, 1
+    for n in range(MOST_ORDERS * d if force != 0 else 0):
+        value = sympy.expand(slope.subs(U, 0)) / factor
+        sign = None if value == 0 else sign_at_origin(value, {})
+        if value != 0 and sign != 0:
+            return Half(force, d, n, value, sign)
+        slope, factor = slope.diff(U), factor * (n + 1)
+    return None
