@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from functools import reduce
 from operator import mul
@@ -198,6 +198,38 @@ def number_ball(value: sympy.Expr) -> arb:
     if function is None or len(parts) != 1:
         raise InputError(f"{value} is no real number that balls know; write it with roots, pi and elementary functions")
     return function(parts[0])
+
+
+def scalar_ball(value: Any, names: Sequence[str], constants: Mapping[str, sympy.Expr]) -> arb:
+    """Return a coefficient, a rational or a polynomial in named constants, as a ball at the working precision.
+
+    Parameters
+    ----------
+    value : fmpq or fmpq_mpoly
+        A polynomial is one in (y, *names), free of y.
+    names : sequence of str
+        Its variables.
+    constants : mapping of str to sympy.Expr
+        Their values.
+
+    Returns
+    -------
+    arb
+        A ball around its value.
+
+    Examples
+    --------
+    >>> scalar_ball(fmpq(1, 4), (), {})
+    0.250000000000000
+    """
+    if isinstance(value, int | fmpq):
+        return arb(value)
+    known = [number_ball(constants[name]) for name in names]
+    total = arb(0)
+    for powers, coefficient in value.to_dict().items():
+        factors = (whole_power(x, int(n)) for x, n in zip(known, powers[1:], strict=True) if n)
+        total += reduce(mul, factors, arb(coefficient))
+    return total
 
 
 def evaluated(function: Callable[[arb], arb], value: Any) -> Any:

@@ -1,4 +1,4 @@
-"""Polynomial forces without a linear part, such as u'' + u^3 = 0: their well, and the power law of a single power.
+"""Polynomial forces without a linear part, such as u'' + u^3 = 0: their well.
 
 omega0 vanishes with the amplitude, so there is no natural frequency.  The orbits close all the same when the lowest
 term of the force is odd and restores, and their frequency has an enclosure like any other.
@@ -7,10 +7,9 @@ term of the force is odd and restores, and their frequency has an enclosure like
 from __future__ import annotations
 
 import sympy
-from flint import ctx, fmpq_poly
+from flint import fmpq_poly
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.enclosure.power_law import PowerLaw, power_law
 from ridgeback.symbolic.enclosure.well import Well, exact_polynomial
 from ridgeback.symbolic.systems.oscillator import Oscillator, V
 from ridgeback.symbolic.systems.structure import free_names
@@ -45,47 +44,3 @@ def _check_restores(name: str, potential: fmpq_poly) -> None:
     if lowest is None or lowest % 2 or not potential[lowest] > 0:
         rest = "there is no force at all" if lowest is None else f"its lowest term goes like u^{lowest - 1}"
         raise InputError(f"{name}: the force does not restore on both sides of u = 0, since {rest}; nothing oscillates")
-
-
-def law_of(oscillator: Oscillator) -> PowerLaw | None:
-    """Return the power law that omega0 follows when the force is a single power.
-
-    Parameters
-    ----------
-    oscillator : Oscillator
-        Without a linear force.
-
-    Returns
-    -------
-    PowerLaw or None
-        omega0 = factor * A^growth, exact; None for forces that are not one power.
-
-    Raises
-    ------
-    InputError
-        For terms in u', parameters without a value, and forces that do not restore.
-    """
-    well = strong_well(oscillator)
-    return None if well is None or well.polynomial is None else power_law(well.polynomial)
-
-
-def peak_law(law: PowerLaw) -> sympy.Expr:
-    """omega0(A) of a power law as an expression.
-
-    >>> from flint import fmpq
-    >>> peak_law(PowerLaw(fmpq(1, 4), 4))
-    sqrt(2)*sqrt(pi)*A*gamma(3/4)/(4*gamma(5/4))
-    """
-    share, c = sympy.Rational(1, law.exponent), sympy.Rational(int(law.coefficient.p), int(law.coefficient.q))
-    factor = sympy.sqrt(sympy.pi * c / 2)
-    above, below = (sympy.gamma(value, evaluate=False) for value in (sympy.Rational(1, 2) + share, 1 + share))
-    return factor * above / below * sympy.Symbol("A", real=True) ** law.growth
-
-
-def law_row(law: PowerLaw | None, digits: int) -> dict[str, object]:
-    """The power law in the public JSON form, exactly and with its factor as a decimal; nothing without one."""
-    if law is None:
-        return {}
-    with ctx.workprec(4 * digits + GUARD):
-        factor = law.factor().str(digits, radius=False)
-    return {"law": str(peak_law(law)), "factor": factor, "power": law.growth}

@@ -19,7 +19,7 @@ from flint import arb, fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
-from ridgeback.symbolic.arithmetic.balls import natural_frequency, number_ball, polynomial_at
+from ridgeback.symbolic.arithmetic.balls import natural_frequency, polynomial_at, scalar_ball
 from ridgeback.symbolic.arithmetic.rendering import (
     as_sympy,
     coefficient_row,
@@ -188,7 +188,7 @@ class Expansion(ShownExpansion):
         k = natural_frequency(self.scale)
         x = value / k if self.scaled_variable else value
         if self.constants:
-            coefficients = tuple(number_ball(self.exact(c)) for c in coefficients)
+            coefficients = tuple(scalar_ball(c, self.names, self.constants) for c in coefficients)
         return k * polynomial_at(coefficients, x)
 
     def __call__(self, value: Any) -> Any:

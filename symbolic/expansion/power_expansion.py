@@ -19,7 +19,7 @@ from flint import arb
 from ridgeback.common.errors import InputError
 from ridgeback.common.show.displayed import Displayed
 from ridgeback.common.show.picture import Picture, Stroke
-from ridgeback.symbolic.arithmetic.balls import number_ball, rational
+from ridgeback.symbolic.arithmetic.balls import number_ball, rational, scalar_ball
 from ridgeback.symbolic.arithmetic.rendering import (
     as_sympy,
     coefficient_row,
@@ -118,7 +118,7 @@ class PowerExpansion(Displayed):
 
     def __call__(self, value: Any) -> Any:
         """Evaluate omega0 in rad per time unit at a positive number or an array."""
-        x = value ** (1.0 / self.root)
+        x = value ** float(sympy.Rational(1, self.root))
         total: Any = value * 0
         for c in reversed(self._rounded):
             total = total * x + c
@@ -138,9 +138,9 @@ class PowerExpansion(Displayed):
                 f"the coefficients hold {', '.join(self.symbolic_names)} as symbols; set them before evaluating"
             )
         total, x = arb(0), value.root(self.root)
-        for c in reversed(self.frequency):
-            total = total * x + number_ball(c)
-        return total * value ** arb(rational(self.growth))
+        for c in reversed(self.coefficients):
+            total = total * x + scalar_ball(c, self.names, self.constants)
+        return number_ball(self.lead) * total * value ** arb(rational(self.growth))
 
     def truncated(self, order: int) -> PowerExpansion:
         """Keep the terms up to a lower order; raises InputError when it is not between 0 and the present one."""

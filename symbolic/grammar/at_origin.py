@@ -145,8 +145,8 @@ def _power(base: arb, expression: sympy.Pow) -> arb:
         return arb(0)
     if base.contains(0):
         raise InputError(
-            f"{brief(expression)} is not real and finite on both sides of the origin, where its base vanishes; rewrite "
-            "that term (powers of abs(u), and odd roots such as u**(1/3), are taken)"
+            f"{brief(expression)} is not analytic on both sides of the origin (its base vanishes there); rewrite that "
+            "term (powers of abs(u), and odd roots such as u**(1/3), are taken)"
         )
     if not whole and not base > 0:
         raise InputError(f"{brief(expression)} is not real at the origin (its base is negative); rewrite that term")

@@ -299,6 +299,10 @@ class _Parser:
         self.leave()
         if self.take(")") is None:
             self.refuse_juxtaposition("the value before")
+            if self.current.text == ",":
+                raise InputError(
+                    f"the , at column {self.current.column} separates nothing; only max and min have two arguments"
+                )
             raise InputError(f"the bracket opened at column {opening.column} is not closed; add )")
         self.refuse_juxtaposition("(...)")
         return node

@@ -79,7 +79,14 @@ def _convert(node: Node) -> sympy.Expr:
         case Power():
             return _finite(real_power(_bounded(below[0], node), below[1]), node)
         case Call(function=function):
-            return _finite(FUNCTIONS[function](_bounded(below[0], node)), node)
+            return _finite(_called(function, _bounded(below[0], node), node), node)
+
+
+def _called(function: str, argument: sympy.Expr, node: Node) -> sympy.Expr:
+    try:
+        return FUNCTIONS[function](argument)
+    except InputError as error:
+        raise InputError(f"{error} (column {node.column})") from None
 
 
 def _symbol(node: Name) -> sympy.Expr:

@@ -41,19 +41,17 @@ def test_the_series_stands_beside_the_exact_frequency(ridgeback: Ridgeback) -> N
 
 def test_a_cubic_force_has_a_frequency_proportional_to_the_amplitude(ridgeback: Ridgeback, tmp_path: Path) -> None:
     words = ["derive", "--equation", "u'' + u**3 = 0"]
-    refused = ridgeback(*words)
-    assert refused.code == 2
-    assert "omega proportional to A" in refused.err
-    assert "--at" in refused.err
     public = json.loads(ridgeback(*words, "--at", "1,2", "--digits", "30", "--format", "json").out)
     one, two = (float(row["omega0"]) for row in public["at"])
     # Gamma(3/4) sqrt(pi/8) / Gamma(5/4)
     assert one == pytest.approx(math.gamma(0.75) / math.gamma(1.25) * math.sqrt(math.pi / 8), rel=1e-15)
     assert two == pytest.approx(2 * one, rel=1e-15)
-    assert public["power"] == 1
+    (term,) = public["frequency"]
+    assert term["powers"] == {"A": 1}
+    assert term["decimal"] == pytest.approx(one, rel=1e-15)
     path = tmp_path / "cubic.toml"
     path.write_text("[oscillator]\nequation = \"x'' + x**3 = 0\"\n")
-    assert public["factor"][:18] in ridgeback("derive", str(path), "--at", "1").out
+    assert "0.84721308479397908" in ridgeback("derive", str(path), "--at", "1").out
     about = ridgeback("derive", "--equation", "u'' + (u - 1)**3 = 0", "--about", "1", "--at", "1", "--format", "csv")
     assert "0.8472130847939790866" in about.out
 
@@ -180,15 +178,6 @@ def test_one_line_says_what_does_not_go(ridgeback: Ridgeback, words: str, why: s
     done = ridgeback("derive", *words.split())
     assert (done.code, done.out) == (2, "")
     assert done.err.count("\n") == 1
-    assert why in done.err
-
-
-@pytest.mark.parametrize(
-    ("option", "why"), [("--order 4", "--order"), ("--verify", "--verify"), ("--format latex", "text, json or csv")]
-)
-def test_options_of_expansions_are_refused_where_there_is_none(ridgeback: Ridgeback, option: str, why: str) -> None:
-    done = ridgeback("derive", "--equation", "u'' + u**3 = 0", "--at", "1", *option.split())
-    assert done.code == 2
     assert why in done.err
 
 

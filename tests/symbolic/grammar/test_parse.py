@@ -1,7 +1,6 @@
 """The grammar against Python's own, trees against their text, and bad input against its message."""
 
 import ast
-import math
 import sys
 from fractions import Fraction
 
@@ -190,7 +189,7 @@ def test_the_constant_of_a_tree_is_its_sympy_value(tree):
     assert to_sympy(tree) == sympy.Rational(value.numerator, value.denominator)
 
 
-@pytest.mark.parametrize("function", sorted(FUNCTIONS))
+@pytest.mark.parametrize("function", sorted(set(FUNCTIONS) - {"abs", "sign"}))
 def test_every_function_is_the_one_of_that_name(function):
     assert to_sympy(parse_expression(f"{function}(u/2 + 1/3)", unknown="u")) == getattr(sympy, function)(
         U / 2 + sympy.Rational(1, 3)
@@ -240,7 +239,12 @@ REFUSED = [
     ("u'' + sni(u)", "did you mean sin?"),
     ("u'' + ln(u+1)", "did you mean log?"),
     ("u'' + arctan(u)", "did you mean atan?"),
-    ("u'' + abs(u)*u", "'abs' at column 7 is not analytic"),
+    ("u'' + fabs(u)*u", "did you mean abs?"),
+    ("u'' + sgn(u)", "did you mean sign?"),
+    ("u'' + max(u)", "max at column 7 takes two arguments; write max(u, 0)"),
+    ("u'' + max(u, 0", "the bracket opened at column 10 is not closed"),
+    ("u'' + sin(u, 0)", "the , at column 12 separates nothing"),
+    ("u'' + u, 0", "unexpected ','"),
     ("(u'' + u", "the bracket opened at column 1 is not closed"),
     ("u'' + u)", "the bracket ) at column 8 closes nothing"),
     ("u'' + u = 0 = 0", "an extra = at column 13"),
@@ -271,21 +275,6 @@ REFUSED = [
     ("u'' + " + "u+" * 1000 + "u", "has 2007 characters"),
     ("u'' + " + "u-" * 900 + "u", "more than 1000 numbers, names and operations"),
 ]
-
-
-@pytest.mark.parametrize(
-    ("law", "growth"),
-    [
-        (lambda v: abs(v) * v, lambda a: -4 * a / (3 * math.pi)),  # c = 1
-        (lambda v: math.copysign(1.0, v), lambda a: -2 / (math.pi * a)),  # F = 1
-    ],
-)
-def test_the_laws_named_for_kinks_are_the_averages(law, growth):
-    """a' = <f(-a sin tau) sin tau> of u'' + f(u') + u = 0, by the midpoint rule."""
-    amplitude, count = 0.3, 20_000
-    angles = [2 * math.pi * (i + 0.5) / count for i in range(count)]
-    mean = sum(law(-amplitude * math.sin(x)) * math.sin(x) for x in angles) / count
-    assert mean / amplitude == pytest.approx(growth(amplitude), rel=1e-6)
 
 
 @pytest.mark.parametrize(("text", "said"), REFUSED, ids=lambda value: repr(value)[:30])
