@@ -82,7 +82,7 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes as lindstedt_by_primes
     from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls as lindstedt_in_balls
     from ridgeback.symbolic.resummation.by_name import resum as resum
-    from ridgeback.symbolic.singularities.limits import settled_limits as limits  # noqa: F401
+    from ridgeback.symbolic.singularities.settled import settled_limits as limits  # noqa: F401
     from ridgeback.symbolic.systems.any_form import as_oscillator as oscillator  # noqa: F401
     from ridgeback.symbolic.systems.catalogue import catalogue as catalogue
     from ridgeback.symbolic.systems.oscillator import Oscillator as Oscillator

@@ -51,7 +51,7 @@ PUBLIC: Final = (
     Public("certified_frequencies", "symbolic.certificates.at_amplitudes", _PROVE, "a formula's proved errors"),
     Public("certified_rows", "compare.study.certified", _PROVE, "proved errors of a series and its resummations"),
     Public("resum", "symbolic.resummation.by_name", _PROVE, "another formula from the coefficients of a series"),
-    Public("limits", "symbolic.singularities.limits:settled_limits", _PROVE, "where a series converges, and why"),
+    Public("limits", "symbolic.singularities.settled:settled_limits", _PROVE, "where a series converges, and why"),
     Public("simulate", "interface.simulate", _SIMULATE, "a trajectory, by any of the integrators"),
     Public("energy_terms", "interface.simulate", _SIMULATE, "kinetic, potential and lost energy along a trajectory"),
     Public("bind", "compare.binding.bind", _SIMULATE, "an oscillator with its numbers, as functions of floats"),

@@ -98,7 +98,7 @@ def range_of_use(oscillator: Oscillator, result: Result | BallExpansion) -> str:
     """Where a series converges and how far it may be used, in one line; what is known of both for a slow flow."""
     from ridgeback.symbolic.flow.limits import flow_limits
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
-    from ridgeback.symbolic.singularities.limits import settled_limits
+    from ridgeback.symbolic.singularities.settled import settled_limits
 
     if isinstance(result, SlowFlow):
         return f"\n{flow_limits(oscillator, result).sentence()}\n" + limit_cycles(oscillator, result)
@@ -109,7 +109,7 @@ def limit_rows(oscillator: Oscillator, result: Result | BallExpansion) -> dict[s
     """The same in JSON, and why there is no limit cycle where there is none."""
     from ridgeback.symbolic.flow.limits import flow_limits
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
-    from ridgeback.symbolic.singularities.limits import settled_limits
+    from ridgeback.symbolic.singularities.settled import settled_limits
 
     found = flow_limits(oscillator, result) if isinstance(result, SlowFlow) else settled_limits(oscillator, result)
     none = without_cycle(oscillator)

@@ -12,7 +12,7 @@ from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.resummation.elliptic_nome import nome
 from ridgeback.symbolic.resummation.pade import mapped, mapping_for, pade
 from ridgeback.symbolic.resummation.resummation import Resummation
-from ridgeback.symbolic.singularities.limits import settled_limits
+from ridgeback.symbolic.singularities.settled import settled_limits
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 

@@ -21,16 +21,12 @@ import sympy
 from flint import arb, ctx, fmpq
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.progress import Wanted
 from ridgeback.symbolic.arithmetic import truncated
 from ridgeback.symbolic.arithmetic.balls import natural_frequency
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
 from ridgeback.symbolic.expansion.expansion import Expansion
-from ridgeback.symbolic.expansion.lindstedt import lindstedt
-from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.singularities.darboux import Estimate, Point, nearest_singularities
 from ridgeback.symbolic.singularities.dlog_pade import dlog_singularities
-from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 
 Series: TypeAlias = Expansion | BallExpansion
 
@@ -260,10 +256,15 @@ def _is_zero(value: fmpq | arb) -> bool:
 
 
 def _unknown(expansion: Series, why: str) -> Limits:
-    return _nowhere(expansion.order, why, expansion.variable)
+    return nowhere(expansion.order, why, expansion.variable)
 
 
-def _nowhere(order: int, why: str, variable: str = "A") -> Limits:
+def nowhere(order: int, why: str, variable: str = "A") -> Limits:
+    """No limits, and why.
+
+    >>> nowhere(4, "it is short").sentence()
+    'The range of convergence is not known: it is short.'
+    """
     return Limits(variable, 1, order, None, None, (), (), None, why)
 
 
@@ -359,58 +360,3 @@ def _scaled(value: float) -> tuple[float, int]:
         return value, 0
     power = math.floor(math.log10(abs(value)))
     return float(Decimal(value).scaleb(-power)), power
-
-
-def settled_limits(
-    oscillator: OscillatorLike, expansion: Expansion | PowerExpansion | BallExpansion, *, progress: Wanted = None
-) -> Limits:
-    """Return the limits of an expansion; a short one is settled by the same expansion carried further.
-
-    Parameters
-    ----------
-    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
-        Any form of the oscillator whose expansion it is.
-    expansion : Expansion, PowerExpansion or BallExpansion
-        Balls that are too wide are settled by the exact series.
-    progress : bool or callable, optional
-        ``True`` shows a bar; a function is told the share done and the order about to be found.
-
-    Returns
-    -------
-    Limits
-        ``radius`` with its ``uncertainty``, the ``singularities`` that set it, ``range_of_use``; ``sentence()`` says
-        them.
-
-    Raises
-    ------
-    InputError
-        For what is no oscillator.
-
-    Examples
-    --------
-    >>> settled_limits("pendulum", lindstedt("pendulum", 8)).sentence()
-    'The series converges for |A| < 3.14159 ± ...'
-    """
-    if isinstance(expansion, PowerExpansion):
-        return _of_powers(expansion)
-    oscillator = as_oscillator(oscillator)
-    if expansion.names or expansion.order >= _SETTLING:
-        found = limits(expansion)
-        if found.radius is not None or isinstance(expansion, Expansion):
-            return found
-    return limits(expansion, longer=lindstedt(oscillator, _SETTLING, amplitude=expansion.amplitude, progress=progress))
-
-
-def _of_powers(expansion: PowerExpansion) -> Limits:
-    """The limits of a series in rational powers: those of what stands beside the leading power, where it runs in A."""
-    if expansion.is_power_law:
-        return _nowhere(expansion.order, ONE_POWER)
-    if expansion.root != 1:
-        return _nowhere(
-            expansion.order, f"the series runs in powers of A^(1/{expansion.root}), for which no rule is known"
-        )
-    return limits(expansion.beside_leading())
-
-
-_SETTLING = 48
-"""The same for any amplitude definition and for limit cycles, by Lindstedt-Poincaré."""

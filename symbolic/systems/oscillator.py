@@ -27,6 +27,7 @@ from ridgeback.symbolic.systems.structure import (
     damping_name,
     divided,
     positive_root,
+    rewritten,
     slope_at_rest,
     small_name,
     solved_for_acceleration,
@@ -193,7 +194,7 @@ class Oscillator:
         about.setdefault("symbol", sympy.latex(sympy.Symbol(equation.unknown)))
         return cls(
             name=name,
-            equation=equation.text if lossy.parameters == values else _rewritten(force, equation.unknown),
+            equation=equation.text if lossy.parameters == values else rewritten(force, equation.unknown),
             force=force,
             parameters=lossy.parameters,
             defaults=lossy.parameters,
@@ -300,7 +301,7 @@ class Oscillator:
 
     @property
     def by_sides(self) -> bool:
-        """Whether the motion has to be followed on each side of rest: the force has a kink there or no linear part."""
+        """Whether each side of rest has a motion of its own: the force has a kink there or no linear part."""
         return self.is_kinked or not self.is_linear_at_rest
 
     @cached_property
@@ -388,12 +389,6 @@ class Oscillator:
             if value is not None and name not in (keep or ())
         }
         return expression.subs(values)
-
-
-def _rewritten(force: sympy.Expr, unknown: str) -> str:
-    """The equation that a force belongs to, as text."""
-    turned = force.xreplace({U: symbol_of(unknown), V: symbol_of(unknown + "'")})
-    return f"{unknown}'' + {sympy.sstr(turned, order='rev-lex')} = 0".replace("+ -", "- ")
 
 
 def _rebuilt(cls: type[Oscillator], values: dict[str, Any]) -> Oscillator:

@@ -176,3 +176,13 @@ def free_names(force: sympy.Expr) -> tuple[str, ...]:
     ('alpha3',)
     """
     return tuple(sorted(symbol.name for symbol in force.free_symbols - {U, V}))
+
+
+def rewritten(force: sympy.Expr, unknown: str) -> str:
+    """The equation that a force belongs to, as text.
+
+    >>> rewritten(4 * U + V / 2, "x")
+    "x'' + x'/2 + 4*x = 0"
+    """
+    turned = force.xreplace({U: sympy.Symbol(unknown, real=True), V: sympy.Symbol(unknown + "'", real=True)})
+    return f"{unknown}'' + {sympy.sstr(turned, order='rev-lex')} = 0".replace("+ -", "- ")

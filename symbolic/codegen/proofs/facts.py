@@ -15,7 +15,7 @@ from ridgeback.symbolic.resummation.elliptic_nome import NomeForm
 from ridgeback.symbolic.resummation.mapping import CutPlane
 from ridgeback.symbolic.resummation.pade import RationalForm
 from ridgeback.symbolic.resummation.resummation import Resummation
-from ridgeback.symbolic.singularities.limits import settled_limits
+from ridgeback.symbolic.singularities.settled import settled_limits
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 Formula: TypeAlias = "Expansion | Resummation | MeanForm | SineSeries | Fit"

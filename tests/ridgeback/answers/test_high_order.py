@@ -80,7 +80,7 @@ def test_text_has_the_balls_and_the_limits_that_they_show(ridgeback: Ridgeback) 
 
 def test_limits_of_balls_are_those_of_exact_coefficients() -> None:
     from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
-    from ridgeback.symbolic.singularities.limits import settled_limits
+    from ridgeback.symbolic.singularities.settled import settled_limits
 
     vdp = find("van-der-pol")
     balls = settled_limits(vdp, lindstedt_in_balls(vdp, 60, digits=30))

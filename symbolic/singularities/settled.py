@@ -1,0 +1,67 @@
+"""The limits of a series that may be too short to show them: the same series carried further settles them."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from ridgeback.common.progress import Wanted
+from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
+from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+from ridgeback.symbolic.singularities.limits import ONE_POWER, Limits, limits, nowhere
+from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
+
+_SETTLING: Final = 48
+"""The same for any amplitude definition and for limit cycles, by Lindstedt-Poincaré."""
+
+
+def settled_limits(
+    oscillator: OscillatorLike, expansion: Expansion | PowerExpansion | BallExpansion, *, progress: Wanted = None
+) -> Limits:
+    """Return the limits of an expansion; a short one is settled by the same expansion carried further.
+
+    Parameters
+    ----------
+    oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
+        Any form of the oscillator whose expansion it is.
+    expansion : Expansion, PowerExpansion or BallExpansion
+        Balls that are too wide are settled by the exact series.
+    progress : bool or callable, optional
+        ``True`` shows a bar; a function is told the share done and the order about to be found.
+
+    Returns
+    -------
+    Limits
+        ``radius`` with its ``uncertainty``, the ``singularities`` that set it, ``range_of_use``; ``sentence()`` says
+        them.
+
+    Raises
+    ------
+    InputError
+        For what is no oscillator.
+
+    Examples
+    --------
+    >>> settled_limits("pendulum", lindstedt("pendulum", 8)).sentence()
+    'The series converges for |A| < 3.14159 ± ...'
+    """
+    if isinstance(expansion, PowerExpansion):
+        return _of_powers(expansion)
+    oscillator = as_oscillator(oscillator)
+    if expansion.names or expansion.order >= _SETTLING:
+        found = limits(expansion)
+        if found.radius is not None or isinstance(expansion, Expansion):
+            return found
+    return limits(expansion, longer=lindstedt(oscillator, _SETTLING, amplitude=expansion.amplitude, progress=progress))
+
+
+def _of_powers(expansion: PowerExpansion) -> Limits:
+    """The limits of a series in rational powers: those of what stands beside the leading power, where it runs in A."""
+    if expansion.is_power_law:
+        return nowhere(expansion.order, ONE_POWER)
+    if expansion.root != 1:
+        return nowhere(
+            expansion.order, f"the series runs in powers of A^(1/{expansion.root}), for which no rule is known"
+        )
+    return limits(expansion.beside_leading())
