@@ -11,6 +11,7 @@ from dataclasses import asdict, dataclass
 from typing import Literal
 
 from ridgeback.common.numbers import relative
+from ridgeback.common.show.brief import Brief
 
 Kind = Literal["expansion", "slow-flow", "resummation", "series-model", "closed-form", "averaged", "linear", "estimate"]
 Source = Literal["energy", "action", "fit"]
@@ -31,8 +32,8 @@ WAYS: Mapping[Kind, Way | None] = {
 """The way that a kind belongs to; None for what serves as a yardstick."""
 
 
-@dataclass(frozen=True)
-class Reference:
+@dataclass(frozen=True, repr=False)
+class Reference(Brief):
     """What errors are measured against, and how well that is known (relative rms over the support)."""
 
     label: str
@@ -46,8 +47,8 @@ class Reference:
         return max(self.numerical_error, self.definition)
 
 
-@dataclass(frozen=True)
-class Row:
+@dataclass(frozen=True, repr=False)
+class Row(Brief):
     """One contender.  Its errors are None when it was refused; ``refused`` says why."""
 
     method: str
@@ -129,8 +130,8 @@ class EqualCoefficients:
     expansion_error: float
 
 
-@dataclass(frozen=True)
-class Crossings:
+@dataclass(frozen=True, repr=False)
+class Crossings(Brief):
     """All crossings of a benchmark."""
 
     orders: tuple[OrderCrossing, ...] = ()
@@ -138,8 +139,8 @@ class Crossings:
     equal_coefficients: tuple[EqualCoefficients, ...] = ()
 
 
-@dataclass(frozen=True)
-class Verdict:
+@dataclass(frozen=True, repr=False)
+class Verdict(Brief):
     """Which way is best here, by how much over the best of another way, and what it costs."""
 
     way: Way

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, fields
 
 import numpy as np
 
+from ridgeback.common.show.brief import Brief
 from ridgeback.compare.identification.candidates import DampingLaw
 from ridgeback.compare.identification.shown import ShownIdentification, ShownPrediction
 from ridgeback.numeric.arrays import Array, freeze
@@ -68,8 +69,8 @@ class Parameter(_Values):
         return self.value - half, self.value + half
 
 
-@dataclass(frozen=True)
-class Candidate(_Values):
+@dataclass(frozen=True, repr=False)
+class Candidate(_Values, Brief):
     """One oscillator class with its best parameters; ``omega`` and ``growth_rate`` against ``amplitude``, with bands.
 
     ``criterion`` is the information criterion, less is better; ``delta`` its distance from the best candidate's, and
@@ -107,8 +108,8 @@ class Candidate(_Values):
         raise KeyError(name)
 
 
-@dataclass(frozen=True)
-class MeasuredBackbone(_Values):
+@dataclass(frozen=True, repr=False)
+class MeasuredBackbone(_Values, Brief):
     """Measured without any class in mind: frequency and growth rate by amplitude, one standard deviation each."""
 
     amplitude: Array

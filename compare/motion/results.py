@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Literal
 
+from ridgeback.common.show.brief import Brief
 from ridgeback.numeric.arrays import Array, Mask
 
 Kind = Literal["reference", "model", "expansion", "estimate"]
@@ -38,8 +39,8 @@ class BiasCause(Enum):
     """It does not: the rest is the part of the harmonics and of the decaying amplitude."""
 
 
-@dataclass(frozen=True)
-class Curve:
+@dataclass(frozen=True, repr=False)
+class Curve(Brief):
     """One omega0(t): a reference, a model, an expansion bound to an amplitude, or an estimate."""
 
     name: str
@@ -132,8 +133,8 @@ class Integrator:
     """Largest difference of u from the solution before it, over the samples they share; None for the first."""
 
 
-@dataclass(frozen=True)
-class Case:
+@dataclass(frozen=True, repr=False)
+class Case(Brief):
     """What was run: the oscillator, its numbers, the initial state and the sampling."""
 
     system: str
@@ -153,8 +154,8 @@ class Case:
     rate: float
 
 
-@dataclass(frozen=True)
-class Image:
+@dataclass(frozen=True, repr=False)
+class Image(Brief):
     """A time-frequency plane for display: level in dB re its maximum, ``level[frequency, time]``."""
 
     name: str
@@ -166,8 +167,8 @@ class Image:
     note: str = ""
 
 
-@dataclass(frozen=True)
-class Amplitudes:
+@dataclass(frozen=True, repr=False)
+class Amplitudes(Brief):
     """Amplitude along the decay, definition ``peak``: by energy (21), averaged action, turning points."""
 
     time: Array
@@ -179,8 +180,8 @@ class Amplitudes:
     note: str = ""
 
 
-@dataclass(frozen=True)
-class Reconstruction:
+@dataclass(frozen=True, repr=False)
+class Reconstruction(Brief):
     """The signal against its models: (22)-(23) with one component, (7) with several."""
 
     time: Array
@@ -194,8 +195,8 @@ class Reconstruction:
     note: str = ""
 
 
-@dataclass(frozen=True)
-class DecayComparison:
+@dataclass(frozen=True, repr=False)
+class DecayComparison(Brief):
     """Everything along one integrated trajectory."""
 
     case: Case

@@ -12,6 +12,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ridgeback.common.show.brief import Brief
+
 OUTLIER = 0.1
 """A trial whose relative rms error exceeds this has lost the ridge: a gross error, not a spread."""
 
@@ -56,8 +58,8 @@ class NoiseCell:
     """Why the first failing trial failed."""
 
 
-@dataclass(frozen=True)
-class NoiseStudy:
+@dataclass(frozen=True, repr=False)
+class NoiseStudy(Brief):
     """Frequency estimators in white Gaussian noise, seeded; ``cells`` go through the methods, then the ratios."""
 
     title: str
@@ -113,8 +115,8 @@ def read_study(record: Mapping[str, Any]) -> NoiseStudy:
     return NoiseStudy(**values)
 
 
-@dataclass(frozen=True)
-class Trial:
+@dataclass(frozen=True, repr=False)
+class Trial(Brief):
     """One noisy record through one method: sums over the interior of the errors that a cell is made of."""
 
     mean_square: float = math.nan

@@ -14,6 +14,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Wanted, showing
+from ridgeback.common.show.brief import Brief
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.backbone.combined import CombinedBackbone, combine
@@ -38,8 +39,8 @@ class Along(NamedTuple):
     high: Array
 
 
-@dataclass(frozen=True)
-class Measurement:
+@dataclass(frozen=True, repr=False)
+class Measurement(Brief):
     """One signal: its track or its half cycles, and its backbone where the amplitude is clear of the noise."""
 
     recording: Recording

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ridgeback.common.show.brief import Brief
 from ridgeback.compare.motion.results import Curve, Image
 from ridgeback.compare.study.results import Formula
 from ridgeback.numeric.arrays import Array
 
 
-@dataclass(frozen=True)
-class RecordingComparison:
+@dataclass(frozen=True, repr=False)
+class RecordingComparison(Brief):
     """A user's recording: its tracks, backbone and growth rate, with bands."""
 
     source: str

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from ridgeback.common.show.brief import Brief
 from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.motion.results import DecayComparison
 from ridgeback.compare.noise.results import NoiseStudy
@@ -44,8 +45,8 @@ class EstimatorScore:
     """Why the method gave nothing, when it did not."""
 
 
-@dataclass(frozen=True)
-class Provenance:
+@dataclass(frozen=True, repr=False)
+class Provenance(Brief):
     """How to get the same page again."""
 
     command: str

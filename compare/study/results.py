@@ -13,6 +13,7 @@ from enum import Enum
 
 import numpy as np
 
+from ridgeback.common.show.brief import Brief
 from ridgeback.compare.study.shown import ShownStudy
 from ridgeback.numeric.arrays import Array
 
@@ -173,8 +174,8 @@ class CertifiedRow:
     radius: float
 
 
-@dataclass(frozen=True)
-class Certified:
+@dataclass(frozen=True, repr=False)
+class Certified(Brief):
     """The series and its resummations of one order, each error enclosed against the exact frequency."""
 
     order: int
@@ -205,8 +206,8 @@ class Checked:
     """None: it does not apply to this oscillator, and the statement says why."""
 
 
-@dataclass(frozen=True)
-class Derivation:
+@dataclass(frozen=True, repr=False)
+class Derivation(Brief):
     """The exact side of the page: formulas, certificate, generated code."""
 
     system: str

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ridgeback.common.show.brief import Brief
 from ridgeback.numeric.arrays import Array, Mask
 
 
-@dataclass(frozen=True)
-class CrossingEvents:
+@dataclass(frozen=True, repr=False)
+class CrossingEvents(Brief):
     """Zero crossings of u in order of time: when, upward or not, and the velocity there."""
 
     time: Array
@@ -16,8 +17,8 @@ class CrossingEvents:
     velocity: Array
 
 
-@dataclass(frozen=True)
-class TurningEvents:
+@dataclass(frozen=True, repr=False)
+class TurningEvents(Brief):
     """Turning points (u' = 0) in order of time: when, and the value of u there."""
 
     time: Array

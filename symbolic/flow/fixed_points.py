@@ -45,7 +45,7 @@ Plane = dict[tuple[int, int], fmpq]
 Series = tuple[sympy.Expr, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FixedPoint:
     """One limit cycle of a slow flow, in balls, in the oscillator's own units."""
 
@@ -61,6 +61,13 @@ class FixedPoint:
     """a^2 in powers of the small parameter, exact for the oscillator itself; None when no such series ends here."""
     reach: Reach
     """Whether this zero of the truncated equation tells of the oscillator at all."""
+
+    def __repr__(self) -> str:
+        kind = {True: "stable", False: "unstable", None: "stability not known"}[self.stable]
+        amplitude, frequency = (value.str(DIGITS, radius=False) for value in (self.amplitude, self.frequency))
+        return (
+            f"<FixedPoint: a = {amplitude}, phi' = {frequency}, {kind}{', beyond reach' if self.reach.beyond else ''}>"
+        )
 
     @property
     def amplitude_series(self) -> tuple[sympy.Expr, ...] | None:

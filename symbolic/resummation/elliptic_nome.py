@@ -83,7 +83,7 @@ class DuffingMeans:
         return sympy.sqrt(1 + square), sympy.sqrt(1 + square / 2)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class NomeForm(Resummation):
     """k a / theta_3(q)^2 with both sums cut.
 

@@ -35,7 +35,7 @@ _DENOMINATOR: Final = 1000
 """Places of singularities are rounded to fractions with denominators up to this before an exact re-expansion."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RationalForm(Resummation):
     """A quotient of polynomials in w, with exact rational coefficients.
 

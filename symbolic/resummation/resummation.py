@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from html import escape
 from typing import Any
 
 import sympy
@@ -17,12 +18,15 @@ from flint import arb
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import evaluated, natural_frequency
-from ridgeback.symbolic.arithmetic.rendering import mathml
+from ridgeback.symbolic.arithmetic.rendering import long_integers, mathml
+
+LONGEST_SHOWN = 2000
+"""Characters of LaTeX beyond which a notebook shows the line in place of the formula."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Resummation(ABC):
-    """omega0 as a closed formula in one variable, exact coefficients throughout; made by ``resummed``.
+    """omega0 as a closed formula in one variable, exact coefficients throughout; made by ``resum``.
 
     A call evaluates it in rad per time unit, correct but for one rounding; ``in_balls`` encloses it; ``expression`` and
     ``latex`` are the formula.
@@ -94,6 +98,26 @@ class Resummation(ABC):
     def mathml(self) -> str:
         """Presentation MathML of the whole relation."""
         return mathml(self.latex())
+
+    def headline(self) -> str:
+        """System, method, order and variable in one line."""
+        meaning = f"{self.amplitude} amplitude" if self.variable == "A" else self.variable
+        return f"{self.system}, {self.method} of the series to order {self.order} in {meaning}"
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {self.headline()}>"
+
+    def _repr_latex_(self) -> str:
+        """The formula for a notebook; the line where the formula would fill pages."""
+        with long_integers():
+            formula = self.latex()
+        return f"$\\displaystyle {formula}$" if len(formula) <= LONGEST_SHOWN else self.headline()
+
+    def _repr_html_(self) -> str:
+        """The line, and the formula where it is not pages long."""
+        with long_integers():
+            formula = self.latex()
+        return f"<p>{escape(self.headline())}</p>" + (mathml(formula) if len(formula) <= LONGEST_SHOWN else "")
 
     def to_dict(self) -> dict[str, object]:
         """The public JSON form: exact numbers as strings."""

@@ -15,6 +15,7 @@ import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from decimal import Decimal
+from html import escape
 from typing import Any, Final, TypeAlias
 
 import sympy
@@ -84,7 +85,7 @@ class Singularity:
         return "logarithm" if nearest >= 0 else f"pole of order {-nearest // 2}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Limits:
     """Where an expansion converges and how far it is of use; None, and the reason, where that is not settled."""
 
@@ -103,6 +104,13 @@ class Limits:
     """Largest value of the variable at which the estimated truncation error is below ``TOLERANCE``, relative."""
     why: str
     """How the radius was found, or why it is None."""
+
+    def __repr__(self) -> str:
+        return f"<Limits: {self.sentence()}>"
+
+    def _repr_html_(self) -> str:
+        """The sentence, for a notebook."""
+        return f"<p>{escape(self.sentence())}</p>"
 
     def to_dict(self) -> dict[str, object]:
         """The public JSON form; places of singularities in units where the natural frequency is 1."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass, replace
+from fractions import Fraction
 
 import matplotlib as mpl
 import numpy as np
@@ -188,6 +190,61 @@ def test_what_is_missing_is_said_with_the_remedy(results, monkeypatch) -> None:
         results["track"].to_dataframe()
     with pytest.raises(ImportError, match="pip install xarray"):
         results["track"].to_xarray()
+
+
+def inside(value: object, seen: set[type]) -> Iterator[object]:
+    """The value and, one of each type, the results that its fields hold."""
+    if isinstance(value, tuple | list):
+        for item in value[:1]:
+            yield from inside(item, seen)
+    elif is_dataclass(value) and type(value) not in seen:
+        seen.add(type(value))
+        yield value
+        for item in fields(value):
+            yield from inside(getattr(value, item.name), seen)
+
+
+@pytest.fixture(scope="module")
+def every_result(results) -> list[object]:
+    """What the other public functions give, and what the results hold."""
+    series, flow = ridgeback.lindstedt("pendulum", 40), ridgeback.multiple_scales("van-der-pol", 8)
+    duffing = ridgeback.lindstedt("duffing", 40)
+    recording = ridgeback.Recording.from_arrays(X, RATE, name="u")
+    given = [
+        *results.values(),
+        ridgeback.lindstedt_in_balls("pendulum", 40, digits=12),
+        ridgeback.resum("pendulum", series, "pade"),
+        ridgeback.resum("duffing", duffing, "map"),
+        ridgeback.resum("pendulum", series, "nome"),
+        ridgeback.limits("pendulum", series),
+        ridgeback.fixed_points(flow, {"eps": "1/10"})[0],
+        ridgeback.enclose("pendulum", 1, bits=2000),
+        ridgeback.certify("pendulum", series)[0],
+        ridgeback.certified_frequencies("pendulum", series, [Fraction(1)])[0],
+        ridgeback.periodic_orbit("van-der-pol"),
+        ridgeback.precise_orbit("van-der-pol", digits=15),
+        ridgeback.bind("pendulum"),
+        ridgeback.Budget(),
+        ridgeback.catalogue()[0],
+        ridgeback.measure_recordings([recording], method="zero-crossing"),
+    ]
+    seen: set[type] = set()
+    return [value for result in given for value in inside(result, seen)]
+
+
+def test_every_result_and_what_it_holds_has_a_repr_of_a_few_lines(every_result) -> None:
+    long = {type(v).__name__: repr(v) for v in every_result if len(repr(v)) >= 400 or repr(v).count("\n") > 1}
+    assert not long
+    assert len(every_result) > 40
+
+
+def test_resummations_and_limits_show_themselves_in_a_notebook(every_result) -> None:
+    shown = {type(value).__name__: value for value in every_result}
+    assert "<math" in shown["NomeForm"]._repr_html_()
+    assert shown["NomeForm"]._repr_latex_().startswith(r"$\displaystyle \omega_0")
+    assert shown["RationalForm"]._repr_latex_() == shown["RationalForm"].headline()  # [10/10]: pages of digits
+    assert "converges for |A| &lt; 3.14159 ± " in shown["Limits"]._repr_html_()
+    assert repr(shown["FixedPoint"]) == "<FixedPoint: a = 2.00000000000, phi' = 0.999375000000, stable>"
 
 
 def test_names_cannot_smuggle_markup() -> None:
