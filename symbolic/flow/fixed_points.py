@@ -64,10 +64,9 @@ class FixedPoint:
 
     def __repr__(self) -> str:
         kind = {True: "stable", False: "unstable", None: "stability not known"}[self.stable]
-        amplitude, frequency = (value.str(DIGITS, radius=False) for value in (self.amplitude, self.frequency))
-        return (
-            f"<FixedPoint: a = {amplitude}, phi' = {frequency}, {kind}{', beyond reach' if self.reach.beyond else ''}>"
-        )
+        amplitude, frequency = (value.str(12, radius=False) for value in (self.amplitude, self.frequency))
+        beyond = ", beyond the reach of the order" if self.reach.beyond else ""
+        return f"<FixedPoint: a = {amplitude}, phi' = {frequency}, {kind}{beyond}>"
 
     @property
     def amplitude_series(self) -> tuple[sympy.Expr, ...] | None:
