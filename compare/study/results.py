@@ -180,8 +180,10 @@ class Certified(Brief):
 
     order: int
     amplitudes: Array
-    """Peak amplitudes."""
+    """Peak amplitudes; of a limit cycle values of its small parameter."""
     rows: tuple[CertifiedRow, ...]
+    variable: str = "A"
+    """What ``amplitudes`` are values of: the amplitude, or the small parameter by name."""
 
 
 @dataclass(frozen=True)

@@ -134,13 +134,14 @@ def _reach(reach: dict[tuple[int, float], float | None], order: int, target: flo
 def certified_table(found: Certified, unit: str) -> Table:
     """Return the series beside its resummations, one column per amplitude."""
     largest = max((row.radius for row in found.rows), default=0.0)
+    where = "peak amplitudes" if found.variable == "A" else f"values of {found.variable}"
     return Table(
         "certified",
-        f"Relative error of ω₀ by each formula of order {found.order} at peak amplitudes"
+        f"Relative error of ω₀ by each formula of order {found.order} at {where}"
         + (f" in {unit}" if unit else "")
         + f", enclosed against the exact frequency in ball arithmetic: proved to within {relative(largest)}. "
         "A dash means that the formula does not hold there.",
-        ("formula", *(f"A = {number(a)}" for a in found.amplitudes)),
+        ("formula", *(f"{found.variable} = {number(a)}" for a in found.amplitudes)),
         tuple(Row((row.method, *(relative(e, signed=True) for e in row.errors))) for row in found.rows),
     )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from ridgeback.answers.true_cycles import cycle_lines
 from ridgeback.console.tables import aligned
 
 if TYPE_CHECKING:
@@ -148,7 +149,9 @@ def limit_cycles(oscillator: Oscillator, flow: SlowFlow) -> str:
     points = fixed_points(flow, values, limits=flow_limits(oscillator, flow).limits)
     series = [point for point in points if point.square_series is not None]
     at = ", ".join(f"{name} = {value}" for name, value in values.items())
-    return complete_powers(flow) + "".join(cycle_line(point, at) for point in series or points)
+    shown = series or points
+    lines = "".join(cycle_line(point, at) for point in shown)
+    return complete_powers(flow) + lines + cycle_lines(oscillator, flow, shown)
 
 
 def cycle_line(point: FixedPoint, at: str) -> str:

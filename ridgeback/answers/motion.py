@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ridgeback.answers.expansion_text import heading, joined, limit_rows, near, power, range_of_use
+from ridgeback.answers.true_cycles import cycle_rows
 from ridgeback.console.output import json_text
 from ridgeback.console.tables import aligned, csv_text
 from ridgeback.options.demand import Demand
@@ -115,7 +116,8 @@ def fixed_rows(oscillator: Oscillator, result: Any) -> dict[str, object]:
     from ridgeback.symbolic.flow.limits import flow_limits
 
     found = fixed_points(result, values, limits=flow_limits(oscillator, result).limits)
-    return {**more, "fixed_points": [point.to_dict() for point in found]}
+    rows = [point.to_dict() for point in found]
+    return {**more, "fixed_points": rows, **cycle_rows(oscillator, result, found)}
 
 
 def harmonic_output(oscillator: Oscillator, result: Result, style: str) -> str:

@@ -71,10 +71,11 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     error_bound; an amplitude without an enclosure has refused, the reason, and the exit code is 3.  Of limit cycles
     the values are those of eps (eps, eps_exact), a row for each cycle: amplitude the peak, amplitude_radius, trough,
     multiplier (of the return map) and stable; the formula stands at the one that the series is of.  Of a self-excited
-    slow flow fixed_points with slope, stable, last_change (by the terms of the last orders) and beyond_reach with why,
-    and the complete_powers they are of, as is the transient; no_limit_cycle says why there is none at eps = 0.  With
-    --resummed expression, and of a quotient numerator, denominator (in w), growth and the first pole.  With
-    --transient closed_form (or null) and rows of time, amplitude, phase, omega0, u.  With --harmonics, harmonics.
+    slow flow fixed_points with slope, stable, last_change (by the terms of the last orders) and beyond_reach with why
+    (limit_cycles are the true ones then), and the complete_powers they are of, as is the transient; no_limit_cycle
+    says why there is none at eps = 0.  With --resummed expression, and of a quotient numerator, denominator (in w),
+    growth and the first pole.  With --transient closed_form (or null) and rows of time, amplitude, phase, omega0, u.
+    With --harmonics, harmonics.
     """
     oscillator = choice.oscillator()
     with kept_until_written(demand.checkpoint):

@@ -74,6 +74,7 @@ def command(
     ridgeback study pendulum --orders 2,4,8,16 --amplitudes 0.1:3.0:30
     ridgeback study pendulum --orders 8,16 --amplitudes 1,2,3 --certified
     ridgeback study van-der-pol --orders 4,8 --amplitudes 0.1,0.5,1 --format csv
+    ridgeback study van-der-pol --orders 8,16 --amplitudes 0.5,1,2 --certified
     ridgeback study --estimators --checkpoint estimators.json
     ridgeback study --example five-oscillators > five.toml
     ridgeback study five.toml --workers 2 --format csv -o cells.csv
@@ -102,7 +103,7 @@ def command(
     if amplitudes is None:
         raise click.UsageError("Missing option '--amplitudes': give a range such as 0.1:3.0:30, or a list with commas")
     if certified:
-        write_text(output, proved(choice.oscillator(), orders, amplitudes, style))
+        proved(choice.oscillator(), orders, amplitudes, style, output)
         return
     from ridgeback.compare.study.study import study
 
@@ -115,18 +116,23 @@ def command(
         raise PartialError(f"{unknown} of {len(rows)} cells have no reference; they are left empty in the output")
 
 
-def proved(oscillator: Oscillator, orders: tuple[int, ...], amplitudes: tuple[float, ...], style: str) -> str:
-    """The series and its resummations with proved errors; ``error_radius`` bounds what each error may still be off."""
+def proved(
+    oscillator: Oscillator, orders: tuple[int, ...], amplitudes: tuple[float, ...], style: str, output: str
+) -> None:
+    """The series and its resummations with proved errors; ``error_radius`` bounds what each error may still be off.
+
+    Raises PartialError, with the reason, when some of the frequencies could not be enclosed.
+    """
     from ridgeback.compare.study.certified import certified_rows
     from ridgeback.symbolic.flow.ordering import undamped
 
     rows = certified_rows(undamped(oscillator), orders, amplitudes)
-    columns = list(rows[0])
-    if style == "csv":
-        return csv_text(columns, rows)
-    if style == "json":
-        return json_text(rows)
-    return aligned(columns, rows) + "\n"
+    columns = list(dict.fromkeys(key for row in rows for key in row))
+    text = {"csv": lambda: csv_text(columns, rows), "json": lambda: json_text(rows)}
+    write_text(output, text.get(style, lambda: aligned(columns, rows) + "\n")())
+    refused = [row for row in rows if "refused" in row]
+    if refused:
+        raise PartialError(f"{len(refused)} of {len(rows)} cells have no enclosed reference: {refused[0]['refused']}")
 
 
 def printed(result: Study, rows: list[dict[str, float | int | str]], style: str, *, damped: bool = False) -> str:

@@ -27,6 +27,8 @@ from ridgeback.symbolic.systems.oscillator import Oscillator, V
 
 Ball: TypeAlias = arb
 """A real number enclosed: a middle and a radius."""
+BITS = 168
+"""Working precision of an error: that of an enclosure, and guard bits."""
 FIRST_TERMS = 4
 """Order through which an expansion must agree with the oscillator's own series."""
 
@@ -109,7 +111,7 @@ def _series(oscillator: Oscillator, order: int, definition: str = "peak") -> Exp
 
 
 def resummations(oscillator: Oscillator, order: int) -> tuple[Formula, ...]:
-    """Return the truncated series of a conservative oscillator and every resummation of it that exists at this order.
+    """Return the truncated series of an oscillator and every resummation of it that exists at this order.
 
     Left out are those that do not apply: a Padé approximant with a pole in its range, a map without a known
     singularity, the nome of a force that has none.
@@ -134,17 +136,25 @@ def resummations(oscillator: Oscillator, order: int) -> tuple[Formula, ...]:
     return tuple(result)
 
 
-def accuracy(oscillator: Oscillator, order: int, amplitudes: Sequence[Fraction]) -> tuple[Accuracy, ...]:
+def accuracy(
+    oscillator: Oscillator,
+    order: int,
+    amplitudes: Sequence[Fraction],
+    *,
+    reference: Sequence[arb | None] | None = None,
+) -> tuple[Accuracy, ...]:
     """Return the certified relative errors of the series and its resummations at given amplitudes.
 
     Parameters
     ----------
     oscillator : Oscillator
-        With an enclosure: conservative, numbers for its parameters.
+        Numbers for its parameters; of a limit cycle all but the small one.
     order : int
         Of the series.
     amplitudes : sequence of Fraction
-        Peak amplitudes, in the unit of u.
+        Peak amplitudes, in the unit of u; of a limit cycle values of its small parameter.
+    reference : sequence of arb or None, optional
+        omega0 there in balls, None where there is no enclosure; by default those of ``enclose``.
 
     Returns
     -------
@@ -158,14 +168,26 @@ def accuracy(oscillator: Oscillator, order: int, amplitudes: Sequence[Fraction])
     >>> [f"{float(abs(row.errors[0]).mid()):.0e}" for row in rows]
     ['1e+05', '5e-03', '2e-01', '2e-15']
     """
+    exact = [_enclosed(oscillator, a) for a in amplitudes] if reference is None else reference
+    pairs = list(zip(amplitudes, exact, strict=True))
     return tuple(
-        Accuracy(formula, tuple(_error(oscillator, formula, amplitude) for amplitude in amplitudes))
+        Accuracy(formula, tuple(_error(formula, amplitude, omega) for amplitude, omega in pairs))
         for formula in resummations(oscillator, order)
     )
 
 
-def _error(oscillator: Oscillator, formula: Formula, amplitude: Fraction) -> arb | None:
+def _enclosed(oscillator: Oscillator, amplitude: Fraction) -> arb | None:
     try:
-        return certified_error(oscillator, formula, amplitude)
+        return enclose(oscillator, amplitude).omega
+    except InputError:
+        return None
+
+
+def _error(formula: Formula, amplitude: Fraction, omega: arb | None) -> arb | None:
+    if omega is None:
+        return None
+    try:
+        with ctx.workprec(BITS):
+            return formula.in_balls(arb(rational(amplitude))) / omega - 1
     except InputError:
         return None

@@ -130,6 +130,39 @@ def certified_cycles(
     return tuple(row for value in values for row in _at(own, name, value, formula, start, bits))
 
 
+def described_cycles(
+    oscillator: Oscillator, values: Sequence[Fraction], *, bits: int = 128
+) -> tuple[CycleReading | Unread, ...]:
+    """Enclose, at each value of the small parameter, the limit cycle that the series in it describes.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+        With a small parameter and a series in it, the other parameters with numbers.
+    values : sequence of Fraction
+        Of the small parameter.
+    bits : int, optional
+        The relative radius of each frequency is at most about 2**-bits.
+
+    Returns
+    -------
+    tuple of CycleReading or Unread
+        One for each value.
+
+    Examples
+    --------
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> described_cycles(find("rayleigh"), [Fraction(1)], bits=64)[0].cycle.omega.str(12, radius=False)
+    '0.942955847442'
+    """
+    series = lindstedt(oscillator, 1)
+    rows = [certified_cycles(oscillator, [value], formula=series, bits=bits) for value in values]
+    return tuple(
+        next((row for row in found if isinstance(row, CycleReading) and row.error is not None), found[0])
+        for found in rows
+    )
+
+
 def _at(
     oscillator: Oscillator, small: str, value: Fraction, formula: Formula | None, start: float | None, bits: int
 ) -> tuple[CycleReading | Unread, ...]:

@@ -163,9 +163,8 @@ def _check_kind(oscillator: Oscillator) -> None:
     name = oscillator.name
     if oscillator.kind == "limit-cycle":
         raise InputError(
-            f"{name} is self-excited: it has a limit cycle and no family of orbits, so omega0 has no "
-            "certified enclosure; instead, study holds the series against the orbit found by shooting (not proved), "
-            "and derive --digits certifies the coefficients"
+            f"{name} is self-excited: it has limit cycles and no family of orbits with a frequency for each amplitude; "
+            "they are enclosed at values of the small parameter (derive --at), which must be one that it has"
         )
     if oscillator.kind == "damped":
         raise InputError(

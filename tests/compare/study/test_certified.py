@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ridgeback.compare.study.certified import certified
+from ridgeback.compare.study.certified import certified, certified_rows
 from ridgeback.compare.study.study import study
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -28,6 +28,15 @@ def test_the_nome_beats_the_series_it_is_made_from() -> None:
     assert np.all(np.abs(nome) < 0.02 * np.abs(rows["truncated series"]))
 
 
-@pytest.mark.parametrize("oscillator", [find("van-der-pol"), Oscillator.from_equation("u'' + u + c*u**3")])
-def test_nothing_is_claimed_where_there_is_no_enclosure(oscillator: Oscillator) -> None:
-    assert certified(oscillator, 4, 1.0) is None
+@pytest.mark.parametrize("equation", ["u'' + u + c*u**3", "u'' - eps*(1 - u**2)*u' + u - u**3"])
+def test_nothing_is_claimed_where_there_is_no_enclosure(equation: str) -> None:
+    assert certified(Oscillator.from_equation(equation), 4, 1.0) is None
+
+
+def test_the_errors_of_a_limit_cycle_are_those_against_the_orbit_found_by_shooting() -> None:
+    rows = [row for row in certified_rows(find("van-der-pol"), (4, 8), [1.0]) if row["method"] == "truncated series"]
+    measured = study(find("van-der-pol"), (4, 8), [1.0]).rows()
+    for row, other in zip(rows, measured, strict=True):
+        assert row["eps"] == other["eps"] == 1.0
+        assert row["relative_error"] == pytest.approx(other["relative_error"], rel=1e-5)
+        assert float(row["error_radius"] or 1) < 1e-18

@@ -113,9 +113,12 @@ def test_a_transient_that_leaves_the_reach_of_its_order_says_so(ridgeback: Ridge
     public = json.loads(ridgeback(*words, "--format", "json").out)
     assert public["beyond_reach"] is True
     assert public["fixed_points"][0]["beyond_reach"] is True
+    (cycle,) = public["limit_cycles"]
+    assert (cycle["omega0"][:20], cycle["stable"]) == ("1.545303297129122442", True)
     text = ridgeback(*words).out
     assert "The motion runs beyond the reach of this order" in text
-    assert "stable" not in text
+    assert f"true limit cycle, enclosed: peak = {cycle['amplitude']}, omega0 = {cycle['omega0']}" in text
+    assert text.count("stable") == 1
     near = output(ridgeback, "damped-pendulum --order 4 --transient 0.5 --until 100")
     assert (near["beyond_reach"], "why" in near) == (False, False)
 

@@ -511,7 +511,7 @@ def test_errors_of_foreign_series_are_refused(system: str, series, match: str) -
 @pytest.mark.parametrize(
     ("name", "match"),
     [
-        ("van-der-pol", "study holds the series against the orbit found by shooting"),
+        ("van-der-pol", "enclosed at values of the small parameter"),
         ("rayleigh", "self-excited"),
         ("damped-pendulum", "use --method multiple-scales"),
     ],
