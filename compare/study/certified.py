@@ -151,12 +151,20 @@ def _cell(
         "order": order,
         "amplitude" if item.formula.variable == "A" else item.formula.variable: amplitude,
         "method": _name(item),
-        "omega": None if ball is None or known.omega is None else float(((1 + ball) * known.omega).mid()),
+        "omega": _value(item, amplitude),
         "omega_reference": None if known.omega is None else float(known.omega.mid()),
         "relative_error": None if ball is None else float(ball.mid()),
         "error_radius": None if ball is None else float(ball.rad()),
         **({"refused": known.why} if known.why else {}),
     }
+
+
+def _value(item: Accuracy, amplitude: float) -> float | None:
+    """What the formula gives, whether or not it can be held against anything; None where it does not hold."""
+    try:
+        return float(item.formula(amplitude))
+    except InputError:
+        return None
 
 
 def _name(item: Accuracy) -> str:

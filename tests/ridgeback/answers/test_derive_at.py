@@ -136,6 +136,25 @@ def test_a_limit_cycle_that_cannot_be_proved_leaves_the_series_standing(ridgebac
     assert "values of eps have no enclosure" in done.err
 
 
+def test_a_study_of_limit_cycles_keeps_its_series_where_nothing_could_be_enclosed(ridgeback: Ridgeback) -> None:
+    words = ("--equation", "u'' - eps*(1 - u**2)*u' + u - eps*u**3/4 = 0", "--orders", "4", "--amplitudes", "0.2,2")
+    done = ridgeback("study", *words, "--certified", "--format", "json")
+    near, far = [row for row in json.loads(done.out) if row["method"] == "truncated series"]
+    assert done.code == 3
+    assert abs(near["omega"] / near["omega_reference"] - 1 - near["relative_error"]) < 1e-15
+    assert (near["eps"], far["eps"], far["omega_reference"], far["relative_error"]) == (0.2, 2.0, None, None)
+    assert far["omega"] == pytest.approx(ridgeback_series(2.0), rel=1e-14)
+    assert "found no limit cycle" in far["refused"]
+    assert "found no limit cycle" in done.err
+
+
+def ridgeback_series(eps: float) -> float:
+    """The series to eps^4 of the equation above, from the library."""
+    from ridgeback import derive
+
+    return float(derive("u'' - eps*(1 - u**2)*u' + u - eps*u**3/4 = 0", order=4)(eps))
+
+
 def test_a_force_with_a_velocity_squared_has_its_enclosure(ridgeback: Ridgeback, tmp_path: Path) -> None:
     path = tmp_path / "pdm.toml"
     path.write_text('[oscillator]\nequation = "u\'\' + u + u*u\'**2 = 0"\npotential = "u**2/2"\n')
