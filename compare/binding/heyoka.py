@@ -18,7 +18,8 @@ from ridgeback.compare.binding.bind import bind
 from ridgeback.numeric.arrays import Array, frozen, frozen_mask
 from ridgeback.numeric.motion.dynamics import Dynamics, well
 from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
-from ridgeback.numeric.motion.trajectory import Trajectory, check_inside, check_request, sample_times
+from ridgeback.numeric.motion.request import check_inside, check_request
+from ridgeback.numeric.motion.trajectory import Trajectory, sample_times
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 

@@ -21,7 +21,8 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, frozen, frozen_mask
 from ridgeback.numeric.motion.bilinear import Bilinear, as_dynamics
 from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
-from ridgeback.numeric.motion.trajectory import Trajectory, check_request, sample_times
+from ridgeback.numeric.motion.request import check_request
+from ridgeback.numeric.motion.trajectory import Trajectory, sample_times
 
 MAX_PIECES = 1_000_000
 _ROUNDING = 4 * float(np.spacing(1.0))

@@ -22,14 +22,8 @@ from ridgeback.numeric.arrays import Array, frozen, frozen_mask
 from ridgeback.numeric.motion.dynamics import Dynamics, well
 from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
 from ridgeback.numeric.motion.precise_ring import Precise
-from ridgeback.numeric.motion.trajectory import (
-    MEMORY_BUDGET,
-    Interpolant,
-    Trajectory,
-    check_inside,
-    check_request,
-    sample_times,
-)
+from ridgeback.numeric.motion.request import check_inside, check_request
+from ridgeback.numeric.motion.trajectory import MEMORY_BUDGET, Interpolant, Trajectory, sample_times
 
 _GUARD = 8  # digits carried beyond those asked for, against rounding over many steps
 PILOT = 40

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from scipy.interpolate import make_interp_spline
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.horner import polynomial_value
 from ridgeback.numeric.arrays import Array, frozen
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
@@ -65,11 +66,7 @@ def series_period(peak: ArrayLike, *, k: float, terms: int) -> Array:
     >>> series_period([0.0], k=2 * np.pi, terms=3).tolist()
     [1.0]
     """
-    square = modulus(peak) ** 2
-    total = np.zeros_like(square)
-    for c in _coefficients(terms)[::-1]:
-        total = total * square + c
-    return np.asarray(2 * np.pi / k * total)
+    return np.asarray(2 * np.pi / k * polynomial_value(_coefficients(terms).tolist(), modulus(peak) ** 2))
 
 
 def series_frequency(peak: ArrayLike, *, k: float, terms: int) -> Array:

@@ -13,11 +13,11 @@ from ridgeback.console.tables import aligned, csv_text
 from ridgeback.options.demand import Demand
 
 if TYPE_CHECKING:
-    from ridgeback.symbolic.certificates.at_amplitudes import Formula, Reading, Unread
-    from ridgeback.symbolic.certificates.at_cycles import CycleReading
+    from ridgeback.symbolic.certificates.at_amplitudes import CertifiedFrequency, Formula, Refused
+    from ridgeback.symbolic.certificates.at_cycles import CertifiedCycle
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
-    Row = CycleReading | Reading | Unread
+    Row = CertifiedCycle | CertifiedFrequency | Refused
 
 DIGITS = 20
 """Digits printed when ``--digits`` does not say."""
@@ -41,12 +41,14 @@ CYCLE_TEXT = {
 }
 
 
-def read_at(oscillator: Oscillator, formula: Any, demand: Demand) -> tuple[CycleReading | Reading | Unread, ...]:
+def read_at(
+    oscillator: Oscillator, formula: Any, demand: Demand
+) -> tuple[CertifiedCycle | CertifiedFrequency | Refused, ...]:
     """Hold the formula against the enclosures, wherever there is one; of a limit cycle at values of its parameter.
 
     Raises click.UsageError for a slow flow without limit cycles.  What has no enclosure leaves the series standing.
     """
-    from ridgeback.symbolic.certificates.at_amplitudes import reading, wherever
+    from ridgeback.symbolic.certificates.at_amplitudes import at_each, certified_frequency
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
 
     small = cycle_parameter(oscillator, formula)
@@ -61,7 +63,7 @@ def read_at(oscillator: Oscillator, formula: Any, demand: Demand) -> tuple[Cycle
             "(--set mu=0), or use --transient"
         )
     series: Formula = formula
-    return wherever(lambda a: reading(oscillator, series, a, bits=bits(demand)), demand.at or ())
+    return at_each(lambda a: certified_frequency(oscillator, series, a, bits=bits(demand)), demand.at or ())
 
 
 def cycle_parameter(oscillator: Oscillator, formula: Any) -> str | None:
@@ -79,9 +81,9 @@ def cycle_parameter(oscillator: Oscillator, formula: Any) -> str | None:
 
 def complete(found: Sequence[Row]) -> None:
     """Raise PartialError, which names the first, when amplitudes were refused; the output is written by then."""
-    from ridgeback.symbolic.certificates.at_amplitudes import Unread
+    from ridgeback.symbolic.certificates.at_amplitudes import Refused
 
-    refused = [row for row in found if isinstance(row, Unread)]
+    refused = [row for row in found if isinstance(row, Refused)]
     if refused:
         first = refused[0]
         what = "amplitudes" if first.variable == "A" else f"values of {first.variable}"
@@ -102,11 +104,11 @@ def bits(demand: Demand, usual: int = DIGITS) -> int:
 
 def rows(found: Sequence[Row], demand: Demand) -> list[dict[str, object]]:
     """The public rows."""
-    return [reading.to_dict(demand.digits or (CYCLE_DIGITS if small_of(found) else DIGITS)) for reading in found]
+    return [row.to_dict(demand.digits or (CYCLE_DIGITS if small_of(found) else DIGITS)) for row in found]
 
 
 def small_of(found: Sequence[Row]) -> str:
-    """The name of the small parameter that the readings are at; empty where they are at amplitudes."""
+    """The name of the small parameter that the rows are at; empty where they are at amplitudes."""
     names = (getattr(row, "variable", "A") for row in found)
     return next((name for name in names if name != "A"), "")
 

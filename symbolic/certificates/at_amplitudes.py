@@ -29,7 +29,7 @@ ERROR_DIGITS = 6
 
 
 @dataclass(frozen=True)
-class Reading:
+class CertifiedFrequency:
     """omega0 at one amplitude; ``value`` is a formula's omega0 there, ``error`` is value/omega0 - 1, both in balls."""
 
     exact: Enclosure
@@ -61,15 +61,15 @@ class Reading:
 
 
 @dataclass(frozen=True)
-class Unread:
+class Refused:
     """An amplitude, or value of a small parameter, at which omega0 could not be enclosed, and why."""
 
     amplitude: Fraction
     why: str
     variable: str = "A"
 
-    def to_dict(self, digits: int) -> dict[str, object]:  # noqa: ARG002 - the signature of Reading
-        """The public JSON form: the keys of a reading with nothing in them, and the reason."""
+    def to_dict(self, digits: int) -> dict[str, object]:  # noqa: ARG002 - the signature of CertifiedFrequency
+        """The public JSON form: the keys of a certified frequency with nothing in them, and the reason."""
         name = "amplitude" if self.variable == "A" else self.variable
         return {
             name: float(self.amplitude),
@@ -80,37 +80,41 @@ class Unread:
         }
 
 
-def wherever(read: Callable[[Fraction], Reading], amplitudes: Sequence[Fraction]) -> tuple[Reading | Unread, ...]:
+def at_each(
+    read: Callable[[Fraction], CertifiedFrequency], amplitudes: Sequence[Fraction]
+) -> tuple[CertifiedFrequency | Refused, ...]:
     """Read each amplitude; those that are refused keep their place, with the reason.
 
     Parameters
     ----------
     read : callable
-        Makes the reading at an amplitude, or raises InputError.
+        Makes the certified frequency at an amplitude, or raises InputError.
     amplitudes : sequence of Fraction
         Where to read.
 
     Returns
     -------
-    tuple of Reading or Unread
+    tuple of CertifiedFrequency or Refused
         One for each amplitude.
 
     Examples
     --------
     >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> [type(row).__name__ for row in wherever(lambda a: Reading(enclose(find("pendulum"), a)), [1, 4])]
-    ['Reading', 'Unread']
+    >>> [type(row).__name__ for row in at_each(lambda a: CertifiedFrequency(enclose(find("pendulum"), a)), [1, 4])]
+    ['CertifiedFrequency', 'Refused']
     """
-    found: list[Reading | Unread] = []
+    found: list[CertifiedFrequency | Refused] = []
     for amplitude in amplitudes:
         try:
             found.append(read(amplitude))
         except InputError as refusal:
-            found.append(Unread(amplitude, str(refusal)))
+            found.append(Refused(amplitude, str(refusal)))
     return tuple(found)
 
 
-def reading(oscillator: Oscillator, formula: Formula, amplitude: Fraction, *, bits: int = 128) -> Reading:
+def certified_frequency(
+    oscillator: Oscillator, formula: Formula, amplitude: Fraction, *, bits: int = 128
+) -> CertifiedFrequency:
     """Enclose omega0 at one amplitude, and the formula with its error; raises as ``certified_frequencies``."""
     exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
     if isinstance(formula, Expansion | PowerExpansion):
@@ -119,7 +123,7 @@ def reading(oscillator: Oscillator, formula: Formula, amplitude: Fraction, *, bi
         raise InputError(f"{formula.method} of {formula.system} is no series of {oscillator.name} in its amplitude")
     with ctx.workprec(bits + GUARD):
         value = formula.in_balls(arb(rational(exact.amplitude)))
-        return Reading(exact, value, value / exact.omega - 1)
+        return CertifiedFrequency(exact, value, value / exact.omega - 1)
 
 
 def certified_frequencies(
@@ -129,7 +133,7 @@ def certified_frequencies(
     *,
     bits: int = 128,
     progress: Wanted = None,
-) -> tuple[Reading, ...]:
+) -> tuple[CertifiedFrequency, ...]:
     """Enclose omega0 at each amplitude, in the formula's own definition, and the formula with its error.
 
     Parameters
@@ -147,7 +151,7 @@ def certified_frequencies(
 
     Returns
     -------
-    tuple of Reading
+    tuple of CertifiedFrequency
         omega0 in balls (rad per time unit), the formula's value, and value/omega0 - 1.
 
     Raises
@@ -169,5 +173,5 @@ def certified_frequencies(
     with showing(progress) as told:
         for done, amplitude in enumerate(amplitudes):
             told(done / len(amplitudes), f"amplitude {brief_number(Fraction(amplitude))}")
-            found.append(reading(oscillator, formula, amplitude, bits=bits))
+            found.append(certified_frequency(oscillator, formula, amplitude, bits=bits))
     return tuple(found)

@@ -11,7 +11,7 @@ from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import rational
-from ridgeback.symbolic.certificates.at_amplitudes import ERROR_DIGITS, GUARD, Formula, Unread
+from ridgeback.symbolic.certificates.at_amplitudes import ERROR_DIGITS, GUARD, Formula, Refused
 from ridgeback.symbolic.cycles.enclose import Cycle
 from ridgeback.symbolic.cycles.found import Unproved, limit_cycles
 from ridgeback.symbolic.enclosure.enclosure import rounded_up
@@ -24,7 +24,7 @@ MULTIPLIER_DIGITS = 6
 
 
 @dataclass(frozen=True)
-class CycleReading:
+class CertifiedCycle:
     """One limit cycle at a value of the small parameter; ``error`` is a formula's value/omega0 - 1, both in balls.
 
     Parameters
@@ -86,7 +86,7 @@ def certified_cycles(
     small: str | None = None,
     formula: Formula | None = None,
     bits: int = 128,
-) -> tuple[CycleReading | Unread, ...]:
+) -> tuple[CertifiedCycle | Refused, ...]:
     """Enclose the limit cycles at each value of the small parameter, and a series with its error at the one it is of.
 
     Parameters
@@ -104,7 +104,7 @@ def certified_cycles(
 
     Returns
     -------
-    tuple of CycleReading or Unread
+    tuple of CertifiedCycle or Refused
         For each value its cycles by rising peak, or why there is none.  Of several, the formula is held against the
         one whose peak is nearest to the amplitude with which its cycle begins.
 
@@ -165,25 +165,25 @@ def described_cycles(
 
 def _at(
     oscillator: Oscillator, small: str, value: Fraction, formula: Formula | None, start: float | None, bits: int
-) -> tuple[CycleReading | Unread, ...]:
+) -> tuple[CertifiedCycle | Refused, ...]:
     try:
         found = limit_cycles(oscillator.with_parameters({small: value}), bits=bits)
     except InputError as refusal:
-        return (Unread(value, str(refusal), small),)
+        return (Refused(value, str(refusal), small),)
     rows = tuple(
-        Unread(value, cycle.why, small) if isinstance(cycle, Unproved) else CycleReading(small, value, cycle, bits)
+        Refused(value, cycle.why, small) if isinstance(cycle, Unproved) else CertifiedCycle(small, value, cycle, bits)
         for cycle in found
     )
-    proved = [row for row in rows if isinstance(row, CycleReading)]
+    proved = [row for row in rows if isinstance(row, CertifiedCycle)]
     if formula is None or start is None or not proved:
         return rows
     described = min(proved, key=lambda row: abs(math.log(float(row.cycle.peak) / start)))
     return tuple(_held(row, formula) if row is described else row for row in rows)
 
 
-def _held(row: CycleReading | Unread, formula: Formula) -> CycleReading | Unread:
-    """The reading with the formula's value and error, where it has one."""
-    if isinstance(row, Unread):
+def _held(row: CertifiedCycle | Refused, formula: Formula) -> CertifiedCycle | Refused:
+    """The cycle with the formula's value and error, where it has one."""
+    if isinstance(row, Refused):
         return row
     with ctx.workprec(row.bits + GUARD):
         try:

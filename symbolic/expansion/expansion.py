@@ -18,6 +18,7 @@ import sympy
 from flint import arb, fmpq
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.horner import polynomial_value
 from ridgeback.symbolic.arithmetic import truncated
 from ridgeback.symbolic.arithmetic.balls import natural_frequency, polynomial_at, scalar_ball
 from ridgeback.symbolic.arithmetic.rendering import (
@@ -198,23 +199,17 @@ class Expansion(ShownExpansion):
         """
         if isinstance(value, Fraction | sympy.Rational):
             return sum((c * sympy.Rational(value) ** n for n, c in enumerate(self.frequency)), sympy.S.Zero)
-        result: Any = value * 0
         if type(value).__module__.startswith("mpmath"):
             convert = type(value)
-            for c in reversed(self.frequency):
-                result = result * value + convert(c.p) / convert(c.q)
-            return result
-        falling, even = self._rounded
-        x = value * value if even else value
-        for rounded in falling:
-            result = result * x + rounded
-        return result
+            return polynomial_value([convert(c.p) / convert(c.q) for c in self.frequency], value)
+        rounded, even = self._rounded
+        return polynomial_value(rounded, value * value if even else value)
 
     @cached_property
     def _rounded(self) -> tuple[tuple[float, ...], bool]:
-        """The coefficients as floats from the highest down; of even powers only where the others vanish."""
+        """The coefficients as floats; of even powers only where the others vanish."""
         even = all(c == 0 for c in self.frequency[1::2])
-        return tuple(nearest(c) for c in reversed(self.frequency[:: 2 if even else 1])), even
+        return tuple(nearest(c) for c in self.frequency[:: 2 if even else 1]), even
 
     def truncated(self, order: int) -> Expansion:
         """Keep the terms up to a lower order.

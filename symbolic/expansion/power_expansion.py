@@ -17,6 +17,7 @@ import sympy
 from flint import arb
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.horner import polynomial_value
 from ridgeback.common.show.displayed import Displayed
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.symbolic.arithmetic.balls import number_ball, rational, scalar_ball
@@ -119,10 +120,7 @@ class PowerExpansion(Displayed):
     def __call__(self, value: Any) -> Any:
         """Evaluate omega0 in rad per time unit at a positive number or an array."""
         x = value ** float(sympy.Rational(1, self.root))
-        total: Any = value * 0
-        for c in reversed(self._rounded):
-            total = total * x + c
-        return total * value ** float(self.growth)
+        return polynomial_value(self._rounded, x) * value ** float(self.growth)
 
     @cached_property
     def _rounded(self) -> tuple[float, ...]:

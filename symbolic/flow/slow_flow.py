@@ -17,6 +17,7 @@ import sympy
 from flint import fmpq
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.horner import polynomial_value
 from ridgeback.symbolic.arithmetic.rendering import as_sympy, coefficient_row, mathml, nearest, series_latex
 from ridgeback.symbolic.arithmetic.tidy import tidy
 from ridgeback.symbolic.flow.ordering import ROOT, UNITS
@@ -349,7 +350,4 @@ def evaluate(rows: tuple[tuple[float, tuple[int, ...]], ...], a: Any, small: tup
     >>> evaluate(((-0.0625, (2, 0)), (1.0, (0, 0))), 2.0, (0.0,))
     0.75
     """
-    result: Any = a * 0.0
-    for coefficient in reversed(amplitude_powers(rows, small)):
-        result = result * a + coefficient
-    return result
+    return polynomial_value(amplitude_powers(rows, small), a)

@@ -26,6 +26,7 @@ import sympy
 
 from ridgeback.common.elementary import powers
 from ridgeback.common.errors import InputError
+from ridgeback.common.horner import polynomial_value
 from ridgeback.common.number_ring import FLOATS
 from ridgeback.common.recurrences import Combination, Input
 from ridgeback.symbolic.arithmetic.rendering import series_latex
@@ -241,7 +242,7 @@ def _advanced(state: State, start: float, end: float, rates: _Rates, tolerance: 
                 f"the amplitude of the truncated slow flow runs away at t = {start + t:.6g}; start it smaller, or take "
                 "a lower order"
             )
-        state = _sum(square, step), _sum(phase, step)
+        state = polynomial_value(square, step), polynomial_value(phase, step)
         t = span if step == span - t else t + step
     raise InputError(f"the transient takes more than {MOST_STEPS} steps to t = {end:.6g}; end at {start + t:.2g}")
 
@@ -259,10 +260,10 @@ def _near_cycle(state: State, time: float, rates: _Rates) -> State | None:
     """The state after ``time`` when it is next to a stable limit cycle, found by a Newton step; None elsewhere."""
     growth = [0.0, *(2 * c for c in rates.delta)]  # s' in powers of s
     slope = _derivative(growth)
-    decay, curvature = -_sum(slope, state[0]), abs(_sum(_derivative(slope), state[0]))
+    decay, curvature = -polynomial_value(slope, state[0]), abs(polynomial_value(_derivative(slope), state[0]))
     if not decay > 0:
         return None
-    y = -_sum(growth, state[0]) / decay
+    y = -polynomial_value(growth, state[0]) / decay
     if abs(y) > SETTLED * state[0] or abs(y) * curvature > 100 * SETTLED * decay:
         return None
     return _relaxed(state, y, decay, time, rates)
@@ -271,8 +272,8 @@ def _near_cycle(state: State, time: float, rates: _Rates) -> State | None:
 def _relaxed(state: State, y: float, decay: float, time: float, rates: _Rates) -> State:
     """Carry the deviation y = s - r from the stable state r through a time, see the head of this file."""
     rest, gone = state[0] - y, -math.expm1(-decay * time)
-    drift = _sum(_derivative(rates.omega), rest) * y * gone / decay
-    return rest + y * math.exp(-decay * time), state[1] + _sum(rates.omega, rest) * time + drift
+    drift = polynomial_value(_derivative(rates.omega), rest) * y * gone / decay
+    return rest + y * math.exp(-decay * time), state[1] + polynomial_value(rates.omega, rest) * time + drift
 
 
 def _derivative(coefficients: list[float]) -> list[float]:
@@ -296,10 +297,3 @@ def _step(square: list[float], phase: list[float], tolerance: float) -> float:
     sizes = [(abs(square[n]) / square[0], n) for n in (TERMS - 1, TERMS)]
     sizes += [(abs(phase[n]), n) for n in (TERMS - 1, TERMS)]
     return min(((0.1 * tolerance / size) ** (1 / n) for size, n in sizes if size > 0), default=math.inf)
-
-
-def _sum(coefficients: list[float], step: float) -> float:
-    total = 0.0
-    for c in reversed(coefficients):
-        total = total * step + c
-    return total

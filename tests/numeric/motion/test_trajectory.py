@@ -17,7 +17,8 @@ from ridgeback.numeric.motion.dynamics import (
     polynomial,
     van_der_pol,
 )
-from ridgeback.numeric.motion.trajectory import MAX_SAMPLES, integrate, sample_times
+from ridgeback.numeric.motion.request import MAX_SAMPLES
+from ridgeback.numeric.motion.trajectory import integrate, sample_times
 
 K, MU = 4 * math.pi, 0.05
 OMEGA = math.sqrt(K**2 - MU**2)

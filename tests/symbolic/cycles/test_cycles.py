@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.motion.dynamics import van_der_pol
 from ridgeback.numeric.motion.limit_cycle import periodic_orbit, precise_orbit
-from ridgeback.symbolic.certificates.at_amplitudes import Unread
-from ridgeback.symbolic.certificates.at_cycles import CycleReading, certified_cycles
+from ridgeback.symbolic.certificates.at_amplitudes import Refused
+from ridgeback.symbolic.certificates.at_cycles import CertifiedCycle, certified_cycles
 from ridgeback.symbolic.cycles.enclose import Cycle, enclose_cycle
 from ridgeback.symbolic.cycles.field import field_of
 from ridgeback.symbolic.cycles.found import Unproved, limit_cycles
@@ -101,7 +101,7 @@ def test_the_series_ends_within_its_terms_left_out() -> None:
     """At eps = 1/10 the series to eps^24 errs by about (eps/1.85)^26."""
     series = lindstedt(find("van-der-pol"), 24)
     (row,) = certified_cycles(find("van-der-pol"), [Fraction(1, 10)], formula=series, bits=120)
-    assert isinstance(row, CycleReading)
+    assert isinstance(row, CertifiedCycle)
     assert row.error is not None
     assert arb("1e-36") < abs(row.error) < arb("1e-33")
     with ctx.workprec(160):
@@ -203,7 +203,7 @@ def test_a_double_cycle_is_refused() -> None:
 def test_of_nested_cycles_the_series_describes_the_first() -> None:
     own = Oscillator.from_equation("u'' - eps*(u**2 + u'**2 - 1)*(u**2 + u'**2 - 4)*u' + u = 0")
     rows = certified_cycles(own, [Fraction(1, 20)], formula=lindstedt(own, 4), bits=64)
-    assert [isinstance(row, CycleReading) and row.error is not None for row in rows] == [True, False]
+    assert [isinstance(row, CertifiedCycle) and row.error is not None for row in rows] == [True, False]
     (refused,) = certified_cycles(find("van-der-pol").with_parameters({"k": None}), [Fraction(1)], bits=64)
-    assert isinstance(refused, Unread)
+    assert isinstance(refused, Refused)
     assert refused.to_dict(20) == {"eps": 1.0, "eps_exact": "1", "omega0": None, "radius": None, "refused": refused.why}
