@@ -13,7 +13,7 @@ from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.study.results import Certified, CertifiedRow
 from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.certificates.accuracy import Accuracy, Ball, accuracy
-from ridgeback.symbolic.certificates.at_amplitudes import Unread
+from ridgeback.symbolic.certificates.at_amplitudes import Refused
 from ridgeback.symbolic.certificates.at_cycles import described_cycles
 from ridgeback.symbolic.enclosure.enclosure import enclose, separatrix
 from ridgeback.symbolic.enclosure.well import well_of
@@ -81,7 +81,7 @@ def references(oscillator: Oscillator, places: Sequence[Fraction]) -> tuple[Know
     """
     if oscillator.kind == "limit-cycle":
         rows = described_cycles(oscillator, places, bits=CYCLE_BITS)
-        return tuple(Known(None, row.why) if isinstance(row, Unread) else Known(row.cycle.omega) for row in rows)
+        return tuple(Known(None, row.why) if isinstance(row, Refused) else Known(row.cycle.omega) for row in rows)
     well_of(oscillator)  # refuses what has no energy, whatever the amplitude
     return tuple(_known(oscillator, place) for place in places)
 

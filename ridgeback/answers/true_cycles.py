@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ridgeback.symbolic.certificates.at_amplitudes import Unread
-    from ridgeback.symbolic.certificates.at_cycles import CycleReading
+    from ridgeback.symbolic.certificates.at_amplitudes import Refused
+    from ridgeback.symbolic.certificates.at_cycles import CertifiedCycle
     from ridgeback.symbolic.flow.fixed_points import FixedPoint
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -18,7 +18,7 @@ BITS = 80
 
 def true_cycles(
     oscillator: Oscillator, flow: SlowFlow, points: Sequence[FixedPoint]
-) -> tuple[CycleReading | Unread, ...]:
+) -> tuple[CertifiedCycle | Refused, ...]:
     """Enclose the limit cycles at the oscillator's own parameters, where the fixed points do not tell of them.
 
     That is so when one that belongs to a series lies beyond the reach of the order; of others only if there is none.

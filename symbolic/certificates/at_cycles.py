@@ -132,7 +132,7 @@ def certified_cycles(
 
 def described_cycles(
     oscillator: Oscillator, values: Sequence[Fraction], *, bits: int = 128
-) -> tuple[CycleReading | Unread, ...]:
+) -> tuple[CertifiedCycle | Refused, ...]:
     """Enclose, at each value of the small parameter, the limit cycle that the series in it describes.
 
     Parameters
@@ -146,7 +146,7 @@ def described_cycles(
 
     Returns
     -------
-    tuple of CycleReading or Unread
+    tuple of CertifiedCycle or Refused
         One for each value.
 
     Examples
@@ -158,7 +158,7 @@ def described_cycles(
     series = lindstedt(oscillator, 1)
     rows = [certified_cycles(oscillator, [value], formula=series, bits=bits) for value in values]
     return tuple(
-        next((row for row in found if isinstance(row, CycleReading) and row.error is not None), found[0])
+        next((row for row in found if isinstance(row, CertifiedCycle) and row.error is not None), found[0])
         for found in rows
     )
 
