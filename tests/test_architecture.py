@@ -286,6 +286,12 @@ def test_every_folder_says_what_lives_there() -> None:
     assert not silent
 
 
+@pytest.mark.parametrize("room", ["symbolic", "numeric", "compare"])
+def test_a_room_tells_its_folders_in_their_order(room: str) -> None:
+    said = " ".join((ast.get_docstring(parsed(ROOT / room / "__init__.py")) or "").split())
+    assert ", ".join(ORDER[room]) in said
+
+
 def test_derivations_hold_no_float() -> None:
     exact = {path for folder in EXACT_FOLDERS for path in sources(folder)} - {ROOT / name for name in INEXACT}
     found = {

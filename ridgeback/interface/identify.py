@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import Any
 
 from ridgeback.common.errors import InputError
@@ -12,6 +11,7 @@ from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.identification import identify as identification
 from ridgeback.compare.identification import prediction
 from ridgeback.compare.identification.candidates import LAWS, NAMES
+from ridgeback.compare.identification.preparation import prepared
 from ridgeback.compare.identification.ranking import CRITERIA
 from ridgeback.compare.identification.results import Identification, Prediction
 from ridgeback.interface.signals import SignalLike, as_recording
@@ -73,13 +73,13 @@ def identify(
     'linear'
     """
     used = as_recording(x, rate, time=time, column=column)
-    wanted = how(candidates, damping, criterion, span)
+    wanted = how(candidates, damping, criterion)
     with showing(progress) as told:
-        ahead = None
+        told(0.0, "frequency track")
+        ready, ahead = prepared(used, span=span), None
         if predict_from is not None:
-            ahead = prediction.predict(used, cycles=predict_from, progress=told, **wanted)
-        found = identification.identify(used, progress=told, **wanted)
-    return found if ahead is None else replace(found, prediction=ahead)
+            ahead = prediction.predict(ready, cycles=predict_from, progress=told, **wanted)
+        return identification.identify(ready, prediction=ahead, progress=told, **wanted)
 
 
 def predict(
@@ -125,22 +125,20 @@ def predict(
     """
     used = as_recording(x, rate, time=time, column=column)
     with showing(progress) as told:
-        wanted = how(candidates, damping, criterion, span)
-        return prediction.predict(used, cycles=cycles, progress=told, **wanted)
+        wanted = how(candidates, damping, criterion)
+        return prediction.predict(used, cycles=cycles, span=span, progress=told, **wanted)
 
 
 def how(
     candidates: Iterable[str | Oscillator] | None,
     damping: str | None,
     criterion: str,
-    span: tuple[float, float] | None,
 ) -> dict[str, Any]:
     """The settings in the words of the fits."""
     return {
         "candidates": NAMES if candidates is None else tuple(candidate_name(one) for one in candidates),
         "laws": LAWS if damping is None else (LAWS[DAMPING.index(chosen(damping, DAMPING, "damping"))],),
         "kind": chosen(criterion, CRITERIA, "criterion"),
-        "span": span,
     }
 
 

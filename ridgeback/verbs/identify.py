@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ridgeback.common.progress import Progress, showing
 from ridgeback.console.failure import PartialError
 from ridgeback.console.output import json_text, write_text
 from ridgeback.console.tables import aligned, csv_text, readable
@@ -17,7 +16,6 @@ from ridgeback.options.shared import format_option, output_option
 
 if TYPE_CHECKING:
     from ridgeback.compare.identification.results import Identification, Prediction
-    from ridgeback.numeric.recording.recording import Recording
 
 Row = dict[str, object]
 
@@ -79,42 +77,20 @@ def command(
     ridgeback identify decay.csv --candidates linear,pendulum,duffing-softening --format json
     ridgeback identify decay.csv --span 0,40 --predict-from 20
     """
+    from ridgeback.interface.identify import identify
+
     recording = Reading(column, time_column, rate, treatment=treatment).one(file)
-    with showing(True) as progress:
-        found = identified(
-            recording,
-            chosen=names(candidates),
-            damping=damping,
-            kind=criterion,
-            cycles=predict_from,
-            progress=progress,
-        )
+    found = identify(
+        recording,
+        candidates=names(candidates),
+        damping=damping,
+        criterion=criterion,
+        predict_from=predict_from,
+        progress=True,
+    )
     write_text(output, text_of(found, style))
     if found.failed:
         raise PartialError(f"{len(found.failed)} of the candidates could not be fitted: {'; '.join(found.failed)}")
-
-
-def identified(
-    recording: Recording,
-    *,
-    chosen: tuple[str, ...] | None,
-    damping: str | None,
-    kind: str,
-    cycles: float | None,
-    progress: Progress,
-) -> Identification:
-    """The ranking and, when cycles are given, the prediction in it."""
-    from ridgeback.compare.identification.candidates import LAWS, NAMES
-    from ridgeback.compare.identification.identify import identify
-    from ridgeback.compare.identification.prediction import predict
-    from ridgeback.compare.identification.preparation import prepared
-
-    candidates = NAMES if chosen is None else chosen
-    laws = LAWS if damping is None else tuple(law for law in LAWS if law.name.lower() == damping)
-    ready, ahead = prepared(recording), None
-    if cycles is not None:
-        ahead = predict(ready, cycles=cycles, candidates=candidates, laws=laws, kind=kind, progress=progress)
-    return identify(ready, candidates=candidates, laws=laws, kind=kind, prediction=ahead, progress=progress)
 
 
 def text_of(found: Identification, style: str) -> str:
