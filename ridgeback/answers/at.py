@@ -49,6 +49,7 @@ def read_at(
     Raises click.UsageError for a slow flow without limit cycles.  What has no enclosure leaves the series standing.
     """
     from ridgeback.symbolic.certificates.at_amplitudes import at_each, certified_frequency
+    from ridgeback.symbolic.flow.loss_flow import LossFlow
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
 
     small = cycle_parameter(oscillator, formula)
@@ -57,7 +58,7 @@ def read_at(
 
         held, precision = None if isinstance(formula, SlowFlow) else formula, bits(demand, CYCLE_DIGITS)
         return certified_cycles(oscillator, demand.at or (), small=small, formula=held, bits=precision)
-    if isinstance(formula, SlowFlow):
+    if isinstance(formula, SlowFlow | LossFlow):
         raise click.UsageError(
             "--at belongs to a series in the amplitude, and a slow flow is none: set the damping to 0 "
             "(--set mu=0), or use --transient"

@@ -14,10 +14,11 @@ if TYPE_CHECKING:
     from ridgeback.symbolic.expansion.expansion import Expansion
     from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
     from ridgeback.symbolic.flow.fixed_points import FixedPoint
+    from ridgeback.symbolic.flow.loss_flow import LossFlow
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
-    Result = Expansion | PowerExpansion | SlowFlow
+    Result = Expansion | PowerExpansion | LossFlow | SlowFlow
 
 TITLES = {"frequency": "omega0", "growth_rate": "a'/a", "amplitude_series": "amplitude"}
 _STABILITY = {True: "stable", False: "unstable", None: "of undecided stability"}
@@ -98,9 +99,12 @@ def near(term: dict[str, Any]) -> float | None:
 def range_of_use(oscillator: Oscillator, result: Result | BallExpansion) -> str:
     """Where a series converges and how far it may be used, in one line; what is known of both for a slow flow."""
     from ridgeback.symbolic.flow.limits import flow_limits
+    from ridgeback.symbolic.flow.loss_flow import LossFlow
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.singularities.settled import settled_limits
 
+    if isinstance(result, LossFlow):
+        return f"\n{result.sentence()}\n"
     if isinstance(result, SlowFlow):
         return f"\n{flow_limits(oscillator, result).sentence()}\n" + limit_cycles(oscillator, result)
     return f"\n{settled_limits(oscillator, result).sentence()}\n" + no_cycle(oscillator)
@@ -109,9 +113,12 @@ def range_of_use(oscillator: Oscillator, result: Result | BallExpansion) -> str:
 def limit_rows(oscillator: Oscillator, result: Result | BallExpansion) -> dict[str, object]:
     """The same in JSON, and why there is no limit cycle where there is none."""
     from ridgeback.symbolic.flow.limits import flow_limits
+    from ridgeback.symbolic.flow.loss_flow import LossFlow
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.singularities.settled import settled_limits
 
+    if isinstance(result, LossFlow):
+        return {"limits": {"radius": None, "sentence": result.sentence()}}
     found = flow_limits(oscillator, result) if isinstance(result, SlowFlow) else settled_limits(oscillator, result)
     none = without_cycle(oscillator)
     return {"limits": found.to_dict(), **({"no_limit_cycle": none} if none else {})}
@@ -194,8 +201,9 @@ def joined(parts: str | tuple[str, ...]) -> str:
 
 def expressions(result: Result) -> tuple[Any, ...]:
     """The right-hand sides as SymPy expressions; printed, they are Python, exact for SymPy symbols and Fractions."""
+    from ridgeback.symbolic.flow.loss_flow import LossFlow
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
 
-    if isinstance(result, SlowFlow):
+    if isinstance(result, SlowFlow | LossFlow):
         return result.frequency_expression(), result.growth_rate_expression()
     return (result.expression(),)

@@ -29,8 +29,12 @@ def transient_output(oscillator: Oscillator, result: Result, demand: Demand) -> 
     Raises click.UsageError for an expansion that is no slow flow, InputError for parameters without a value and for
     an amplitude that runs away.
     """
+    from ridgeback.common.errors import InputError
+    from ridgeback.symbolic.flow.loss_flow import LossFlow
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
 
+    if isinstance(result, LossFlow):
+        raise InputError(result.without_code())
     if not isinstance(result, SlowFlow):
         raise click.UsageError(f"--transient belongs to multiple-scales, not to {result.method}; leave one out")
     from ridgeback.symbolic.flow.transient import closed_form

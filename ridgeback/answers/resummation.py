@@ -21,10 +21,11 @@ def resummed_from(oscillator: Oscillator, result: Result, demand: Demand) -> Res
 
     Raises click.UsageError for a slow flow, InputError from the resummation.
     """
+    from ridgeback.symbolic.flow.loss_flow import LossFlow
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.resummation.by_name import resum
 
-    if isinstance(result, SlowFlow):
+    if isinstance(result, SlowFlow | LossFlow):
         raise click.UsageError("--resummed belongs to a series in one variable, not to a slow flow; leave it out")
     return resum(
         oscillator,

@@ -20,6 +20,8 @@ from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+from ridgeback.symbolic.flow.averaged_losses import averaged_losses
+from ridgeback.symbolic.flow.loss_flow import LossFlow
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.resummation.by_name import resum
@@ -43,7 +45,7 @@ def derive(
     about: str | None = None,
     budget: Budget | None = None,
     progress: Wanted = None,
-) -> Expansion | PowerExpansion | SlowFlow:
+) -> Expansion | PowerExpansion | LossFlow | SlowFlow:
     """Derive the fundamental frequency as an exact series.
 
     Parameters
@@ -72,9 +74,9 @@ def derive(
 
     Returns
     -------
-    Expansion, PowerExpansion or SlowFlow
+    Expansion, PowerExpansion, SlowFlow or LossFlow
         The series; one in rational powers of A for a force that begins with another power than the first; a slow flow
-        (phi' and a'/a) by multiple scales.
+        (phi' and a'/a) by multiple scales, to first order in losses that are not analytic at rest.
 
     Raises
     ------
@@ -90,6 +92,10 @@ def derive(
     """
     system = as_oscillator(oscillator, parameters=parameters, about=about)
     name = method_for(system, method)
+    if name == "multiple-scales" and system.has_rough_losses:
+        if weight is not None or weights is not None:
+            raise InputError("losses with abs or sign are averaged to first order and have no weights; leave them out")
+        return averaged_losses(system, order, amplitude=amplitude)
     if name == "multiple-scales":
         if amplitude not in (None, "fundamental"):
             raise InputError(f"multiple-scales has the fundamental amplitude, not {amplitude!r}; leave amplitude out")
@@ -115,7 +121,7 @@ def method_for(oscillator: Oscillator, method: str | None) -> str:
 
 
 def generate(
-    formula: OscillatorLike | Expansion | PowerExpansion | SlowFlow | Resummation,
+    formula: OscillatorLike | Expansion | PowerExpansion | SlowFlow | LossFlow | Resummation,
     language: str = "python",
     *,
     oscillator: OscillatorLike | None = None,
@@ -183,7 +189,7 @@ def generate(
     """
     series: Expansion | SlowFlow
     result: Formula
-    if isinstance(formula, PowerExpansion):
+    if isinstance(formula, PowerExpansion | LossFlow):
         raise InputError(formula.without_code())
     if isinstance(formula, Expansion | SlowFlow | Resummation):
         system, result = as_oscillator(formula.system if oscillator is None else oscillator), formula
@@ -191,7 +197,7 @@ def generate(
     else:
         system = as_oscillator(formula, parameters=parameters)
         found = derive(system, order, method=method, amplitude=amplitude, progress=progress)
-        if isinstance(found, PowerExpansion):
+        if isinstance(found, PowerExpansion | LossFlow):
             raise InputError(found.without_code())
         result = series = found
     if resummed is not None:

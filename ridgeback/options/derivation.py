@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from ridgeback.symbolic.expansion.cost import Budget
     from ridgeback.symbolic.expansion.expansion import Expansion
     from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+    from ridgeback.symbolic.flow.loss_flow import LossFlow
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -60,7 +61,7 @@ def requesting(command: Command) -> Command:
     return wrapped
 
 
-def derived(oscillator: Oscillator, request: Request) -> Expansion | PowerExpansion | SlowFlow:
+def derived(oscillator: Oscillator, request: Request) -> Expansion | PowerExpansion | LossFlow | SlowFlow:
     """Derive by the method asked for, or by the one that suits the oscillator.
 
     Raises click.UsageError for options that the method does not have, InputError from the derivation.
@@ -71,7 +72,7 @@ def derived(oscillator: Oscillator, request: Request) -> Expansion | PowerExpans
     """
     name = request.method_for(oscillator)
     if name == "multiple-scales":
-        return slow_flow(oscillator, request)
+        return averaged(oscillator, request) if oscillator.has_rough_losses else slow_flow(oscillator, request)
     refuse_weights(request, name)
     if name == "energy-integral":
         if oscillator.by_sides:
@@ -96,6 +97,17 @@ def refuse_weights(request: Request, name: str) -> None:
     if request.weight is not None or request.weights is not None:
         option = "--weight" if request.weight is not None else "--weights"
         raise click.UsageError(f"{option} belongs to multiple-scales, not to {name}; leave it out")
+
+
+def averaged(oscillator: Oscillator, request: Request) -> LossFlow:
+    """The slow flow of losses that are not analytic at rest."""
+    if request.weight is not None or request.weights is not None:
+        raise click.UsageError(
+            "losses with abs or sign are averaged to first order and have no weights; leave them out"
+        )
+    from ridgeback.symbolic.flow.averaged_losses import averaged_losses
+
+    return averaged_losses(oscillator, request.order, amplitude=request.amplitude)
 
 
 def slow_flow(oscillator: Oscillator, request: Request) -> SlowFlow:

@@ -29,10 +29,11 @@ if TYPE_CHECKING:
     from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
     from ridgeback.symbolic.expansion.expansion import Expansion
     from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+    from ridgeback.symbolic.flow.loss_flow import LossFlow
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
-    Result = Expansion | PowerExpansion | SlowFlow
+    Result = Expansion | PowerExpansion | LossFlow | SlowFlow
 
 
 @click.command("derive", cls=Verb, short_help="Derive the frequency as an exact series.")

@@ -78,9 +78,10 @@ def formula_of(oscillator: Oscillator, request: Request, code: Code) -> tuple[Fo
         return minimax(oscillator, end, degree=code.degree, tolerance=code.tolerance, real=real), None
     from ridgeback.common.errors import InputError
     from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+    from ridgeback.symbolic.flow.loss_flow import LossFlow
 
     series = derived(oscillator, request)
-    if isinstance(series, PowerExpansion):
+    if isinstance(series, PowerExpansion | LossFlow):
         raise InputError(series.without_code())
     return _from_series(oscillator, series, code), series
 

@@ -17,6 +17,7 @@ from flint import arb, ctx
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.symbolic.arithmetic.balls import rational
+from ridgeback.symbolic.certificates.lost_energy import worst_difference
 from ridgeback.symbolic.enclosure.enclosure import enclose, rounded_up
 from ridgeback.symbolic.expansion.amplitude import measured
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
@@ -25,6 +26,7 @@ from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+from ridgeback.symbolic.flow.loss_flow import LossFlow
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.series.trigonometric import at_zero, harmonic
@@ -61,7 +63,7 @@ Checks: TypeAlias = dict[str, Callable[[], Check]]
 
 
 def certify(
-    oscillator: OscillatorLike, result: Expansion | PowerExpansion | SlowFlow, *, progress: Wanted = None
+    oscillator: OscillatorLike, result: Expansion | PowerExpansion | SlowFlow | LossFlow, *, progress: Wanted = None
 ) -> tuple[Check, ...]:
     """Run every independent check that applies to a result.
 
@@ -69,7 +71,7 @@ def certify(
     ----------
     oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
         Any form of the oscillator whose result it is.
-    result : Expansion, PowerExpansion or SlowFlow
+    result : Expansion, PowerExpansion, SlowFlow or LossFlow
         To be checked.
     progress : bool or callable, optional
         ``True`` shows a bar; a function is told the share done and the check that begins.
@@ -90,7 +92,10 @@ def certify(
     ['residual', 'normalisation', 'energy integral', 'multiple scales']
     """
     oscillator = as_oscillator(oscillator)
-    checks = _of_flow(oscillator, result) if isinstance(result, SlowFlow) else _of_series(oscillator, result)
+    if isinstance(result, LossFlow):
+        checks: Checks = {"quadrature": lambda: _guarded("quadrature", lambda: _losses_against(oscillator, result))}
+    else:
+        checks = _of_flow(oscillator, result) if isinstance(result, SlowFlow) else _of_series(oscillator, result)
     done: list[Check] = []
     with showing(progress) as told:
         for name, check in checks.items():
@@ -231,6 +236,24 @@ def _against_quadrature(oscillator: Oscillator, series: Expansion | PowerExpansi
     less = "less" if holds else "not less"
     text = f"at A = 2^-{SMALL} the series through order {order} differs from the enclosed frequency by {found} of it"
     return Check("quadrature", holds, f"{text}, {less} than A^{order}")
+
+
+def _losses_against(oscillator: Oscillator, flow: LossFlow) -> Check:
+    """The growth rate in the peak amplitude against the energy lost on the enclosed orbit, each loss alone."""
+    order = flow.order - 1
+    if order < 1:
+        raise InputError(f"order {flow.order} holds no growth rate; use 2 or more")
+    names = {name for name, value in oscillator.parameters.items() if value is None} - set(flow.losses)
+    values = {name: sympy.Rational(n + 1, n + 2) for n, name in enumerate(sorted(names))}
+    own = oscillator.with_parameters(values) if values else oscillator
+    place = sympy.Rational(1, 2**SMALL)
+    size, wrong, whose = worst_difference(own, flow.order, place, SMALL * (order + 2))
+    holds = bool(size < arb(2) ** (SMALL // 2))
+    found = f"below {rounded_up(wrong):.1e}" if wrong.contains(0) else wrong.str(3, radius=False)
+    of = f" of the loss {whose}" if whose else ""
+    less = "less" if holds else "not less"
+    text = f"at A = 2^-{SMALL} (peak) a'/a{of} differs from the enclosed loss of energy by {found} of it"
+    return Check("quadrature", holds, f"{text}, {less} than a wrong term would make it")
 
 
 def _against_lindstedt(oscillator: Oscillator, expansion: Expansion) -> Check:

@@ -165,8 +165,7 @@ class HalfWell:
 
     def time(self, turn: arb, bits: int) -> arb:
         """From rest at w = turn to u = 0."""
-        q = self._polynomial_q(turn) if self.polynomial is not None else self._general_q(turn)
-        d = self.half.root
+        q, d = self.quotient(turn), self.half.root
 
         def on_ball(x: acb, analytic: bool) -> acb:
             w = turn * (1 - x * x)
@@ -178,6 +177,10 @@ class HalfWell:
         if not found.real.is_finite() or found.real.rel_accuracy_bits() < bits - 8:
             raise UndecidedError
         return arb((2 * turn).sqrt() * found.real)
+
+    def quotient(self, turn: arb) -> Callable[[acb, acb], acb]:
+        """q as a function of balls of x and of w = turn (1 - x^2)."""
+        return self._polynomial_q(turn) if self.polynomial is not None else self._general_q(turn)
 
     def _polynomial_q(self, turn: arb) -> Callable[[acb, acb], acb]:
         quotient = acb_poly(divided(arb_poly(self.polynomial) - self.energy(turn), turn))

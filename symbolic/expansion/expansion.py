@@ -246,6 +246,20 @@ class Expansion(ShownExpansion):
             waveform=counted_from_its_own(definition, substitute(self.waveform, old_of_new)),
         )
 
+    def amplitude_as(self, definition: str) -> tuple[sympy.Expr, ...]:
+        """Another amplitude of the same orbits as an exact series in this one: coefficients of A**0, A**1, ...
+
+        Raises InputError for an unknown definition, or when the waveform that carries the conversion is missing.
+
+        >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+        >>> lindstedt("duffing", 2, amplitude="fundamental").amplitude_as("peak")
+        (0, 1, 0, 1/32)
+        """
+        check_definition(definition)
+        if self.variable != "A" or self.waveform is None:
+            raise InputError(f"this {self.method} expansion cannot be converted; derive it as {definition!r} instead")
+        return self._in_own_units(tuple(measured(definition, self.waveform, self.coefficients)), rate=0)
+
     def difference(self, other: Expansion) -> tuple[sympy.Expr, ...]:
         """Exact differences of the coefficients through the lower of the two orders.
 

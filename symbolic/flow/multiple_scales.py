@@ -27,6 +27,7 @@ from typing import Final
 import sympy
 from flint import fmpq
 
+from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.symbolic.expansion.amplitude import check_name
 from ridgeback.symbolic.expansion.cost import Budget, check
@@ -39,6 +40,7 @@ from ridgeback.symbolic.series.spaces import Parametric, Scalar
 from ridgeback.symbolic.series.trigonometric import Trig, constant, cosine, harmonic, sine, solve_oscillator
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import U, V
+from ridgeback.symbolic.systems.sides import is_kinked, kink_advice
 
 COEFFICIENT: Final = 2
 """What a symbolic coefficient counts when the cost is predicted: that of u^3 comes with a^2 each time."""
@@ -103,6 +105,10 @@ def multiple_scales(
     oscillator = as_oscillator(oscillator)
     order = check_order(order)
     check_name(oscillator, "a")
+    if is_kinked(oscillator.substituted_force):
+        raise InputError(
+            f"{oscillator.name}: {kink_advice(oscillator.substituted_force, conservative=oscillator.closes)}"
+        )
     natural = ordered(oscillator, weight=weight, weights=weights)
     counted = tuple(natural.weights.get(name, COEFFICIENT) for name in natural.names)
     check("multiple-scales", order, budget or Budget(), weights=counted)

@@ -300,6 +300,11 @@ class Oscillator:
         return bool(self.stiffness != 0)
 
     @property
+    def has_rough_losses(self) -> bool:
+        """Whether energy is lost or gained beside a kink, in u or u', so that averaging is what there is."""
+        return is_kinked(self.substituted_force) and not self.is_conservative
+
+    @property
     def by_sides(self) -> bool:
         """Whether each side of rest has a motion of its own: the force has a kink there or no linear part."""
         return self.is_kinked or not self.is_linear_at_rest

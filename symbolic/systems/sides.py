@@ -92,8 +92,8 @@ def kink_advice(force: sympy.Expr, *, conservative: bool) -> str:
     """What to do with a force that has a kink, where an expansion about rest is asked for."""
     if not conservative:
         return (
-            f"the losses in {brief(force)} are not analytic at rest, so no power series holds them; "
-            "--method multiple-scales gives their slow flow, to first order in the losses"
+            f"the losses in {brief(force)} are not analytic at rest, so no power series in u' holds them; derive "
+            "(averaged_losses) averages them along the undamped orbit, to first order"
         )
     if is_kinked(force, V):
         return f"{brief(force)} has a kink in u' that takes no energy, for which there is no method here; leave it out"
