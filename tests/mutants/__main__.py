@@ -1,27 +1,31 @@
 """Change the code in one place and see whether its tests notice: ``python -m tests.mutants --count 200 --seed 1``.
 
-A mutant is one changed operator, comparison, constant or condition in the cores of ``symbolic`` and ``numeric``.  It is
-killed when the examples of its file or the tests of its folder fail or take ten times as long.  Prints every survivor
-with its place, to be looked at, and the share killed; works on a copy of the tree and takes a while on each mutant.
+A mutant is one changed operator, comparison, constant or condition in the cores of ``symbolic`` and ``numeric``.  It
+is killed when a test fails or hangs: first the examples of its file and the tests of its folder, then further tests
+that reach it by imports, the nearest first, for a minute.  Prints every survivor with its place, to be looked at, and
+the share killed; works on a copy of the tree and takes a while on each mutant.
 """
 
 from __future__ import annotations
 
 import argparse
-import ast
 import os
 import random
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Iterator, Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from queue import SimpleQueue
+from xml.etree import ElementTree
+
+from tests.mutants.changes import Mutant, changed, places
+from tests.mutants.choice import Choice, choice_in
 
 ROOT = Path(__file__).resolve().parents[2]
 CORES = (
@@ -33,116 +37,69 @@ CORES = (
     *(f"numeric/{name}" for name in ("signal", "harmonics", "tracking", "motion", "model_fit", "distributions")),
     *("numeric/estimators", "numeric/orbits", "numeric/recording", "numeric/backbone"),
 )
-ARITHMETIC = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.FloorDiv: ast.Mult}
-COMPARED = {ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq}
-PATIENCE = 10.0
-"""How many times as long as the whole code's the tests of a mutant may take."""
+PATIENCE, AT_LEAST = 10.0, 60.0
+"""How many times as long as on unchanged code the tests of a mutant may take, and what they may take in any case."""
+MOST_MEMORY = 6_000_000_000
 
 
-@dataclass(frozen=True)
-class Mutant:
-    """One place of one file; the number counts the places in the order of the tree."""
-
-    path: str
-    place: int
-    line: int
-    what: str
+def limited() -> None:
+    """Keep a mutant from taking the machine's memory."""
+    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
 
 
-class Changer(ast.NodeTransformer):
-    """Walk a tree, note every place that can be changed, and change one of them."""
-
-    def __init__(self, target: int | None = None) -> None:
-        self.target, self.found = target, list[tuple[int, str]]()
-
-    def chosen(self, node: ast.expr, what: str) -> bool:
-        """Note a place; whether it is the one to be changed."""
-        self.found.append((node.lineno, what))
-        return len(self.found) - 1 == self.target
-
-    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-        self.generic_visit(node)
-        new = ARITHMETIC.get(type(node.op))
-        if new is not None and self.chosen(node, f"{type(node.op).__name__} to {new.__name__}: {ast.unparse(node)}"):
-            node.op = new()
-        return node
-
-    def visit_Compare(self, node: ast.Compare) -> ast.AST:
-        self.generic_visit(node)
-        new = COMPARED.get(type(node.ops[0]))
-        if new is not None and self.chosen(
-            node, f"{type(node.ops[0]).__name__} to {new.__name__}: {ast.unparse(node)}"
-        ):
-            node.ops[0] = new()
-        return node
-
-    def visit_BoolOp(self, node: ast.BoolOp) -> ast.AST:
-        self.generic_visit(node)
-        if self.chosen(node, f"and, or exchanged: {ast.unparse(node)}"):
-            node.op = ast.Or() if isinstance(node.op, ast.And) else ast.And()
-        return node
-
-    def visit_IfExp(self, node: ast.IfExp) -> ast.AST:
-        self.generic_visit(node)
-        if self.chosen(node, f"condition turned: {ast.unparse(node)}"):
-            node.test = ast.UnaryOp(ast.Not(), node.test)
-        return node
-
-    def visit_Constant(self, node: ast.Constant) -> ast.AST:
-        if type(node.value) in (int, float) and self.chosen(node, f"{node.value!r} to {node.value + 1!r}"):
-            return ast.copy_location(ast.Constant(node.value + 1), node)
-        return node
-
-    def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST:
-        if node.value is not None:
-            node.value = self.visit(node.value)
-        return node
-
-
-def mutants(path: Path) -> Iterator[Mutant]:
-    """Every place of a file."""
-    changer = Changer()
-    changer.visit(ast.parse(path.read_text(encoding="utf-8")))
-    yield from (Mutant(str(path.relative_to(ROOT)), i, *found) for i, found in enumerate(changer.found))
-
-
-def tests_of(path: str) -> list[str]:
-    """The examples of a file and the tests of its folder."""
-    folder = Path("tests") / Path(path).parent
-    return [f"ridgeback/{path}", *([str(folder)] if (ROOT / folder).is_dir() else [])]
-
-
-def passed(tree: Path, path: str, limit: float | None = None) -> bool:
-    """Whether the tests of a file pass in a copy of the tree, in time."""
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *tests_of(path)]
+def outcome(tree: Path, tests: Sequence[str], limit: float | None, *more: str) -> int | None:
+    """The exit code of these tests in a copy of the tree; None when they ran past the limit."""
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *more, *tests]
     environment = {**os.environ, "PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1", "CI": "1"}
-    try:
-        done = subprocess.run(command, cwd=tree, env=environment, capture_output=True, timeout=limit, check=False)
-    except subprocess.TimeoutExpired:
-        return False
-    return done.returncode == 0
+    with subprocess.Popen(
+        command,
+        cwd=tree,
+        env=environment,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+        preexec_fn=limited,  # noqa: PLW1509 - the threads here only wait
+    ) as process:
+        try:
+            return process.wait(limit)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            return None
 
 
-@cache
-def usual(tree: Path, folder: str, path: str) -> float:
-    """Seconds that the tests of the unchanged code take; they must pass."""
-    begin = time.monotonic()
-    if not passed(tree, path):
-        raise SystemExit(f"the tests of {path} fail as they are (in {folder})")
-    return time.monotonic() - begin
+def usual_seconds(tree: Path, tests: Sequence[str]) -> dict[str, float]:
+    """What each file of tests takes on the unchanged code, on which all must pass."""
+    report = tree / "times.xml"
+    if outcome(tree, tests, None, f"--junit-xml={report}", "-o", "junit_family=xunit1") != 0:
+        raise SystemExit("the tests fail on the unchanged code")
+    spent = Counter[str]()
+    for case in ElementTree.parse(report).iter("testcase"):  # noqa: S314 - written by the run above
+        spent[case.get("file", "")] += float(case.get("time", 0.0))  # type: ignore[assignment]
+    report.unlink()
+    return {test: float(spent[test]) for test in tests}
 
 
-def survives(tree: Path, mutant: Mutant) -> bool:
+def survives(tree: Path, mutant: Mutant, choice: Choice, seconds: Mapping[str, float]) -> bool:
     """Whether no test notices a mutant."""
     file = tree / mutant.path
-    limit = 30.0 + PATIENCE * usual(tree, str(Path(mutant.path).parent), mutant.path)
     whole = file.read_text(encoding="utf-8")
-    changed = Changer(mutant.place).visit(ast.parse(whole))
+    rounds = (choice.near(mutant.path), choice.far(mutant.path, seconds))
     try:
-        file.write_text(ast.unparse(ast.fix_missing_locations(changed)), encoding="utf-8")
-        return passed(tree, mutant.path, limit)
+        file.write_text(changed(whole, mutant.place), encoding="utf-8")
+        return all(
+            outcome(tree, tests, AT_LEAST + PATIENCE * sum(seconds[t] for t in tests), "-x") in (0, 5)
+            for tests in rounds
+            if tests
+        )
     finally:
         file.write_text(whole, encoding="utf-8")
+
+
+def drawn(count: int, seed: int, within: str) -> tuple[list[Mutant], int]:
+    """So many mutants, and the number of places that they are drawn from."""
+    files = [path for core in CORES for path in sorted((ROOT / core).glob("*.py")) if path.name != "__init__.py"]
+    every = [m for path in files for m in places(ROOT, path) if m.path.startswith(within)]
+    return random.Random(seed).sample(every, min(count, len(every))), len(every)  # noqa: S311 - a draw, no secret
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -153,28 +110,34 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--within", default="", help="only files whose path begins so, e.g. numeric/estimators")
     given = parser.parse_args(arguments)
-    files = [path for core in CORES for path in sorted((ROOT / core).glob("*.py")) if path.name != "__init__.py"]
-    every = [m for path in files for m in mutants(path) if m.path.startswith(given.within)]
-    drawn = random.Random(given.seed).sample(every, min(given.count, len(every)))  # noqa: S311 - a draw, no secret
+    chosen, places_in_all = drawn(given.count, given.seed, given.within)
+    choice = choice_in(ROOT)
     with tempfile.TemporaryDirectory(prefix="ridgeback-mutants-") as name:
         trees: SimpleQueue[Path] = SimpleQueue()
         for i in range(given.jobs):
             copy = Path(name) / str(i)
             shutil.copytree(ROOT, copy, symlinks=True, ignore=shutil.ignore_patterns(".*", "__pycache__"))
             trees.put(copy)
+        seconds = usual_seconds(Path(name) / "0", choice.all_of([mutant.path for mutant in chosen]))
+        print(f"{len(seconds)} files of tests take {sum(seconds.values()):.0f} s on the unchanged code", flush=True)
 
-        def attempt(mutant: Mutant) -> bool:
+        def attempt(mutant: Mutant) -> tuple[str, bool]:
             tree = trees.get()
             try:
-                alive = survives(tree, mutant)
+                alive = survives(tree, mutant, choice, seconds)
             finally:
                 trees.put(tree)
             print(f"{'SURVIVED' if alive else 'killed  '} {mutant.path}:{mutant.line} {mutant.what}", flush=True)
-            return alive
+            return mutant.path.partition("/")[0], alive
 
         with ThreadPoolExecutor(given.jobs) as pool:
-            alive = sum(pool.map(attempt, drawn))
-    print(f"{len(drawn) - alive} of {len(drawn)} mutants killed, of {len(every)} places; seed {given.seed}")
+            found = list(pool.map(attempt, chosen))
+    for room in sorted({room for room, _ in found}):
+        here = [alive for of, alive in found if of == room]
+        print(f"{room}: {len(here) - sum(here)} of {len(here)} killed")
+    print(
+        f"{sum(not a for _, a in found)} of {len(found)} mutants killed, of {places_in_all} places; seed {given.seed}"
+    )
     return 0
 
 
