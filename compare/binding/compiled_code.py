@@ -7,19 +7,17 @@ own.
 from __future__ import annotations
 
 import ctypes
-import os
 import shutil
-import signal
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from subprocess import DEVNULL, Popen, TimeoutExpired
 from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from ridgeback.compare.binding.generated_code import OWN
+from ridgeback.compare.binding.programs import finished
 from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.codegen import generate
 from ridgeback.symbolic.expansion.expansion import Expansion
@@ -62,35 +60,12 @@ def _compiled(expansion: Expansion, stack: ExitStack) -> Vectorised | NotCompile
         folder = Path(stack.enter_context(TemporaryDirectory(prefix="ridgeback-", ignore_cleanup_errors=True)))
         source, library = folder / f"{OWN}.c", folder / f"{OWN}.so"
         source.write_text(generate(expansion, "c", name=OWN), encoding="utf-8")
-        code = _finished([program, *_FLAGS, str(source), "-o", str(library), "-lm"])
-        if code is None:
+        done = finished([program, *_FLAGS, str(source), "-o", str(library), "-lm"], PATIENCE)
+        if done is None:
             return NotCompiled(f"the C compiler did not finish within {PATIENCE:g} s")
-        return _loaded(library, float(expansion.scale)) if code == 0 else NotCompiled("the C compiler failed")
+        return _loaded(library, float(expansion.scale)) if done.code == 0 else NotCompiled("the C compiler failed")
     except (OSError, AttributeError, ValueError) as error:
         return NotCompiled(f"the temporary folder does not serve for compiled code ({' '.join(str(error).split())})")
-
-
-def _finished(command: list[str]) -> int | None:
-    """The exit code of a program; None when it hangs, after which it and what it started are ended."""
-    with Popen(  # noqa: S603 - our own arguments
-        command, stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL, start_new_session=True
-    ) as process:
-        try:
-            return process.wait(PATIENCE)
-        except TimeoutExpired:
-            return None
-        finally:
-            if process.returncode is None:
-                _end_group(process)
-
-
-def _end_group(process: Popen[bytes]) -> None:
-    """End a process and all that it started."""
-    with suppress(ProcessLookupError):
-        if hasattr(os, "killpg"):
-            os.killpg(process.pid, signal.SIGKILL)
-        else:
-            process.kill()
 
 
 def _loaded(library: Path, k: float) -> Vectorised:

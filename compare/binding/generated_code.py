@@ -6,9 +6,9 @@ reaches it but through a whitelist of characters, and the files have names of ou
 
 from __future__ import annotations
 
+import errno
 import importlib.util
 import shutil
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass, replace
@@ -17,6 +17,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Literal
 
+from ridgeback.compare.binding.programs import Finished, finished
 from ridgeback.symbolic.codegen import generate
 from ridgeback.symbolic.codegen.languages.registry import find_language
 from ridgeback.symbolic.codegen.program import Form
@@ -55,6 +56,12 @@ def check(form: Form, language: str) -> Checked:
     Checked
         ``passed`` when every entry of the table came out bit for bit.
 
+    Raises
+    ------
+    OSError
+        Where the machine, and not the code, stands in the way: nothing can be run from the temporary folder, or a
+        program hangs.
+
     Examples
     --------
     >>> from ridgeback.symbolic.codegen import form_of
@@ -75,8 +82,8 @@ def check(form: Form, language: str) -> Checked:
         write_files(Path(folder), target.package(own))
         for command in target.commands(own, tool):
             done = _run(command, Path(folder))
-            if done.returncode != 0:
-                return Checked(language, "failed", f"{Path(command[0]).name}: {_last_line(done)}")
+            if done.code != 0:
+                return Checked(language, "failed", f"{Path(command[0]).name}: {done.last_line}")
     return Checked(language, "passed", "every entry of the table bit for bit")
 
 
@@ -96,19 +103,16 @@ def write_files(folder: Path, files: dict[str, str]) -> None:
         path.write_text(text, encoding="utf-8")
 
 
-def _run(command: tuple[str, ...], folder: Path) -> subprocess.CompletedProcess[str]:
+def _run(command: tuple[str, ...], folder: Path) -> Finished:
     program = str(folder / command[0]) if command[0].startswith("./") else command[0]
     try:
-        return subprocess.run(  # noqa: S603 - our own arguments
-            [program, *command[1:]], cwd=folder, capture_output=True, text=True, timeout=SECONDS, check=False
-        )
-    except (OSError, subprocess.TimeoutExpired) as error:
-        return subprocess.CompletedProcess(command, 1, "", str(error))
-
-
-def _last_line(done: subprocess.CompletedProcess[str]) -> str:
-    lines = [line for line in (done.stderr or done.stdout).splitlines() if line.strip()]
-    return (lines[-1] if lines else f"exit code {done.returncode}").strip()[:200]
+        done = finished([program, *command[1:]], SECONDS, folder=folder)
+    except PermissionError:
+        reason = "Nothing can be run from this temporary folder (mounted noexec?); name another in TMPDIR"
+        raise PermissionError(errno.EACCES, reason, str(folder)) from None
+    if done is None:
+        raise TimeoutError(errno.ETIMEDOUT, f"It came to no end within {SECONDS} s", program)
+    return done
 
 
 class _Generated(InspectLoader):

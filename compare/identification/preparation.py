@@ -47,7 +47,7 @@ def prepared(recording: Recording, *, span: tuple[float, float] | None = None) -
     Raises
     ------
     InputError
-        For a span without samples, more samples than fit the budget, and a signal without a track.
+        For a span without samples, more samples than fit the budget, and a signal that noise alone explains.
 
     Examples
     --------
@@ -57,7 +57,7 @@ def prepared(recording: Recording, *, span: tuple[float, float] | None = None) -
     ('Every 7th sample was used, after a low-pass filter.',)
     """
     used, notes = usable(recording, span)
-    return Prepared(used, local_track(used), notes)
+    return Prepared(used, local_track(used).of_oscillation(), notes)
 
 
 def usable(recording: Recording, span: tuple[float, float] | None) -> tuple[Recording, tuple[str, ...]]:

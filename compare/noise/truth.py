@@ -181,10 +181,10 @@ def recording_truth(
     Raises
     ------
     InputError
-        For what harmonic least squares refuses.
+        For what harmonic least squares refuses, and where noise alone explains the samples.
     """
     if omega is None:
-        omega = estimate(x, rate, method=SMOOTH, start=start, bias=False).omega
+        omega = estimate(x, rate, method=SMOOTH, start=start, bias=False).of_oscillation().omega
     what = "frequency of the recording's own smooth harmonic model, whose residual is replaced by white noise"
     smooth = smoothed(omega, rate, KNOT_WINDOWS * LAG_CYCLES * TWO_PI / float(np.median(omega)))
     return _with_harmonics(title, what, np.asarray(x, dtype=np.float64), smooth, rate, start, own=True)

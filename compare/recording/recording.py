@@ -91,7 +91,7 @@ def compare_recording(
     if not tracks:
         raise InputError(f"{recording.source}: no estimator succeeded; " + "; ".join(failed))
     progress(0.7, "backbone")
-    chosen = tracks[0]
+    chosen = tracks[0].of_oscillation()
     flat = recording.clipped if recording.clipped.any() else None
     measured = backbone(chosen, recording.values, recording.rate, start=float(recording.time[0]), exclude=flat)
     progress(0.9, "spectrogram")

@@ -260,7 +260,7 @@ def estimation(
     track = replace(track, used=replace(track.used, span=span_of(request, samples)))
     progress(1.0, "done")
     if harmonic > 1:
-        track = of_harmonic(harmonic, request, track, remove_bias)
+        track = of_harmonic(harmonic, request, track.held_against(noise).of_oscillation(), remove_bias)
     track = track if no_room is None else replace(track, no_interval=no_room)
     return Estimation(track.held_against(noise), samples, request)
 

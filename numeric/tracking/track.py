@@ -140,6 +140,15 @@ class Estimated(ShownEstimate):
         why = {"presence": noise, "valid": np.zeros(self.time.size, dtype=np.bool_), "no_interval": noise.reason}
         return type(self)(**vars(self) | nothing | why)
 
+    def of_oscillation(self) -> Self:
+        """The same values, where noise alone does not explain the signal.
+
+        Raises InputError where it does.
+        """
+        if self.presence is not None and not self.presence.found:
+            raise InputError(f"{self.presence.reason}; give a longer recording, or the part that oscillates")
+        return self
+
     def inside(self) -> Self:
         """Return the valid part of the track."""
         return self._select(self.valid)

@@ -8,7 +8,9 @@ import warnings
 from collections.abc import Callable
 
 import matplotlib.style
+from matplotlib.text import Text
 
+from ridgeback.common.visible import visible
 from ridgeback.reports.drawing.canvas import Canvas
 from ridgeback.reports.drawing.theme import DRAWING, plain_colours, sentinel
 
@@ -30,6 +32,7 @@ def picture(drawn: Callable[[], Canvas], kind: str) -> bytes:
         # A unit may hold a letter that the font lacks: it is drawn as a box, which is no reason to fail.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font", category=UserWarning)
         canvas = drawn()
+        show_plainly(canvas)
         canvas.figure.patch.set_visible(True)
         canvas.figure.patch.set_facecolor(sentinel("bg"))
         stream = io.BytesIO()
@@ -37,6 +40,12 @@ def picture(drawn: Callable[[], Canvas], kind: str) -> bytes:
         canvas.figure.savefig(stream, format=kind, metadata=_NO_DATES[kind], dpi=dpi)
     data = stream.getvalue()
     return without_classes(data) if kind == "svg" else data
+
+
+def show_plainly(canvas: Canvas) -> None:
+    """Write characters of names that act, or that no file of the kind can hold, as their escapes."""
+    for text in canvas.figure.findobj(Text):
+        text.set_text(visible(text.get_text()))  # type: ignore[attr-defined]
 
 
 def without_classes(data: bytes) -> bytes:

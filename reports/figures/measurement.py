@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 
+from ridgeback.common.visible import visible
 from ridgeback.compare.recording.measurements import Measurement, Measurements
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.canvas import Canvas, Line, draw, linear, padded, titles
@@ -85,6 +86,7 @@ def clipped(text: str) -> str:
     >>> clipped("x" * 40).count("x")
     27
     """
+    text = visible(text)
     return text if len(text) <= LONGEST_NAME else text[: LONGEST_NAME - 1] + "…"
 
 

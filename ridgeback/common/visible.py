@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import re
 
-# Control characters but the tab and the line end, the marks that turn the direction of writing, and line separators.
-ACTING = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]|\r(?!\n)")
+# Control characters but the tab and the line end, the marks that turn the direction of writing, line separators, and
+# what is no character at all, which no UTF-8 and no XML file may hold.
+ACTING = re.compile(
+    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ud800-\udfff\ufffe\uffff]|\r(?!\n)"
+)
 NUMERIC = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?(/\d+)?|-", re.ASCII)
 FORMULA = ("=", "+", "-", "@", "\t", "\r")
 

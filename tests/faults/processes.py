@@ -154,6 +154,8 @@ DISKS: tuple[Case, ...] = (
     with_disk("ro", "$R derive pendulum -o $d/a.txt", 4, "No permission"),
     with_disk("ro", f"{HILBERT} --plot $d/a.svg", 4, "No permission"),
     with_disk("ro", "$R derive pendulum --digits 30 --checkpoint $d/state", 4, "No permission"),
+    with_disk("noexec", "TMPDIR=$PWD/$d $R generate pendulum --language c --check", 4, "folder.csv/", "noexec"),
+    with_disk("noexec", "TMPDIR=$PWD/$d $R generate pendulum --check -o /dev/null", 0, "python: passed"),
     with_disk("ro", "cd $d && $R derive pendulum --order 2", 0, "-1/16"),
 )
 CASES = (*ENVIRONMENT, *STREAMS, *NAMES, *LIMITS, *WORKING)

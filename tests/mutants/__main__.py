@@ -1,9 +1,10 @@
 """Change the code in one place and see whether its tests notice: ``python -m tests.mutants --count 200 --seed 1``.
 
 A mutant is one changed operator, comparison, constant or condition in the cores of ``symbolic`` and ``numeric``.  It
-is killed when a test fails or hangs: first the examples of its file and the tests of its folder, then further tests
-that reach it by imports, the nearest first, for a minute.  Prints every survivor with its place, to be looked at, and
-the share killed; works on a copy of the tree and takes a while on each mutant.
+is killed when a test fails that passes on the unchanged code, or hangs: first the examples of its file and the tests of
+its folder, then further tests that reach it by imports, the nearest first, as long as FAR seconds of processor time
+last.  Prints every mutant with the test that killed it, the survivors to be looked at, and the share killed; works on
+a copy of the tree and takes a while on each mutant.
 """
 
 from __future__ import annotations
@@ -11,21 +12,18 @@ from __future__ import annotations
 import argparse
 import os
 import random
-import resource
 import shutil
-import signal
-import subprocess
 import sys
 import tempfile
-from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
 from pathlib import Path
 from queue import SimpleQueue
-from xml.etree import ElementTree
 
 from tests.mutants.changes import Mutant, changed, places
 from tests.mutants.choice import Choice, choice_in
+from tests.mutants.processes import tried
 
 ROOT = Path(__file__).resolve().parents[2]
 CORES = (
@@ -37,62 +35,29 @@ CORES = (
     *(f"numeric/{name}" for name in ("signal", "harmonics", "tracking", "motion", "model_fit", "distributions")),
     *("numeric/estimators", "numeric/orbits", "numeric/recording", "numeric/backbone"),
 )
-PATIENCE, AT_LEAST = 10.0, 60.0
-"""How many times as long as on unchanged code the tests of a mutant may take, and what they may take in any case."""
-MOST_MEMORY = 6_000_000_000
+NEAR, FAR = 300, 20
+"""Processor seconds that the two rounds of tests may take: in the first more is a hang, in the second it is enough."""
 
 
-def limited() -> None:
-    """Keep a mutant from taking the machine's memory."""
-    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
-
-
-def outcome(tree: Path, tests: Sequence[str], limit: float | None, *more: str) -> int | None:
-    """The exit code of these tests in a copy of the tree; None when they ran past the limit."""
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *more, *tests]
-    environment = {**os.environ, "PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1", "CI": "1"}
-    with subprocess.Popen(
-        command,
-        cwd=tree,
-        env=environment,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-        preexec_fn=limited,  # noqa: PLW1509 - the threads here only wait
-    ) as process:
-        try:
-            return process.wait(limit)
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-            return None
-
-
-def usual_seconds(tree: Path, tests: Sequence[str]) -> dict[str, float]:
-    """What each file of tests takes on the unchanged code, on which all must pass."""
-    report = tree / "times.xml"
-    if outcome(tree, tests, None, f"--junit-xml={report}", "-o", "junit_family=xunit1") != 0:
-        raise SystemExit("the tests fail on the unchanged code")
-    spent = Counter[str]()
-    for case in ElementTree.parse(report).iter("testcase"):  # noqa: S314 - written by the run above
-        spent[case.get("file", "")] += float(case.get("time", 0.0))  # type: ignore[assignment]
-    report.unlink()
-    return {test: float(spent[test]) for test in tests}
-
-
-def survives(tree: Path, mutant: Mutant, choice: Choice, seconds: Mapping[str, float]) -> bool:
-    """Whether no test notices a mutant."""
+def killer(tree: Path, mutant: Mutant, choice: Choice) -> str:
+    """The test that notices a mutant; empty for a survivor."""
     file = tree / mutant.path
     whole = file.read_text(encoding="utf-8")
-    rounds = (choice.near(mutant.path), choice.far(mutant.path, seconds))
     try:
         file.write_text(changed(whole, mutant.place), encoding="utf-8")
-        return all(
-            outcome(tree, tests, AT_LEAST + PATIENCE * sum(seconds[t] for t in tests), "-x") in (0, 5)
-            for tests in rounds
-            if tests
-        )
+        near = tried(tree, choice.near(mutant.path), NEAR)
+        if not near.passed:
+            return near.failed or "a hang"
+        far = choice.far(mutant.path)
+        return tried(tree, far, FAR).failed if far else ""
     finally:
         file.write_text(whole, encoding="utf-8")
+
+
+@cache
+def sound(tree: Path, test: str) -> bool:
+    """Whether a test passes on the unchanged code, so that its failure means something."""
+    return tried(tree, [test], NEAR).passed
 
 
 def drawn(count: int, seed: int, within: str) -> tuple[list[Mutant], int]:
@@ -118,17 +83,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
             copy = Path(name) / str(i)
             shutil.copytree(ROOT, copy, symlinks=True, ignore=shutil.ignore_patterns(".*", "__pycache__"))
             trees.put(copy)
-        seconds = usual_seconds(Path(name) / "0", choice.all_of([mutant.path for mutant in chosen]))
-        print(f"{len(seconds)} files of tests take {sum(seconds.values()):.0f} s on the unchanged code", flush=True)
 
         def attempt(mutant: Mutant) -> tuple[str, bool]:
             tree = trees.get()
             try:
-                alive = survives(tree, mutant, choice, seconds)
+                test = killer(tree, mutant, choice)
+                if "::" in test and not sound(tree, test):
+                    raise SystemExit(f"{test} fails on the unchanged code")
             finally:
                 trees.put(tree)
-            print(f"{'SURVIVED' if alive else 'killed  '} {mutant.path}:{mutant.line} {mutant.what}", flush=True)
-            return mutant.path.partition("/")[0], alive
+            came = f"killed by {test}" if test else "SURVIVED"
+            print(f"{mutant.path}:{mutant.line} {mutant.what}: {came}", flush=True)
+            return mutant.path.partition("/")[0], not test
 
         with ThreadPoolExecutor(given.jobs) as pool:
             found = list(pool.map(attempt, chosen))

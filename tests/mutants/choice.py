@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import ast
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 ROOMS = ("symbolic", "numeric", "compare", "ridgeback")
-ENOUGH = 60.0
-"""Seconds that the tests of the second round take on unchanged code, together."""
+FARTHEST = 3
+"""Imports between a file and a test of it, at most."""
 
 
 def home(root: Path, module: str) -> str | None:
@@ -34,7 +34,7 @@ def imports(root: Path, path: Path) -> frozenset[str]:
 
 @dataclass(frozen=True)
 class Choice:
-    """The tests of a file: its examples and its folder's first, then others that reach it while time lasts."""
+    """The tests of a file: its examples and its folder's first, then others that reach it."""
 
     root: Path
     importers: Mapping[str, frozenset[str]]
@@ -60,24 +60,16 @@ class Choice:
         """Further tests with their distances: those that import a file, and those of its room that reach it."""
         room, near = f"tests/{path.partition('/')[0]}/", set(self.near(path))
         reached = self.distances(path)
-        return {t: far for t, far in reached.items() if t not in near and (far == 1 or t.startswith(room))}
+        return {
+            t: far
+            for t, far in reached.items()
+            if t not in near and (far == 1 or (far <= FARTHEST and t.startswith(room)))
+        }
 
-    def far(self, path: str, seconds: Mapping[str, float]) -> list[str]:
-        """The others, by distance and then by time, for ENOUGH seconds."""
+    def far(self, path: str) -> list[str]:
+        """The others, the nearest first."""
         others = self.others(path)
-        return list(_while_cheap(sorted(others, key=lambda test: (others[test], seconds[test])), seconds))
-
-    def all_of(self, paths: list[str]) -> list[str]:
-        """Every test that can be chosen for any of these files."""
-        return sorted({test for path in paths for test in (*self.near(path), *self.others(path))})
-
-
-def _while_cheap(order: list[str], seconds: Mapping[str, float]) -> Iterator[str]:
-    spent = 0.0
-    for test in order:
-        if spent + seconds[test] <= ENOUGH:
-            spent += seconds[test]
-            yield test
+        return sorted(others, key=lambda test: (others[test], test))
 
 
 def choice_in(root: Path) -> Choice:
