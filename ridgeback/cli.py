@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
-from contextlib import suppress
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from importlib import import_module
 
 import click
@@ -101,7 +102,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     sys.set_int_max_str_digits(max(LONGEST_INTEGER, sys.get_int_max_str_digits()))
     try:
         # Not `cli.main`, which turns a broken pipe into exit code 1 before anybody can see it.
-        with stoppable(), cli.make_context("ridgeback", list(given), obj=tuple(given)) as context:
+        with stoppable(), quiet(), cli.make_context("ridgeback", list(given), obj=tuple(given)) as context:
             cli.invoke(context)
         if sys.stdout is not None:
             sys.stdout.flush()
@@ -113,6 +114,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BaseException as error:
         return int(fail(error))
     return int(Exit.OK)
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """No lines of NumPy about numbers beyond the largest double: what comes of them is judged where it is used."""
+    with warnings.catch_warnings():
+        if not os.environ.get("RIDGEBACK_DEBUG"):
+            warnings.simplefilter("ignore", RuntimeWarning)
+        yield
 
 
 def fail(error: BaseException) -> Exit:

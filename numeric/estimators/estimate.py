@@ -27,6 +27,7 @@ from ridgeback.numeric.signal.decimation import PER_CYCLE, Samples, checked, dec
 from ridgeback.numeric.signal.presence import presence
 from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, Request, prepared, refuse_cross_term
+from ridgeback.numeric.tracking.settings import refuse_unused
 from ridgeback.numeric.tracking.track import NORMAL_95, Track
 from ridgeback.numeric.tracking.uncertainty import trial_of, with_interval
 
@@ -86,8 +87,6 @@ HARDLY_KNOWN = 0.1
 """Half width of a 95 % interval, relative to omega, beyond which a value is not counted as valid."""
 QUADRATIC = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner", "polynomial-wigner")
 """Methods whose distribution has cross terms on the harmonics."""
-OF_ONE_KERNEL = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner")
-"""Methods whose lag kernel can be limited to a band or held in single precision."""
 
 
 def estimate(
@@ -172,8 +171,8 @@ def estimate(
     Raises
     ------
     InputError
-        For an unknown method, samples that are not finite, a constant signal, a record too short for the window, or a
-        band beyond the Nyquist frequency.
+        For an unknown method, settings that it has no use for, samples that are not finite, a constant signal, a record
+        too short for the window, or a band beyond the Nyquist frequency.
 
     Examples
     --------
@@ -229,10 +228,7 @@ def estimation(
         return Estimation(of_model(samples, options, method, family, harmonic), samples, None)
     if method not in METHODS:
         raise InputError(f"method {method!r} is unknown; use one of {', '.join((*METHODS, MODEL_FIT))}")
-    if (options.band_limited or options.single) and method not in OF_ONE_KERNEL:
-        raise InputError(
-            f"method {method!r} has no band-limited or single-precision form; {', '.join(OF_ONE_KERNEL)} have"
-        )
+    refuse_unused(method, options.given)
     search = None
     if method == "auto":
         samples, search = decimated(samples, band=options.band, per_cycle=max(PER_CYCLE, 4.0 * harmonic))
@@ -308,6 +304,7 @@ def of_model(samples: Samples, options: Options, method: str, family: Family | N
     """The frequency of an oscillator fitted to the signal."""
     if family is None or method != MODEL_FIT:
         raise InputError(f"method {method!r} and an oscillator do not go together: {MODEL_FIT} needs one, others none")
+    refuse_unused(method, options.given)
     track = model_track(fitted(samples, family, band=options.band))
     noise = presence(samples.x, samples.rate, limits=options.band, whole=options.band is None)
     if harmonic > 1:

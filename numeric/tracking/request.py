@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 
 import numpy as np
@@ -50,6 +50,11 @@ class Options:
     band_limited: bool = False
     single: bool = False
     bias: bool = True
+
+    @property
+    def given(self) -> list[str]:
+        """Names of the settings that differ from their defaults."""
+        return [item.name for item in fields(self) if getattr(self, item.name) != item.default]
 
     @property
     def multiples(self) -> tuple[int, ...] | None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ridgeback.common.numbers import exact_text
 from ridgeback.console.failure import PartialError
 from ridgeback.console.tables import aligned, csv_text
 from ridgeback.options.demand import Demand
@@ -90,7 +91,7 @@ def complete(found: Sequence[Row]) -> None:
         what = "amplitudes" if first.variable == "A" else f"values of {first.variable}"
         raise PartialError(
             f"{len(refused)} of {len(found)} {what} have no enclosure and are left empty in the output; "
-            f"{first.variable} = {first.amplitude}: {first.why}"
+            f"{first.variable} = {exact_text(first.amplitude)}: {first.why}"
         )
 
 

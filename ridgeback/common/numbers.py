@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from fractions import Fraction
 
 NONE = "–"
 """What stands for a missing number."""
@@ -41,6 +42,28 @@ def scientific(value: float, *, digits: int = 2) -> str:
     """
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
     return f"{minus(mantissa)} × {power_of_ten(int(exponent))}"
+
+
+def exact_text(value: Fraction, *, longest: int = 40) -> str:
+    """An exact number; one of more than ``longest`` characters with the powers of ten of a whole number as an exponent.
+
+    >>> exact_text(Fraction(5, 2)), exact_text(Fraction("1.5e300")), exact_text(Fraction("-3e-300"))
+    ('5/2', '15e299', '-3e-300')
+    >>> exact_text(Fraction(10**300, 3))
+    '1e300/3'
+    """
+    text = str(value)
+    if len(text) <= longest:
+        return text
+    (top, up), (below, down) = (_without_tens(part) for part in (value.numerator, value.denominator))
+    power = f"{top}e{up - down}" if up != down else str(top)
+    return power if below == 1 else f"{power}/{below}"
+
+
+def _without_tens(whole: int) -> tuple[int, int]:
+    """A whole number but 0 without its zeros at the end, and how many they were."""
+    digits = str(whole).rstrip("0")
+    return int(digits), len(str(whole)) - len(digits)
 
 
 def number(value: float | None, digits: int = 4) -> str:

@@ -23,6 +23,7 @@ from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.flow.averaged_losses import averaged_losses
 from ridgeback.symbolic.flow.loss_flow import LossFlow
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.flow.ordering import check_both
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.resummation.by_name import resum
 from ridgeback.symbolic.resummation.resummation import Resummation
@@ -99,6 +100,7 @@ def derive(
     if name == "multiple-scales":
         if amplitude not in (None, "fundamental"):
             raise InputError(f"multiple-scales has the fundamental amplitude, not {amplitude!r}; leave amplitude out")
+        check_both(system, weight, weights)
         return multiple_scales(
             system, order, weight=2 if weight is None else weight, weights=weights, budget=budget, progress=progress
         )

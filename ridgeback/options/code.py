@@ -12,12 +12,17 @@ import click
 
 from ridgeback.options.arguments import rational, written
 from ridgeback.options.demand_options import degrees
+from ridgeback.options.unused import refuse_unused
 
 Command = Callable[..., None]
 
 KNOWN = "python, array-api, numba, c, c-header, cpp, rust, julia, fortran, matlab, javascript, latex"
 MODES = ("strict", "fma", "accurate")
 FORMULAS = ("pade", "map", "nome", "agm", "sine")
+CLOSED = ("agm", "sine")
+"""Formulas that are made of the oscillator itself and not of a series."""
+DERIVING = ("order", "method", "amplitude", "weight", "weights", "budget")
+"""The options of a derivation."""
 
 
 @dataclass(frozen=True)
@@ -42,12 +47,7 @@ class Code:
 
     def check_together(self) -> None:
         """Raise click.UsageError for options that do not go together."""
-        if self.resummed is None:
-            for name in ("degrees", "growth"):
-                if getattr(self, name) is not None:
-                    raise click.UsageError(f"--{name} needs --resummed; leave it out")
-        if (self.terms is not None) != (self.resummed == "sine"):
-            raise click.UsageError("--terms and --resummed sine go together; give both or none")
+        self.check_formula()
         if self.gappa and self.language != "c":
             raise click.UsageError("--gappa goes with --language c; leave it out")
         if self.fit is None and (self.degree is not None or self.tolerance is not None):
@@ -60,6 +60,21 @@ class Code:
             raise click.UsageError("--motion belongs to a series, not to --resummed; leave one of them out")
         if self.up_to is not None and self.up_to <= 0:
             raise click.BadParameter("the range must end above 0", param_hint="--up-to")
+        if self.fit is not None or self.resummed in CLOSED:
+            refuse_unused("--fit" if self.fit is not None else f"--resummed {self.resummed}", *DERIVING)
+
+    def check_formula(self) -> None:
+        """Raise click.UsageError for options that the formula does not have."""
+        if self.resummed is None:
+            for name in ("degrees", "growth"):
+                if getattr(self, name) is not None:
+                    raise click.UsageError(f"--{name} needs --resummed; leave it out")
+        if self.growth is not None and self.resummed != "map":
+            raise click.UsageError(f"--growth belongs to --resummed map, not to {self.resummed}; leave it out")
+        if self.degrees is not None and self.resummed in CLOSED:
+            raise click.UsageError(f"--resummed {self.resummed} is no quotient of polynomials; leave --degrees out")
+        if (self.terms is not None) != (self.resummed == "sine"):
+            raise click.UsageError("--terms and --resummed sine go together; give both or none")
 
 
 def coding(command: Command) -> Command:

@@ -68,6 +68,8 @@ class Demand:
             if self.asked(name) and not any(map(self.asked, others)):
                 wanted = " or ".join(f"--{other}" for other in others)
                 raise click.UsageError(f"--{name} needs {wanted}; give that, or leave --{name} out")
+        if self.growth is not None and self.resummed != "map":
+            raise click.UsageError(f"--growth belongs to --resummed map, not to {self.resummed}; leave it out")
         uses = [name for name in USES if self.asked(name)]
         if len(uses) > 1:
             raise click.UsageError(f"--{uses[0]} and --{uses[1]} exclude each other; keep one")

@@ -118,7 +118,9 @@ def slow_flow(oscillator: Oscillator, request: Request) -> SlowFlow:
             "or another method"
         )
     from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+    from ridgeback.symbolic.flow.ordering import check_both
 
+    check_both(oscillator, request.weight, request.weights)
     return multiple_scales(
         oscillator,
         request.order,

@@ -50,6 +50,20 @@ class Estimator:
         }
         return {name: value for name, value in said.items() if value is not None}
 
+    def check(self) -> None:
+        """Raise click.UsageError for settings that the method makes no use of.
+
+        >>> Estimator("hilbert", None, None, False, order=6).check()
+        Traceback (most recent call last):
+            ...
+        click.exceptions.UsageError: --method hilbert has no use for --order; leave out
+        """
+        from ridgeback.numeric.tracking.settings import unused
+
+        idle = unused(self.method, list(self.given()))
+        if idle:
+            raise click.UsageError(f"--method {self.method} has no use for {', '.join(map(spelled, idle))}; leave out")
+
     def given_besides(self, *names: str) -> list[str]:
         """Options that were given although only those of these settings have a meaning.
 
@@ -58,10 +72,19 @@ class Estimator:
         """
         unset = {"method": "auto", "remove_bias": False}
         given = [name for name, value in self.given().items() if name not in names and value != unset.get(name)]
-        return [SPELLED.get(name, "--" + name.replace("_", "-")) for name in given]
+        return [spelled(name) for name in given]
 
 
 SPELLED = {"lag_seconds": "--lag", "lag_window": "--window", "smoothing_seconds": "--smoothing"}
+
+
+def spelled(name: str) -> str:
+    """A setting as the command line calls it.
+
+    >>> spelled("lag_seconds"), spelled("band_limited")
+    ('--lag', '--band-limited')
+    """
+    return SPELLED.get(name, "--" + name.replace("_", "-"))
 
 
 def estimator_options(command: Command) -> Command:

@@ -19,9 +19,13 @@ from ridgeback.options.model import MODEL_FIT, Model, model_options
 from ridgeback.options.plot import plot_option
 from ridgeback.options.recording import Reading, reading_options
 from ridgeback.options.shared import format_option, output_option
+from ridgeback.options.unused import refuse_unused
 
 if TYPE_CHECKING:
     from ridgeback.compare.recording.measurements import Measurements
+
+OF_A_FILE = ("column", "time_column", "rate", "span", "resample", "fill", "detrend")
+"""Options that say where samples are and how they are treated."""
 
 
 @click.command("estimate", cls=Verb, short_help="Estimate the frequency of a recording over time.")
@@ -97,13 +101,19 @@ def command(
     ridgeback estimate --monte-carlo 100 --snr 0,10,20,30
     """
     check_fit(harmonic, estimator, half_cycles=half_cycles, backbone=backbone_wanted)
+    if not backbone_wanted and style != "json" and plot is None:
+        refuse_unused("the table of a track", "combine")
     if files or monte_carlo is None:
         model.check(estimator.method)
     if monte_carlo is not None:
-        if backbone_wanted or half_cycles or harmonic != 1 or plot is not None or len(files) > 1:
-            raise click.UsageError("--monte-carlo is about the track of the fundamental; leave out what else is asked")
+        unused = ("backbone_wanted", "half_cycles", "harmonic", "plot", "combine", "run_column")
+        refuse_unused("--monte-carlo, which is about the track of the fundamental,", *unused)
+        if len(files) > 1:
+            raise click.UsageError(f"--monte-carlo takes one FILE, not {len(files)}; leave the others out")
         refuse_beside(estimator, "--monte-carlo", "method", "band", "lag_seconds", "remove_bias")
         trials, file = trials_and_file(monte_carlo, files[0] if files else None)
+        if file is None:
+            refuse_unused("--monte-carlo without a FILE", *OF_A_FILE)
         monte_carlo_verb(
             None if file is None else reading.one(file),
             trials=trials,
@@ -119,13 +129,13 @@ def command(
             output=output,
         )
         return
-    if workers is not None:
-        raise click.UsageError("--workers belongs to --monte-carlo; leave it out")
+    refuse_unused("an estimate without --monte-carlo", "workers", "snr", "seed")
     if not files:
         raise click.UsageError("name the FILE of a recording; only --monte-carlo goes without one")
     estimator = replace(estimator, model=model)
     if estimator.method == MODEL_FIT:
         refuse_beside(estimator, "--method model-fit", "method", "band", "family")
+    estimator.check()
     found = measured_files(files, reading, estimator, combine=combine, harmonic=harmonic, halves=half_cycles)
     if backbone_wanted:
         check_backbones(found)

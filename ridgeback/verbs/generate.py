@@ -17,6 +17,7 @@ from ridgeback.options.demand import Demand
 from ridgeback.options.derivation import Request, derived, requesting
 from ridgeback.options.shared import format_option, output_option
 from ridgeback.options.system import Choice, choosing
+from ridgeback.options.unused import refuse_unused
 
 if TYPE_CHECKING:
     from ridgeback.symbolic.codegen import Formula
@@ -49,6 +50,8 @@ def command(*, choice: Choice, code: Code, request: Request, style: str, output:
     ridgeback generate --equation "u'' + u + c*u**3 = 0"   omega0(A, c)
     """
     code.check_together()
+    if output.endswith("/"):
+        refuse_unused("a package", "style")
     oscillator = choice.oscillator()
     result, series = formula_of(oscillator, request, code)
     form = form_for(oscillator, series, result, code)

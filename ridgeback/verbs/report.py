@@ -17,6 +17,7 @@ from ridgeback.options.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
 from ridgeback.options.recording import Reading, Treatment, treatment_options
 from ridgeback.options.shared import format_option, unique
 from ridgeback.options.system import Choice, choosing
+from ridgeback.options.unused import refuse_unused
 
 if TYPE_CHECKING:
     from ridgeback.compare.motion.motion import Setting
@@ -130,6 +131,10 @@ def command(
     """
     if trials == 1:
         raise click.UsageError("--trials 1 shows no spread; use at least 2, or 0 for no noise study")
+    if output == STDOUT:
+        refuse_unused("-o -, which prints the page itself,", "style")
+    if not choice.made:
+        refuse_unused("a report without a SYSTEM", "about", "potential")
     motion = Motion(choice, initial, duration, rate)
     scope = Scope(order, orders, amplitudes, target, trials)
     shown = as_typed(context.find_root().obj or ("report",))

@@ -17,10 +17,28 @@ from ridgeback.options.arguments import GRID, ORDERS
 from ridgeback.options.shared import format_option, output_option
 from ridgeback.options.study import Run, studying, with_parameters
 from ridgeback.options.system import Choice
+from ridgeback.options.unused import refuse_unused
 
 if TYPE_CHECKING:
     from ridgeback.compare.study.results import Study
     from ridgeback.symbolic.systems.oscillator import Oscillator
+
+BESIDE_AN_EXAMPLE = (
+    *(
+        "system",
+        "equation",
+        "about",
+        "potential",
+        "settings",
+        "store",
+        "workers",
+        "scheduler",
+        "dry",
+        "against",
+        "plot",
+    ),
+    *("orders", "amplitudes", "method", "certified", "estimators", "trials", "seed", "checkpoint", "style"),
+)
 
 
 @click.command("study", cls=Verb, short_help="Error of expansions over order and amplitude.")
@@ -81,6 +99,7 @@ def command(
     ridgeback study five.toml --set orders=2,4,8,16,32 --store other.db
     """
     if example is not None:
+        refuse_unused("--example, which prints a study file,", *BESIDE_AN_EXAMPLE)
         from ridgeback.compare.studies.examples import example as text_of
 
         write_text(output, text_of(example))
@@ -90,16 +109,21 @@ def command(
             raise click.UsageError(
                 "a study file has orders, amplitudes and trials of its own; use --set to change them"
             )
+        refuse_unused("a study file", "method", "seed", "equation", "about", "potential")
         study_file_verb(str(choice.system), run, style=style, output=output)
         return
     choice, orders = with_parameters(choice, run), orders or (2, 4, 8, 16)
     if estimators:
+        refuse_unused("--estimators", "orders", "method", "about", "potential", "settings")
         if choice.made or amplitudes is not None or certified:
             raise click.UsageError("--estimators is a study of its own; leave out what belongs to expansions")
         estimators_verb(trials=trials, seed=seed, checkpoint=checkpoint, style=style, output=output)
         return
     if trials is not None or checkpoint is not None or style == "markdown":
         raise click.UsageError("--trials, --checkpoint and --format markdown belong to --estimators")
+    refuse_unused("a study of expansions", "seed")
+    if certified:
+        refuse_unused("--certified", "method")
     if amplitudes is None:
         raise click.UsageError("Missing option '--amplitudes': give a range such as 0.1:3.0:30, or a list with commas")
     if certified:

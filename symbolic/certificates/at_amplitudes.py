@@ -10,6 +10,7 @@ from typing import TypeAlias
 from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.numbers import exact_text
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.symbolic.arithmetic.balls import rational
 from ridgeback.symbolic.certificates.accuracy import check_belongs
@@ -46,7 +47,7 @@ class CertifiedFrequency:
             ball = ball_row(self.exact.omega, digits)
             row: dict[str, object] = {
                 "amplitude": float(self.exact.amplitude),
-                "amplitude_exact": str(self.exact.amplitude),
+                "amplitude_exact": exact_text(self.exact.amplitude),
                 "omega0": ball["coefficient"],
                 "radius": ball["radius"],
                 "certain_digits": ball["certain_digits"],
@@ -73,7 +74,7 @@ class Refused:
         name = "amplitude" if self.variable == "A" else self.variable
         return {
             name: float(self.amplitude),
-            f"{name}_exact": str(self.amplitude),
+            f"{name}_exact": exact_text(self.amplitude),
             "omega0": None,
             "radius": None,
             "refused": self.why,

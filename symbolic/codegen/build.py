@@ -160,12 +160,16 @@ def _scaled(part: fmpq, scale: Expr) -> fmpq | Expr:
 def slow_flow_form(flow: SlowFlow, request: CodeRequest) -> Form:
     """Build the functions omega0 and growth_rate of a multiple-scales slow flow; every symbol is an argument.
 
-    Raises InputError when an irrational natural frequency does not scale out.
+    Raises InputError when an irrational natural frequency does not scale out, and for a motion, which it has none of.
     """
     if flow.constants or (flow.scale.is_number and any(name in UNITS for name in flow.names)):
         raise InputError(
             f"'{flow.system}': the natural frequency {flow.scale} does not scale out of the coefficients; give the "
             "parameters in it numbers whose root is rational, or the other coefficients a name each"
+        )
+    if request.motion:
+        raise InputError(
+            f"'{flow.system}': motion writes u(t) of a series; a slow flow gives amplitude and phase, leave motion out"
         )
     small = len(flow.weights)
     called = argument_names(name for name in flow.names if name not in UNITS)

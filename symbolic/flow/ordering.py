@@ -138,6 +138,22 @@ def check_weight(weight: object, name: str = "") -> int:
     return weight
 
 
+def check_both(oscillator: Oscillator, weight: int | None, weights: Mapping[str, int] | None) -> None:
+    """Raise InputError where weights by name leave no parameter that the weight of all others could be of.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> check_both(find("damped-pendulum"), 3, {"mu": 2})
+    Traceback (most recent call last):
+        ...
+    ridgeback.common.errors.InputError: weight 3 is left without a parameter: weights names mu; leave one of them out
+    """
+    small = small_parameters(oscillator)
+    if weight is not None and weights and set(small) <= set(weights):
+        raise InputError(
+            f"weight {weight} is left without a parameter: weights names {', '.join(weights)}; leave one of them out"
+        )
+
+
 def _weights(oscillator: Oscillator, weight: int, given: dict[str, int]) -> dict[str, int]:
     for name, value in given.items():
         check_weight(value, name)

@@ -78,6 +78,7 @@ CASES: tuple[Case, ...] = (
     refused("study damped-pendulum --amplitudes 4", "amplitude 4 is at or", "use amplitudes below"),
     refused("study pendulum --amplitudes 1 --set k=0", "pendulum: there is no linear", "add a linear"),
     refused("study --amplitudes 1", "name a SYSTEM (ridgeback systems"),
+    Case("study duffing --amplitudes 1e300 --orders 2", 3, ("1 of 1 cells have no reference",)),
     refused("report nosuch", "'nosuch'", "for instance pendulum"),
     unusable("report -o missing/out.html", "'missing'", "check the path"),
     unusable("report -o .", "'.'", "check the path"),

@@ -97,7 +97,7 @@ CASES: tuple[Case, ...] = (
     refused("estimate decay.csv --monte-carlo 2 --snr ''", "'' is not a finite", "write a decimal"),
     refused("estimate decay.csv --seed -1", "-1 is not in the"),
     refused("estimate decay.csv --workers 0", "0 is not in the"),
-    refused("estimate decay.csv --workers 3", "--workers belongs to --monte-carlo", "leave it out"),
+    refused("estimate decay.csv --workers 3", "without --monte-carlo has no use for --workers", "leave out"),
     refused("estimate decay.csv --format yaml", "'yaml'", "is not one of"),
     refused("estimate decay.csv -o decay.csv", "'decay.csv'", "give each a"),
     refused("estimate decay.csv -o linked.csv", "'linked.csv'", "give each a"),

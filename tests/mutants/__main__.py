@@ -72,10 +72,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--skip", type=int, default=0, help="leave out so many of those drawn, tried elsewhere")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--within", default="", help="only files whose path begins so, e.g. numeric/estimators")
     given = parser.parse_args(arguments)
     chosen, places_in_all = drawn(given.count, given.seed, given.within)
+    chosen = chosen[given.skip :]
     choice = choice_in(ROOT)
     with tempfile.TemporaryDirectory(prefix="ridgeback-mutants-") as name:
         trees: SimpleQueue[Path] = SimpleQueue()

@@ -18,6 +18,8 @@ from ridgeback.compare.identification.prediction import predict
 from ridgeback.compare.identification.preparation import usable
 from ridgeback.compare.identification.ranking import effective_number
 from ridgeback.compare.identification.results import Identification
+from ridgeback.compare.noise.truth import recording_truth
+from ridgeback.compare.recording.recording import compare_recording
 from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
 from ridgeback.numeric.motion.dynamics import duffing, helmholtz_duffing, pendulum, van_der_pol
 from ridgeback.numeric.motion.trajectory import integrate
@@ -251,3 +253,15 @@ def test_trials_are_seeded_and_noise_has_its_level() -> None:
     added = noisy(first, 40.0, np.random.default_rng(1)).values - first.u
     assert added.std() == pytest.approx(0.01 / math.sqrt(2), rel=0.15)
     assert set(DRAWS) < set(NAMES)
+
+
+def test_noise_is_called_noise() -> None:
+    time = np.arange(800) / 20.0
+    noise = Recording(time, np.random.default_rng(3).normal(size=800), 20.0, "u", "mm", "noise.csv", "")
+    for reading in (identify, recording_truth_of, compare_recording):
+        with pytest.raises(InputError, match=r"no oscillation stands out of the noise: .* with probability"):
+            reading(noise)
+
+
+def recording_truth_of(recording: Recording) -> object:
+    return recording_truth(recording.values, recording.rate)

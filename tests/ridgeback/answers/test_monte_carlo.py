@@ -68,7 +68,7 @@ def test_a_system_takes_the_place_of_a_file(capsys: pytest.CaptureFixture[str]) 
         (["--monte-carlo", "5", "--method", "pseudo-wigner,guess"], "method 'guess' is unknown"),
         (["--monte-carlo", "5", "--backbone"], "leave out what else is asked"),
         (["--monte-carlo", "99999", *QUICK], "over the budget"),
-        (["run.csv", "--workers", "2"], "--workers belongs to --monte-carlo"),
+        (["run.csv", "--workers", "2"], "an estimate without --monte-carlo has no use for --workers"),
         ([], "name the FILE"),
     ],
 )

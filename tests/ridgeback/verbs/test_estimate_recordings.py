@@ -193,7 +193,7 @@ def test_settings_reach_the_estimator(ridgeback: Ridgeback, tmp_path: Path) -> N
         (("--monte-carlo", "5", "--window", "hann", "--single"), "no use for --window, --single"),
         (("--resample", "-3"), "'-3' is not above 0"),
         (("--detrend", "cubic"), "'cubic' is not one of"),
-        (("--method", "hilbert", "--single"), "has no band-limited or single-precision form"),
+        (("--method", "hilbert", "--single"), "--method hilbert has no use for --single"),
         (("--run-column", "shot"), "no column shot"),
         (("--order", "5"), "'5' is not one of"),
     ],
