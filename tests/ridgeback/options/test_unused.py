@@ -30,6 +30,8 @@ MODES: dict[str, tuple[str, ...]] = {
     "generate pendulum --order 2 --resummed pade": ("--growth 0", "--terms 2", "--motion", "--gappa"),
     "generate pendulum --order 2 -o package/": ("--format json",),
     "study --estimators --trials 2": (*OF_SYSTEMS, "--orders 2", "--method energy-integral"),
+    "study --example five-oscillators": ("--orders 2", "--set k=2", "--seed 3", "--format json", "--store a.db"),
+    "study file.toml": ("--method energy-integral", "--seed 3", "--about 0", "--potential u"),
     "study pendulum --orders 2 --amplitudes 1": ("--seed 3", "--trials 3", "--checkpoint state.json"),
     "study pendulum --orders 2 --amplitudes 1 --certified": ("--method energy-integral", "--seed 3"),
     "report -o page.html": ("--about 0", "--potential u**2/2", "--column u", "--predict-from 3", "--span 0,1"),
@@ -57,6 +59,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     time = np.arange(400) / 20.0
     rows = zip(time, np.exp(-0.05 * time) * np.cos(6.0 * time), strict=True)
     (tmp_path / "run.csv").write_text("t,u\n" + "".join(f"{t!s},{u!s}\n" for t, u in rows))
+    (tmp_path / "file.toml").write_text("[study]\n")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
