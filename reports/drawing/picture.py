@@ -45,7 +45,7 @@ def picture(drawn: Callable[[], Canvas], kind: str) -> bytes:
 def show_plainly(canvas: Canvas) -> None:
     """Write characters of names that act, or that no file of the kind can hold, as their escapes."""
     for text in canvas.figure.findobj(Text):
-        text.set_text(visible(text.get_text()))  # type: ignore[attr-defined]
+        text.set_text(visible(text.get_text()))
 
 
 def without_classes(data: bytes) -> bytes:
