@@ -17,14 +17,7 @@ OF_SYSTEMS = ("--about 0", "--potential u**2/2", "--set k=2")
 MODES: dict[str, tuple[str, ...]] = {
     "derive damped-duffing --order 3 --weights mu=1": ("--weight 3", "--growth 1"),
     "derive pendulum --order 4 --resummed pade": ("--growth 0", "--until 3"),
-    "derive --equation \"u'' + u**3 = 0\" --at 1": (
-        "--order 3",
-        "--method lindstedt",
-        "--weight 3",
-        "--budget 1h",
-        "--workers 2",
-        "--verify",
-    ),
+    "derive --equation \"u'' + u**3 = 0\" --at 1": ("--weight 3", "--weights mu=1"),
     "generate pendulum --fit minimax --up-to 1 --degree 2": (*DERIVING, "--budget 1h", "--growth 1", "--terms 2"),
     "generate pendulum --resummed agm --up-to 1": (*DERIVING, "--growth 0", "--degrees 1/1", "--terms 2"),
     "generate pendulum --order 2 --resummed pade": ("--growth 0", "--terms 2", "--motion", "--gappa"),
