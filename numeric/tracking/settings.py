@@ -53,6 +53,14 @@ def refuse_unused(method: str, given: Sequence[str]) -> None:
     ridgeback.common.errors.InputError: method 'hilbert' has no use for order, which polynomial-wigner has; leave it out
     """
     for name in unused(method, given):
-        users = USED_BY.get(name)
-        others = f", which {', '.join(users)} {'has' if len(users) == 1 else 'have'}" if users else ""
-        raise InputError(f"method {method!r} has no use for {name}{others}; leave it out")
+        raise InputError(f"method {method!r} has no use for {name}{whose(name)}; leave it out")
+
+
+def whose(name: str) -> str:
+    """Who does make use of a setting, as part of a sentence; nothing where all but one do.
+
+    >>> whose("order"), whose("lag_seconds")
+    (', which polynomial-wigner has', '')
+    """
+    users = USED_BY.get(name, ())
+    return f", which {', '.join(users)} {'has' if len(users) == 1 else 'have'}" if users else ""

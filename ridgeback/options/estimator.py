@@ -56,13 +56,14 @@ class Estimator:
         >>> Estimator("hilbert", None, None, False, order=6).check()
         Traceback (most recent call last):
             ...
-        click.exceptions.UsageError: --method hilbert has no use for --order; leave out
+        click.exceptions.UsageError: --method hilbert has no use for --order, which polynomial-wigner has; leave out
         """
-        from ridgeback.numeric.tracking.settings import unused
+        from ridgeback.numeric.tracking.settings import unused, whose
 
         idle = unused(self.method, list(self.given()))
         if idle:
-            raise click.UsageError(f"--method {self.method} has no use for {', '.join(map(spelled, idle))}; leave out")
+            named = ", ".join(spelled(name) + whose(name) for name in idle)
+            raise click.UsageError(f"--method {self.method} has no use for {named}; leave out")
 
     def given_besides(self, *names: str) -> list[str]:
         """Options that were given although only those of these settings have a meaning.

@@ -67,11 +67,13 @@ CASES: tuple[Case, ...] = (
     refused("estimate decay.csv --harmonics 100", "100 is not in the"),
     refused("estimate decay.csv --order 5", "'5'", "is not one of"),
     refused(
-        "estimate decay.csv --single --method hilbert", "'hilbert'", "wigner, pseudo-wigner, smoothed-pseudo-wigner"
+        "estimate decay.csv --single --method hilbert",
+        "--method hilbert",
+        "wigner, pseudo-wigner, smoothed-pseudo-wigner",
     ),
     refused(
         "estimate decay.csv --band-limited --method hilbert",
-        "'hilbert'",
+        "--method hilbert",
         "wigner, pseudo-wigner, smoothed-pseudo-wigner",
     ),
     refused("estimate decay.csv --free k", "--system, --equation, --set and --free"),

@@ -66,7 +66,7 @@ def test_a_system_takes_the_place_of_a_file(capsys: pytest.CaptureFixture[str]) 
         (["--monte-carlo", "1"], "1 trials are not between 2"),
         (["--monte-carlo", "5", "--snr", "loud"], "'loud' is not a finite number"),
         (["--monte-carlo", "5", "--method", "pseudo-wigner,guess"], "method 'guess' is unknown"),
-        (["--monte-carlo", "5", "--backbone"], "leave out what else is asked"),
+        (["--monte-carlo", "5", "--backbone"], "has no use for --backbone"),
         (["--monte-carlo", "99999", *QUICK], "over the budget"),
         (["run.csv", "--workers", "2"], "an estimate without --monte-carlo has no use for --workers"),
         ([], "name the FILE"),

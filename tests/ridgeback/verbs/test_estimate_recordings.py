@@ -95,7 +95,7 @@ def test_runs_in_files_and_channels_by_name(ridgeback: Ridgeback, tmp_path: Path
 
 def test_units_are_not_mixed(ridgeback: Ridgeback, tmp_path: Path) -> None:
     path = written(tmp_path / "a.csv", **{"t": T, "u [mm]": decay(), "w [V]": decay()})
-    done = ridgeback("estimate", path, "--column", "all", "--combine", "all", *QUICK)
+    done = ridgeback("estimate", path, "--column", "all", "--backbone", "--combine", "all", *QUICK)
     assert done.code == 2
     assert "backbones in V and mm cannot be combined" in done.err
 
