@@ -74,14 +74,18 @@ def _contender(motion: Motion, track: Track, name: str, label: str, seconds: flo
         time_s_per_track=seconds,
         time_ns_per_value=seconds / motion.time.size * 1e9,
     )
+    return Contender(row, along(track, motion.time))
+
+
+def along(track: Track, time: Array) -> Array:
+    """The valid part of a track at other times, NaN where its nearest valid samples lie too far apart."""
     keep = track.valid & np.isfinite(track.omega)
-    omega = np.full(motion.time.size, np.nan)
-    if keep.sum() > 1:
-        t, w = track.time[keep], track.omega[keep]
-        step = 2.5 * float(np.median(np.diff(track.time)))
-        covered = _within_reach(motion.time, t, step)
-        omega = np.where(covered, PchipInterpolator(t, w, extrapolate=False)(motion.time), np.nan)
-    return Contender(row, omega)
+    if keep.sum() < 2:
+        return np.full(time.size, np.nan)
+    t, w = track.time[keep], track.omega[keep]
+    step = 2.5 * float(np.median(np.diff(track.time)))
+    covered = _within_reach(time, t, step)
+    return np.where(covered, PchipInterpolator(t, w, extrapolate=False)(time), np.nan)
 
 
 def _within_reach(time: Array, known: Array, step: float) -> Array:

@@ -123,8 +123,8 @@ def _limit_cycle_curves(motion: Motion, derived: Derived, orders: Sequence[int])
     yield _linear(motion)
 
 
-def slow_flow_curve(motion: Motion, flow: SlowFlow) -> Curve:
-    """Multiple scales: a(t) integrated from the slow flow, then phi'(a, mu).
+def slow_flow_amplitude(motion: Motion, flow: SlowFlow) -> Array:
+    """Multiple scales: a(t) integrated from the slow flow, on the motion's samples as far as the flow reaches.
 
     The start is the averaged motion's own: the first harmonic of the undamped orbit with its action.  Without a
     potential it is the amplitude at which the slow flow itself passes the initial state.
@@ -143,7 +143,13 @@ def slow_flow_curve(motion: Motion, flow: SlowFlow) -> Curve:
         rtol=1e-10,
         atol=1e-12 * start,
     )
-    omega = np.asarray(flow.frequency_at(solution.y[0], *small), dtype=float)
+    return np.asarray(solution.y[0])
+
+
+def slow_flow_curve(motion: Motion, flow: SlowFlow) -> Curve:
+    """Multiple scales: phi'(a, mu) along a(t); raises InputError as ``slow_flow_amplitude`` does."""
+    small = [float(value) for value in flow.values(motion.setting.oscillator.parameters)]
+    omega = np.asarray(flow.frequency_at(slow_flow_amplitude(motion, flow), *small), dtype=float)
     return Curve(
         f"multiple-scales-{flow.order}",
         f"multiple scales, order {flow.order}",

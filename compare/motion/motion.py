@@ -5,6 +5,7 @@ Everything here is computed once and shared by models, estimates, budget and fin
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -219,7 +220,7 @@ def exact_omega(dynamics: Dynamics, peaks: Array) -> Array:
     return np.asarray(exact_frequency(dynamics, peaks).omega)
 
 
-def integrate_motion(chosen: Setting, *, digits: int = DIGITS) -> Motion:
+def integrate_motion(chosen: Setting, *, digits: int | None = DIGITS) -> Motion:
     """Integrate by DOP853 and by Taylor series, and compute what a comparison along the motion shares.
 
     Parameters
@@ -227,7 +228,8 @@ def integrate_motion(chosen: Setting, *, digits: int = DIGITS) -> Motion:
     chosen
         What to integrate.
     digits
-        Decimal digits of the Taylor solution, which the other is checked against.
+        Decimal digits of the Taylor solution, which the other is checked against; None leaves it out, and what the two
+        differ by is then not a number.
 
     Raises
     ------
@@ -240,7 +242,9 @@ def integrate_motion(chosen: Setting, *, digits: int = DIGITS) -> Motion:
     duration, rate = chosen.duration, chosen.rate
     trajectory = integrate(dynamics, chosen.initial, duration=duration, rate=rate)
     _check_cycles(chosen, trajectory)
-    precise = integrate_taylor(dynamics, chosen.initial, duration=duration, rate=rate / CHECKED, digits=digits)
+    precise = trajectory
+    if digits is not None:
+        precise = integrate_taylor(dynamics, chosen.initial, duration=duration, rate=rate / CHECKED, digits=digits)
     averaged = None
     if dynamics.restoring is not None:
         averaged = averaged_decay(dynamics, chosen.initial, trajectory.time)
@@ -249,7 +253,7 @@ def integrate_motion(chosen: Setting, *, digits: int = DIGITS) -> Motion:
         dynamics=dynamics,
         trajectory=trajectory,
         precise=precise,
-        disagreement=_disagreement(trajectory, precise),
+        disagreement=math.nan if digits is None else _disagreement(trajectory, precise),
         cycle=cycle_frequency(trajectory, dynamics=dynamics),
         averaged=averaged,
         energy_peak=_energy_peak(dynamics, trajectory),

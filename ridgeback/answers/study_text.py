@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Iterable, Iterator
+import math
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ from ridgeback.common.csv_text import cell
 from ridgeback.common.visible import no_formula
 from ridgeback.console.output import plain
 from ridgeback.console.tables import aligned
+from ridgeback.console.tables import readable as readable_value
 
 if TYPE_CHECKING:
     from ridgeback.compare.studies.answer import Answer
@@ -21,6 +23,9 @@ if TYPE_CHECKING:
 SHOWN_ROWS = 40
 """Rows of a table for reading; the others are counted."""
 SHOWN_FAILURES = 8
+SHOWN_SENTENCES = 24
+LEADING = ("oscillator", "parameters", "method", "amplitude", "duration", "snr_db", "tolerance")
+"""Columns that say what a row is about."""
 AT_ONCE = 2000
 """Rows that are turned into text at once."""
 
@@ -87,13 +92,32 @@ def readable(found: StudyResult) -> str:
 
 
 def answer_lines(answer: Answer) -> Iterator[str]:
-    """One answer: its title, its table, what follows from it."""
+    """One answer: its title, what all rows share, its table, what follows from it."""
     yield f"{answer.question}: {answer.title}"
+    same = shared(answer)
+    if same:
+        yield ", ".join(f"{name} {same[name]}" for name in same)
     if answer.table:
-        yield aligned([column.name for column in answer.columns], answer.table[:SHOWN_ROWS])
+        columns = [column.name for column in answer.columns if column.name not in same]
+        yield aligned(columns, [named_infinities(row) for row in answer.table[:SHOWN_ROWS]])
     if len(answer.table) > SHOWN_ROWS:
         yield f"... {len(answer.table) - SHOWN_ROWS} more rows; --format json has them all"
-    yield from answer.sentences
+    yield from answer.sentences[:SHOWN_SENTENCES]
+    if len(answer.sentences) > SHOWN_SENTENCES:
+        yield f"... {len(answer.sentences) - SHOWN_SENTENCES} more sentences; --format json has them all"
+
+
+def shared(answer: Answer) -> dict[str, str]:
+    """The leading columns that have one value in all rows, with that value."""
+    if len(answer.table) < 2:
+        return {}
+    values = {name: {row.get(name) for row in answer.table} for name in LEADING if name in answer.table[0]}
+    return {name: readable_value(found.pop()) for name, found in values.items() if len(found) == 1}
+
+
+def named_infinities(row: Mapping[str, Any]) -> dict[str, Any]:
+    """A row for reading, its infinite numbers as words."""
+    return {name: "inf" if value == math.inf else value for name, value in row.items()}
 
 
 def batches(rows: Iterable[Any], size: int) -> Iterator[list[Any]]:

@@ -9,7 +9,7 @@ from importlib.resources import files
 
 from ridgeback.common.errors import InputError
 
-NAMES = ("five-oscillators",)
+NAMES = ("paper", "five-oscillators", "noise", "crossing")
 
 
 def example(name: str) -> str:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.studies.measures import backbone
+from ridgeback.compare.studies.measures import backbone, decay
 from ridgeback.compare.studies.tasks import Measure
 
 QUESTIONS: Mapping[str, Measure] = {
     "error": backbone.MEASURE,
     "order-needed": backbone.MEASURE,
     "observed-order": backbone.MEASURE,
+    "decay-error": decay.MEASURE,
+    "crossings": decay.MEASURE,
+    "best-estimator": decay.MEASURE,
 }
 """The cells that a question is answered from."""
 
@@ -24,7 +27,7 @@ def measure_of(ask: Sequence[str]) -> Measure:
     >>> measure_of(("errors",))
     Traceback (most recent call last):
         ...
-    ridgeback.common.errors.InputError: no question 'errors'; there are error, order-needed, observed-order
+    ridgeback.common.errors.InputError: no question 'errors'; there are error, order-needed, observed-order, ...
     """
     for question in ask:
         if question not in QUESTIONS:

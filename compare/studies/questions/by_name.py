@@ -6,7 +6,14 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions import error, observed_order, order_needed
+from ridgeback.compare.studies.questions import (
+    best_estimator,
+    crossings,
+    decay_error,
+    error,
+    observed_order,
+    order_needed,
+)
 from ridgeback.compare.studies.tasks import Finished
 
 Answering = Callable[[Plan, Iterable[Finished]], Answer]
@@ -14,6 +21,9 @@ ANSWERS: Mapping[str, Answering] = {
     "error": error.answer,
     "order-needed": order_needed.answer,
     "observed-order": observed_order.answer,
+    "decay-error": decay_error.answer,
+    "crossings": crossings.answer,
+    "best-estimator": best_estimator.answer,
 }
 
 

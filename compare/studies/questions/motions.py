@@ -1,0 +1,131 @@
+"""Finished cells along motions: trials pooled, so that there is one row for each case, noise, method and order."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any
+
+from ridgeback.compare.noise.results import finite, mean_and_deviation
+from ridgeback.compare.studies.measures.decay import DecayTask
+from ridgeback.compare.studies.measures.predicted import PREDICTIONS
+from ridgeback.compare.studies.questions.grids import WHO, parameters_text
+from ridgeback.compare.studies.systems import System
+from ridgeback.compare.studies.tasks import Column, Finished
+
+LEAST = 0.75
+"""Share of the interior that a method must cover to be ranked."""
+WHERE = (
+    *WHO[:2],
+    Column("amplitude", "unit of the unknown", "initial displacement, at rest"),
+    Column("duration", "time unit", "length of the record"),
+    Column("snr_db", "dB", "variance of the signal over that of the noise; inf is none"),
+)
+
+
+@dataclass(frozen=True)
+class Pooled:
+    """One method on one case at one ratio, over all its trials; ``rms`` is None where no trial gave a value."""
+
+    system: System
+    amplitude: float
+    duration: float
+    snr_db: float
+    method: str
+    order: int | None
+    trials: int
+    failures: int
+    rms: float | None
+    rms_sd: float | None
+    """One standard deviation of ``rms``; None for a single trial."""
+    mean: float | None
+    largest: float | None
+    coverage: float
+    """The least of all trials."""
+    growth_rms: float | None
+    floor: float
+
+    @property
+    def is_prediction(self) -> bool:
+        """Whether it comes from theory."""
+        return self.method in PREDICTIONS
+
+    @property
+    def ranked(self) -> bool:
+        """Whether every trial gave enough of the interior to be ranked."""
+        return self.rms is not None and not self.failures and self.coverage >= LEAST
+
+    def where(self) -> dict[str, Any]:
+        """The first columns of a row about it."""
+        return {
+            "oscillator": self.system.name,
+            "parameters": parameters_text(self.system),
+            "amplitude": self.amplitude,
+            "duration": self.duration,
+            "snr_db": self.snr_db,
+        }
+
+
+def pooled(blocks: Iterable[Finished]) -> Iterator[Pooled]:
+    """Rows in the order of the plan."""
+    for _, group in groupby(blocks, key=case_of):
+        found: dict[tuple[Any, ...], list[Any]] = {}
+        first = None
+        for block in group:
+            first = task_of(block) if first is None else first
+            for (method, _, _, snr, order, _), outcome in block.rows():
+                found.setdefault((method, snr, order), []).append(outcome)
+        if first is not None:
+            for (method, snr, order), outcomes in found.items():
+                yield _pooled(first, str(method), float(snr), order, outcomes)
+
+
+def cases(blocks: Iterable[Finished]) -> Iterator[list[Pooled]]:
+    """The rows of each case together."""
+    for _, group in groupby(pooled(blocks), key=lambda row: (row.system, row.amplitude, row.duration)):
+        yield list(group)
+
+
+def task_of(block: Finished) -> DecayTask:
+    """The task of a block, which is along a motion."""
+    task = block.task
+    if not isinstance(task, DecayTask):
+        raise TypeError(f"{type(task).__name__} is no task along a motion")
+    return task
+
+
+def case_of(block: Finished) -> tuple[System, float, float]:
+    """What is sampled."""
+    task = task_of(block)
+    return task.system, task.amplitude, task.duration
+
+
+def _pooled(task: DecayTask, method: str, snr: float, order: int | None, outcomes: list[Any]) -> Pooled:
+    given = [outcome for outcome in outcomes if isinstance(outcome, tuple)]
+    rms = deviation = mean = largest = growth = None
+    if given:
+        square, square_sd = mean_and_deviation([values[0] ** 2 for values in given])
+        rms = math.sqrt(square)
+        deviation = finite(0.5 * square_sd / rms) if rms > 0 else 0.0
+        mean = math.fsum(values[1] for values in given) / len(given)
+        largest = max(values[2] for values in given)
+        growth = given[0][4]
+    return Pooled(
+        task.system,
+        task.amplitude,
+        task.duration,
+        snr,
+        method,
+        order,
+        len(outcomes),
+        len(outcomes) - len(given),
+        rms,
+        deviation,
+        mean,
+        largest,
+        min((values[3] for values in given), default=0.0),
+        growth,
+        max((values[5] for values in given), default=math.nan),
+    )
