@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from array import array
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -108,17 +110,19 @@ class StudyResult:
     def to_xarray(self) -> Any:
         """The cells as an xarray Dataset over one dimension ``cell``, with units and meanings."""
         library, numpy = optional("xarray", "to_xarray"), optional("numpy", "to_xarray")
-        lists: dict[str, list[Scalar]] = {column.name: [] for column in columns_of(self.plan)}
+        columns = columns_of(self.plan)
+        values: dict[str, Any] = {c.name: [] if c.kind == "text" else array("d") for c in columns}
         for row in self.rows():
             for name, value in row.items():
-                lists[name].append(value)
+                values[name].append(math.nan if value is None else value)
+        kinds = {"text": object, "number": float}
         data = {
             column.name: library.Variable(
                 ("cell",),
-                numpy.array([float("nan") if v is None else v for v in lists[column.name]]),
+                numpy.array(values.pop(column.name), dtype=kinds[column.kind]),
                 {"units": column.unit, "long_name": column.meaning},
             )
-            for column in columns_of(self.plan)
+            for column in columns
         }
         return library.Dataset(data, attrs={name: str(value) for name, value in self.about().items()})
 

@@ -28,6 +28,11 @@ class Column:
     unit: str
     meaning: str
 
+    @property
+    def kind(self) -> str:
+        """``text`` or ``number``; what counts is a number, too."""
+        return "number" if self.unit else "text"
+
 
 class Task(Protocol):
     """One block of cells: a frozen dataclass of text and numbers, cheap to send anywhere."""

@@ -15,7 +15,7 @@ from ridgeback.reports.drawing.canvas import Canvas
 from ridgeback.reports.drawing.theme import DRAWING, plain_colours, sentinel
 
 RESOLUTION = 160.0
-_NO_DATES = {
+NO_DATES = {
     "svg": dict.fromkeys(("Creator", "Date", "Format", "Type")),
     "pdf": {"Creator": None, "Producer": None, "CreationDate": None},
     "png": {"Software": None},
@@ -37,7 +37,7 @@ def picture(drawn: Callable[[], Canvas], kind: str) -> bytes:
         canvas.figure.patch.set_facecolor(sentinel("bg"))
         stream = io.BytesIO()
         dpi = RESOLUTION if kind == "png" else 72.0
-        canvas.figure.savefig(stream, format=kind, metadata=_NO_DATES[kind], dpi=dpi)
+        canvas.figure.savefig(stream, format=kind, metadata=NO_DATES[kind], dpi=dpi)
     data = stream.getvalue()
     return without_classes(data) if kind == "svg" else data
 

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 from ridgeback.common.csv_text import cell
 from ridgeback.common.visible import no_formula
-from ridgeback.console.output import plain
-from ridgeback.console.tables import aligned
+from ridgeback.console.output import json_text, plain
+from ridgeback.console.tables import aligned, csv_text
 from ridgeback.console.tables import readable as readable_value
 
 if TYPE_CHECKING:
+    from ridgeback.compare.studies.against import Comparison
     from ridgeback.compare.studies.answer import Answer
     from ridgeback.compare.studies.result import StudyResult
 
@@ -118,6 +119,22 @@ def shared(answer: Answer) -> dict[str, str]:
 def named_infinities(row: Mapping[str, Any]) -> dict[str, Any]:
     """A row for reading, its infinite numbers as words."""
     return {name: "inf" if value == math.inf else value for name, value in row.items()}
+
+
+def comparison_text(found: Comparison, style: str) -> str:
+    """What differs between two stores."""
+    if style == "json":
+        return json_text(found.to_dict())
+    columns = ("cell", "column", "before", "after", "relative")
+    rows = [vars(change) for change in found.changes]
+    if style == "csv":
+        return csv_text(columns, rows)
+    counts = f"{found.equal} cells are equal to the last digit, {found.changed} differ"
+    lone = f"{found.only_first} are in the first store only, {found.only_second} in the second only"
+    lines = [*found.settings, f"{counts}; {lone}"]
+    if rows:
+        lines += ["", aligned(columns, rows)]
+    return "\n".join(lines) + "\n"
 
 
 def batches(rows: Iterable[Any], size: int) -> Iterator[list[Any]]:

@@ -9,6 +9,7 @@ import click
 
 from ridgeback.answers.estimator_table import estimator_options, estimators_verb
 from ridgeback.answers.study_file import is_study_file, study_file_verb
+from ridgeback.answers.study_tables import FORMATS as TABLES
 from ridgeback.console.failure import PartialError
 from ridgeback.console.output import json_text, write_text
 from ridgeback.console.tables import Row, aligned, csv_text
@@ -66,7 +67,7 @@ BESIDE_AN_EXAMPLE = (
     help="Prove every error in ball arithmetic, and put the resummations of the series beside it.",
 )
 @estimator_options
-@format_option("text", "json", "csv", "markdown", default="text")
+@format_option("text", "json", "csv", "markdown", "parquet", "netcdf", "zarr", default="text")
 @output_option
 def command(
     *,
@@ -113,6 +114,8 @@ def command(
         study_file_verb(str(choice.system), run, style=style, output=output)
         return
     choice, orders = with_parameters(choice, run), orders or (2, 4, 8, 16)
+    if style in TABLES:
+        raise click.UsageError(f"--format {style} belongs to a study file; ridgeback study --example paper prints one")
     if estimators:
         refuse_unused("--estimators", "orders", "method", "about", "potential", "settings")
         if choice.made or amplitudes is not None or certified:

@@ -1,8 +1,8 @@
 """``crossings``: where an expansion and an estimate change places, along each axis of the study.
 
 The ratio ln(e_expansion / e_estimate) of their errors is followed along one axis (order, amplitude, a parameter, the
-noise, the length) while all others stand still.  Where it changes its sign between two values, the crossing lies between
-them; it is interpolated linearly in the ratio.
+noise, the length) while all others stand still.  Where it changes its sign between two values, the crossing lies
+between them; it is interpolated linearly in the ratio.
 """
 
 from __future__ import annotations

@@ -62,12 +62,12 @@ def by_case(rows: Sequence[Pooled]) -> dict[tuple[Any, ...], list[Pooled]]:
 
 
 def sentences(rows: Sequence[Pooled]) -> Iterator[str]:
-    """The best prediction and the best estimate without noise of each case."""
+    """The best prediction, and the best estimate in the least noise, of each case."""
     for (system, amplitude, _), mine in by_case(rows).items():
         head = f"{system.name} ({parameters_text(system)}) from {amplitude:.6g}"
-        clean = [row for row in mine if row.ranked and row.snr_db == float("inf")]
+        fit = [row for row in mine if row.ranked]
         best = [
-            min((row for row in clean if row.is_prediction is kind), key=lambda row: row.rms or 0.0, default=None)
+            min((row for row in fit if row.is_prediction is kind), key=lambda row: (-row.snr_db, row.rms), default=None)
             for kind in (True, False)
         ]
         said = [f"{named(row)} errs {relative(row.rms)}" for row in best if row is not None]

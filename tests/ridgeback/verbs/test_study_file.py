@@ -103,3 +103,55 @@ def test_an_example_is_printed_and_runs_through_its_checks(ridgeback: Ridgeback)
     assert EXAMPLES == NAMES
     for name in NAMES:
         assert ridgeback("study", "--example", name).out.startswith("# ")
+
+
+@pytest.mark.parametrize(("style", "library"), [("parquet", "pyarrow"), ("netcdf", "h5netcdf"), ("zarr", "zarr")])
+def test_tables_of_other_libraries_hold_every_cell(
+    ridgeback: Ridgeback, study: str, tmp_path: Path, style: str, library: str
+) -> None:
+    pytest.importorskip(library)
+    pandas, xarray = pytest.importorskip("pandas"), pytest.importorskip("xarray")
+    output = tmp_path / f"cells.{style}"
+    assert ridgeback("study", study, "--format", style, "-o", str(output)).code == 3
+    whole = json.loads(ridgeback("study", study, "--format", "json").out)
+    expected = [row["relative_error"] for row in whole["cells"]]
+    if style == "parquet":
+        found = pandas.read_parquet(output).relative_error.tolist()
+    else:
+        with xarray.open_dataset(output, engine="h5netcdf" if style == "netcdf" else "zarr") as data:
+            found = data.relative_error.values.tolist()
+            assert data.omega.attrs["units"] == "rad per time unit"
+            assert data.attrs["program"].startswith("ridgeback")
+    assert [None if value != value else value for value in found] == expected  # noqa: PLR0124 - NaN
+    assert ridgeback("study", study, "--format", style).code == 2
+
+
+def test_two_stores_are_held_against_each_other(ridgeback: Ridgeback, study: str, tmp_path: Path) -> None:
+    other = str(tmp_path / "other.db")
+    ridgeback("study", study)
+    ridgeback("study", study, "--set", "oscillator.2.parameters.eps=-1/2", "--store", other)
+    text = ridgeback("study", study, "--against", other).out
+    assert "6 cells are equal to the last digit, 0 differ; 6 are in the first store only, 6 in the second only" in text
+    assert "subjects.2.system.parameters was" in text
+    ridgeback("study", study, "--set", "orders=2,4,6", "--store", str(tmp_path / "more.db"))
+    found = json.loads(ridgeback("study", other, "--against", str(tmp_path / "more.db"), "--format", "json").out)
+    assert (found["equal"], found["only_first"], found["only_second"]) == (6, 6, 12)
+    refused = ridgeback("study", study, "--against", str(tmp_path / "nowhere.db"))
+    assert refused.code == 2
+    assert "is not there" in refused.err
+
+
+def test_a_dry_run_counts_and_computes_nothing(ridgeback: Ridgeback, study: str) -> None:
+    done = ridgeback("study", study, "--dry-run", "--workers", "2")
+    assert done.code == 0
+    assert done.out.startswith("12 cells in 2 blocks\n")
+    assert not Path(study).with_suffix(".db").exists()
+
+
+def test_answers_are_drawn(ridgeback: Ridgeback, study: str, tmp_path: Path) -> None:
+    picture = tmp_path / "answers.svg"
+    assert ridgeback("study", study, "--plot", str(picture)).code == 3
+    first = picture.read_bytes()
+    assert first.count(b'<g id="axes_') == 2
+    ridgeback("study", study, "--plot", str(picture))
+    assert picture.read_bytes() == first

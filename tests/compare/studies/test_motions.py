@@ -1,0 +1,135 @@
+"""Studies along motions: the paper's decay by order, noise that does not depend on who computes, crossings."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ridgeback.compare.studies.file.reading import plan_of
+from ridgeback.compare.studies.measures.decay import DecayTask
+from ridgeback.compare.studies.measures.estimated import noisy
+from ridgeback.compare.studies.plan import Plan
+from ridgeback.compare.studies.questions import best_estimator, crossings, decay_error
+from ridgeback.compare.studies.questions.crossings import Duel, axes_of
+from ridgeback.compare.studies.questions.crossings import crossings as crossings_along
+from ridgeback.compare.studies.running import tasks_of
+from ridgeback.compare.studies.tasks import Finished, run
+
+PAPER = """
+[study]
+ask = ["decay-error", "crossings"]
+[[oscillator]]
+system = "damped-pendulum"
+parameters = { k = 12.566370614359172, mu = 0.01 }
+amplitudes = 2.9845130209103035
+[grid]
+orders = [2, 4, 6, 8, 12, 16, 20, 30, 40]
+methods = ["multiple-scales", "lindstedt/action", "series/energy", "averaged-action", "pseudo-wigner"]
+[signal]
+duration = 20
+rate = 64
+"""
+NOISE = """
+[study]
+ask = "best-estimator"
+[[oscillator]]
+system = "damped-linear"
+amplitudes = 1
+[grid]
+methods = ["zero-crossing", "hilbert", "linear"]
+[signal]
+periods = 12
+samples_per_period = 16
+snr_db = [inf, 20, 40]
+trials = 7
+seed = 5
+"""
+
+
+def blocks(plan: Plan) -> list[Finished]:
+    return [Finished(task, run(task)) for task in tasks_of(plan)]
+
+
+@pytest.fixture(scope="module")
+def paper() -> tuple[Plan, list[Finished]]:
+    plan = plan_of(PAPER)
+    return plan, blocks(plan)
+
+
+def test_errors_along_the_paper_s_decay(paper: tuple[Plan, list[Finished]]) -> None:
+    """Multiple scales by order, the expansion at the averaged action, (14) by terms: figures found independently."""
+    found = decay_error.answer(*paper)
+    errors = {(row["method"], row["order"]): row["rms"] for row in found.rows()}
+    scales = {2: 0.316, 4: 0.117, 6: 0.085, 8: 0.0578, 12: 0.0275, 16: 0.0137}
+    for order, expected in scales.items():
+        assert errors["multiple-scales", order] == pytest.approx(expected, rel=0.01)
+    for order, expected in {20: 7.2e-4, 30: 2.1e-4, 40: 1.4e-4}.items():
+        assert errors["lindstedt/action", order] == pytest.approx(expected, rel=0.02)
+    assert errors["pseudo-wigner", None] == pytest.approx(4.6e-4, rel=0.02)
+    assert errors["averaged-action", None] == pytest.approx(1.28e-4, rel=0.02)
+    growth = [row["growth_rms"] for row in found.rows() if row["method"] == "multiple-scales"]
+    assert all(later < 0.8 * earlier for earlier, later in itertools.pairwise(growth[:6]))
+    assert found.failed == 0
+
+
+def test_the_expansion_passes_pseudo_wigner_between_orders_20_and_30(paper: tuple[Plan, list[Finished]]) -> None:
+    rows = crossings.answer(*paper).rows()
+    mine = [row for row in rows if row["expansion"] == "lindstedt/action" and row["axis"] == "order"]
+    assert [(row["below"], row["above"], row["ahead_above"], row["settled"]) for row in mine] == [
+        (20.0, 30.0, "expansion", True)
+    ]
+
+
+def test_the_growth_rate_of_a_linear_oscillator_is_exact() -> None:
+    """a'/a = -mu: multiple scales has it at every order, and the reference finds it from the energy."""
+    plan = plan_of(NOISE.replace('"best-estimator"', '"decay-error"').replace('"linear"]', '"multiple-scales"]'))
+    rows = decay_error.answer(plan, blocks(plan)).rows()
+    growth = [row["growth_rms"] for row in rows if row["method"] == "multiple-scales"]
+    assert max(growth) < 1e-3  # mu^2: energy at a zero crossing has the damping in its phase
+
+
+def test_trials_are_the_same_records_in_any_blocks() -> None:
+    plan = plan_of(NOISE)
+    noisy_tasks = [t for t in tasks_of(plan) if isinstance(t, DecayTask) and t.snr_db == 20.0]
+    assert [(t.first, t.last) for t in noisy_tasks] == [(0, 5), (5, 7)]
+    one = DecayTask(**{**vars(noisy_tasks[0]), "first": 5, "last": 7})
+    assert run(one) == run(noisy_tasks[1])
+    x = np.sin(np.arange(64.0))
+    assert not np.array_equal(noisy(x, 20.0, 5, 0), noisy(x, 20.0, 5, 1))
+    assert not np.array_equal(noisy(x, 20.0, 5, 0), noisy(x, 20.0, 6, 0))
+
+
+def test_the_best_estimator_is_named_with_those_that_are_as_good() -> None:
+    plan = plan_of(NOISE)
+    found = best_estimator.answer(plan, blocks(plan))
+    assert [row["snr_db"] for row in found.rows()] == [math.inf, 20.0, 40.0]
+    assert all(row["best"] in ("zero-crossing", "hilbert") for row in found.rows())
+    assert all(row["rms"] <= (row["next_rms"] or math.inf) for row in found.rows())
+
+
+def test_a_method_that_an_oscillator_does_not_allow_is_a_reason() -> None:
+    plan = plan_of(NOISE.replace('"best-estimator"', '"decay-error"').replace('"linear"]', '"series/energy"]'))
+    reasons = {o for block in blocks(plan) for o in block.outcomes if isinstance(o, str)}
+    assert reasons == {"damped-linear is no pendulum; the series (14) is of k^2 sin(u)"}
+
+
+@pytest.mark.parametrize(("ratios", "expected"), [((1.0, -1.0, -2.0), [1.5]), ((-1.0, 3.0, -1.0), [1.25, 2.75])])
+def test_crossings_lie_where_the_ratio_is_zero(ratios: tuple[float, ...], expected: list[float]) -> None:
+    duels = [Duel("s", {"order": float(i), "mu": 0.1}, "e", "w", r, True) for i, r in enumerate(ratios, start=1)]
+    assert axes_of(duels) == ["order"]
+    assert [crossing.at for crossing in crossings_along(duels, "order")] == pytest.approx(expected)
+
+
+def test_a_study_of_motions_resumes_to_the_same_bytes(tmp_path: Path) -> None:
+    from ridgeback.interface.studies import run_study
+
+    file = tmp_path / "noise.toml"
+    file.write_text(NOISE, encoding="utf-8")
+    first = list(run_study(file).rows())
+    again = list(run_study(file, store=tmp_path / "again.db").rows())
+    assert first == again
+    assert len(first) == 1 + 2 + 2 * 2 * 7
