@@ -5,7 +5,7 @@ Their source is that of :mod:`ridgeback.common.recurrences`, whose sums, product
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 
 from ridgeback.common.recurrences import Element, Fixed, Node, Ring, Slopes, self_convolution
 
@@ -18,11 +18,13 @@ class Power(Node):
         self.y, self.p, self.q = y, numerator, denominator
         self.inverse = ring.invert(y.get(0))
         self.known = [ring.power(y.get(0), numerator, denominator)]
+        self.growth, self.decay = ring.sums(y.rates(0), self.known), ring.sums(y.known, self.rates(0))
 
     def step(self, n: int) -> Element:
-        self.y.get(n)
-        weighted = [self.ring.scale(self.y.known[j], (self.p + self.q) * j - self.q * n, 1) for j in range(1, n + 1)]
-        return self.ring.scale(self.ring.dot(weighted, self.known[n - 1 :: -1]), 1, self.q * n) * self.inverse
+        self.y.rates(n)
+        self.rates(n - 1)
+        grown = self.ring.scale(self.growth(n, 1, n), self.p, self.q)
+        return self.ring.scale(grown - self.decay(n, 1, n - 1), 1, n) * self.inverse
 
     def _derive(self) -> Slopes:
         return self._chain(self.y, self.ring.scale(self.known[0] * self.inverse, self.p, self.q))
@@ -36,11 +38,12 @@ class Logarithm(Node):
         self.y = y
         self.inverse = ring.invert(y.get(0))
         self.known = [ring.function("log", y.get(0))]
+        self.sums = ring.sums(self.rates(0), y.known)
 
     def step(self, n: int) -> Element:
         y = self.y.get(n)
-        inner = self.ring.dot(self.rates(n - 1)[1:n], self.y.known[n - 1 : 0 : -1])
-        return (y - self.ring.scale(inner, 1, n)) * self.inverse
+        self.rates(n - 1)
+        return (y - self.ring.scale(self.sums(n, 1, n - 1), 1, n)) * self.inverse
 
     def _derive(self) -> Slopes:
         return self._chain(self.y, self.inverse)
@@ -68,18 +71,27 @@ class Function(Node):
         self.y, self.sign = y, sign
         self.derivative = self if derivative is None else derivative
         self.known = [ring.function(name, y.get(0))]
+        self.integral: Callable[[int], Element] | None = None
 
     def step(self, n: int) -> Element:
         self.derivative.get(n - 1)
-        return integral(self.y, self.derivative.known, n, self.sign)
+        if self.integral is None:  # not before the partner of a pair exists
+            self.integral = integral(self.y, self.derivative.known, self.sign)
+        return self.integral(n)
 
     def _derive(self) -> Slopes:
         return self._chain(self.y, self.ring.scale(self.derivative.get(0), self.sign, 1))
 
 
-def integral(y: Node, derivative: Sequence[Element], n: int, sign: int = 1) -> Element:
-    """(sign/n) sum over 1 <= j <= n of j y_j q_(n-j): the integral of y' times q."""
-    return y.ring.scale(y.ring.dot(y.rates(n)[1 : n + 1], derivative[n - 1 :: -1]), sign, n)
+def integral(y: Node, derivative: list[Element], sign: int = 1) -> Callable[[int], Element]:
+    """Coefficient n of the integral of y' times q: (sign/n) sum over 1 <= j <= n of j y_j q_(n-j)."""
+    sums = y.ring.sums(y.rates(0), derivative)
+
+    def coefficient(n: int) -> Element:
+        y.rates(n)
+        return y.ring.scale(sums(n, 1, n), sign, n)
+
+    return coefficient
 
 
 class Tangent(Node):
@@ -90,6 +102,7 @@ class Tangent(Node):
         self.y, self.sign = y, 1 if name == "tan" else -1
         self.known = [ring.function(name, y.get(0))]
         self._growth: list[Element] = []
+        self.integral = integral(y, self._growth)
 
     def forget(self, n: int) -> None:
         super().forget(n)
@@ -103,7 +116,8 @@ class Tangent(Node):
         return self._growth
 
     def step(self, n: int) -> Element:
-        return integral(self.y, self.growth(n - 1), n)
+        self.growth(n - 1)
+        return self.integral(n)
 
     def _derive(self) -> Slopes:
         return self._chain(self.y, self.growth(0)[0])

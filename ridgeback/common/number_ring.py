@@ -9,7 +9,7 @@ from operator import mul
 from typing import Any, Final
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.recurrences import Node, Product
+from ridgeback.common.recurrences import Element, Node, Product, Sums, plain_sums
 
 Number = Any
 FUNCTIONS: Final = (
@@ -69,6 +69,9 @@ class NumberRing:
 
     def product(self, x: Node, y: Node) -> Node:
         return Product(self, x, y)
+
+    def sums(self, x: list[Element], y: list[Element]) -> Sums:
+        return plain_sums(self, x, y)
 
     def invert(self, element: Number) -> Number:
         if not element:

@@ -18,11 +18,14 @@ derivation, balls, floats and multiple precision for the Taylor series of a moti
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, Protocol
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol, TypeAlias
 
 Element = Any
 """A member of the coefficient ring."""
+
+Sums: TypeAlias = Callable[[int, int, int], Element]
+"""Called with n, first, last: the sum of x_j y_(n-j) over first <= j <= last, for two series that grow."""
 
 Slopes = tuple[Element, Element]
 """Partial derivatives with respect to the first and the second moving input, at order zero."""
@@ -46,6 +49,12 @@ class Ring(Protocol):
     def product(self, x: Node, y: Node) -> Node:
         """Return the node of x y: ``Product``, or one that multiplies faster."""
 
+    def sums(self, x: list[Element], y: list[Element]) -> Sums:
+        """Return the sums of products of two lists that will grow: ``PlainSums``, or one that multiplies faster.
+
+        It may rely on what it has been asked for: orders never fall, and those below n are final when n is asked for.
+        """
+
     def invert(self, element: Element) -> Element:
         """Return 1 / element for a leading coefficient; InputError when the ring cannot."""
 
@@ -54,6 +63,25 @@ class Ring(Protocol):
 
     def power(self, element: Element, numerator: int, denominator: int) -> Element:
         """Return a rational power of a leading coefficient; InputError when the ring cannot."""
+
+
+def plain_sums(ring: Ring, x: list[Element], y: list[Element]) -> Sums:
+    """Return the sums of products of two growing lists, taken term by term.
+
+    Parameters
+    ----------
+    ring
+        Where the coefficients live.
+    x, y
+        The coefficients so far.
+
+    Examples
+    --------
+    >>> from ridgeback.common.number_ring import FLOATS
+    >>> plain_sums(FLOATS, [1.0, 2.0], [3.0, 4.0])(1, 0, 1)
+    10.0
+    """
+    return lambda n, first, last: ring.dot(x[first : last + 1], y[n - last : n - first + 1][::-1])
 
 
 class Node:
@@ -80,7 +108,7 @@ class Node:
         return self.known[n]
 
     def rates(self, n: int) -> list[Element]:
-        """Return j times coefficient j for 0 <= j <= n (at least), kept."""
+        """Return j times coefficient j for 0 <= j <= n (at least), kept in one list."""
         for j in range(len(self._rates), n + 1):
             self._rates.append(self.ring.scale(self.get(j), j, 1))
         return self._rates
@@ -237,11 +265,12 @@ class Quotient(Node):
         super().__init__(ring)
         self.x, self.y = x, y
         self.inverse = ring.invert(y.get(0))
+        self.sums = ring.sums(y.known, self.known)
 
     def step(self, n: int) -> Element:
-        x, y = self.x.get(n), self.y
-        y.get(n)
-        return (x - self.ring.dot(y.known[1 : n + 1], self.known[n - 1 :: -1]) if n else x) * self.inverse
+        x = self.x.get(n)
+        self.y.get(n)
+        return (x - self.sums(n, 1, n) if n else x) * self.inverse
 
     def _derive(self) -> Slopes:
         ratio = self.get(0)

@@ -31,7 +31,7 @@ def limit_cycle(oscillator: Oscillator, order: int, amplitude: str, *, watch: Be
     (2, 0, 1/96)
     """
     natural = oscillator.normalised
-    recursion = cycle_recursion(oscillator, order, amplitude, space_for(()), watch=watch)
+    recursion = cycle_recursion(oscillator, order, amplitude, space_for((), order + 1), watch=watch)
     read = at_zero if amplitude == "peak" else first_harmonic
     return Expansion(
         system=oscillator.name,
@@ -120,28 +120,29 @@ def _with_small(oscillator: Oscillator, space: Space) -> dict[sympy.Symbol, list
 def _cycle_step(recursion: Recursion, n: int, amplitude: str, slope: Scalar) -> None:
     """Find a_(n-1), w_n and u_n but for its cos tau part a_n, which the next order decides."""
     program = recursion.program
+    inertia = recursion.inertia(n, n - 1)
     if n > 1:
-        _settle_amplitude(recursion, n, slope)
-    right = -program.root.get(n) - recursion.inertia(n, 1, n - 1)
-    particular, p, q = solve_oscillator(right)
+        inertia = _settle_amplitude(recursion, n, slope, inertia)
+    particular, p, q = solve_oscillator(-program.root.get(n) - inertia)
     if q != 0:
         raise AssertionError(f"secular sine left at order {n}")
     recursion.extend_omega(-p / harmonic(recursion.u[0], 1)[0])
     recursion.append(normalise(particular, amplitude, size=False))
     program.supply(U, recursion.u[n])
-    program.supply(V, recursion.velocity(n, n))
+    program.supply(V, recursion.velocity(n, 0, n))
 
 
-def _settle_amplitude(recursion: Recursion, n: int, slope: Scalar) -> None:
-    """Remove the secular sine of order n by the cos tau part of u_(n-1)."""
+def _settle_amplitude(recursion: Recursion, n: int, slope: Scalar, inertia: Trig) -> Trig:
+    """Remove the secular sine of order n by the cos tau part of u_(n-1); return the inertia with it."""
     program, space = recursion.program, recursion.space
-    _, _, q = solve_oscillator(-program.root.get(n) - recursion.inertia(n, 1, n - 1))
+    q = harmonic(-program.root.get(n) - inertia, 1)[1]
     change = cosine(space).scale(-q / slope)
     program.forget(n)
     program.correct(n - 1, change, change.derivative())
     recursion.u[n - 1] = recursion.u[n - 1] + change
     recursion.slope[n - 1] = recursion.slope[n - 1] + change.derivative()
     recursion.curve[n - 1] = recursion.curve[n - 1] - change
+    return inertia - change.scale(recursion.squared[1])
 
 
 def _averaged_sine(rest: sympy.Expr, oscillator: Oscillator) -> fmpq_poly:

@@ -112,7 +112,9 @@ def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Bu
     natural = oscillator.normalised
     force, names = natural.rational, free_names(natural.rational)
     check("lindstedt", order, budget, parameters=len(names), effort=effort_of(force, U))
-    recursion = conservative_recursion(oscillator, order, amplitude, space_for(names), watch=watching(progress, order))
+    recursion = conservative_recursion(
+        oscillator, order, amplitude, space_for(names, order + 1), watch=watching(progress, order)
+    )
     return Expansion(
         system=oscillator.name,
         method="lindstedt",
@@ -183,8 +185,8 @@ def _family_step(recursion: Recursion, n: int, amplitude: str, oscillator: Oscil
     program, space = recursion.program, recursion.space
     zero = constant(space, fmpq(0))
     program.supply(U, zero)
-    program.supply(V, recursion.velocity(n, n - 2) if program.uses_velocity else zero)
-    right = -program.root.get(n) - recursion.inertia(n, 1, n - 2)
+    program.supply(V, recursion.velocity(n, 1, n - 2) if program.uses_velocity else zero)
+    right = -program.root.get(n) - recursion.inertia(n, n - 2)
     particular, p, q = solve_oscillator(right)
     if not is_zero(q):  # a ball around 0 is no proof that sin tau vanishes
         raise InputError(_no_family(oscillator) if q != 0 else _undecided(oscillator))

@@ -15,10 +15,11 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.recurrences import Element
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.grammar.parse import U, V
+from ridgeback.symbolic.series.online_sums import weighted_sums
 from ridgeback.symbolic.series.program import Program
 from ridgeback.symbolic.series.ring import TrigRing
-from ridgeback.symbolic.series.spaces import Scalar, Space, is_zero
-from ridgeback.symbolic.series.trigonometric import Trig, at_zero, constant, cosine, harmonic, sine
+from ridgeback.symbolic.series.spaces import Scalar, Space
+from ridgeback.symbolic.series.trigonometric import Trig, at_zero, cosine, harmonic, sine
 
 
 class Recursion:
@@ -30,29 +31,29 @@ class Recursion:
         self.slope = [p.derivative() for p in start]
         self.curve = [p.derivative() for p in self.slope]
         self.squared: list[Scalar] = [fmpq(1)]
+        self.later: list[Scalar] = []
+        """omega^2 without its first coefficient, which is 1."""
         self.omega: list[Scalar] = [fmpq(1)]
+        self._inertia = weighted_sums(space, self.later, self.curve)
+        self._velocity = weighted_sums(space, self.omega, self.slope)
 
-    def inertia(self, n: int, first: int, last: int) -> Trig:
-        """Sum of w_j u''_(n-j) over first <= j <= last."""
-        total = constant(self.space, fmpq(0))
-        for j in range(first, last + 1):
-            if not is_zero(self.squared[j]):
-                total = total + self.curve[n - j].scale(self.squared[j])
-        return total
+    def inertia(self, n: int, last: int) -> Trig:
+        """Sum of w_j u''_(n-j) over 1 <= j <= last; u''_(n-1) may be provisional, orders below it are final."""
+        found: Trig = self._inertia(n - 1, 0, last - 1)
+        return found
 
-    def velocity(self, n: int, last: int) -> Trig:
-        """Sum of omega_j du_(n-j)/dtau over 0 <= j <= last, for the orders of u that exist."""
-        total = constant(self.space, fmpq(0))
-        for j in range(last + 1):
-            if n - j < len(self.slope) and not is_zero(self.omega[j]):
-                total = total + self.slope[n - j].scale(self.omega[j])
-        return total
+    def velocity(self, n: int, first: int, last: int) -> Trig:
+        """Sum of omega_j du_(n-j)/dtau over first <= j <= last."""
+        found: Trig = self._velocity(n, first, last)
+        return found
 
     def extend_omega(self, w: Scalar) -> None:
         """Append omega^2's next coefficient and omega's: 2 omega_n = w_n - sum of omega_j omega_(n-j)."""
         n = len(self.squared)
-        inner: Scalar = sum((self.omega[j] * self.omega[n - j] for j in range(1, n)), fmpq(0))
+        half: Scalar = sum((self.omega[j] * self.omega[n - j] for j in range(1, (n + 1) // 2)), fmpq(0))
+        inner = 2 * half if n % 2 else 2 * half + self.omega[n // 2] * self.omega[n // 2]
         self.squared.append(w)
+        self.later.append(w)
         self.omega.append((w - inner) * fmpq(1, 2))
 
     def append(self, p: Trig) -> None:

@@ -116,3 +116,15 @@ class Balls:
 
     def derivative(self, p: arb_poly) -> arb_poly:
         raise TypeError(f"a polynomial with {p.length()} harmonics has no powers of y; use the basis's own rules")
+
+    def at_one(self, p: arb_poly) -> arb:
+        return p(arb(1))
+
+    def length(self, p: arb_poly) -> int:
+        return int(p.length())
+
+    def paired(self, p: arb_poly, weights: Sequence[int], denominator: int) -> Scalar:
+        raise TypeError(f"{p.length()} harmonics, {len(weights)}, {denominator}: the basis has its own rules")
+
+    def solve_part(self, p: arb_poly, *, odd: int, shift: int) -> tuple[arb_poly | None, Scalar]:
+        raise TypeError(f"{p.length()} harmonics, {odd}, {shift}: the basis has its own rules")

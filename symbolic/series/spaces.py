@@ -9,9 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
+from operator import mul
 from typing import Any, Protocol
 
-from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpq_poly, nmod, nmod_poly
+from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpq_poly, fmpz, nmod, nmod_poly
+
+from ridgeback.symbolic.series.triangular import back_substitute, solve_rational
 
 Polynomial = Any
 """A FLINT polynomial in y: ``fmpq_poly``, ``nmod_poly`` or ``fmpq_mpoly``."""
@@ -73,6 +76,18 @@ class Space(Protocol):
     def assemble(self, coefficients: Sequence[Scalar]) -> Polynomial:
         """Undo ``coefficients``."""
 
+    def at_one(self, p: Polynomial) -> Scalar:
+        """Return the value at y = 1."""
+
+    def length(self, p: Polynomial) -> int:
+        """Return how many coefficients there are."""
+
+    def paired(self, p: Polynomial, weights: Sequence[int], denominator: int) -> Scalar:
+        """Return the sum of coefficients times weights, over a denominator."""
+
+    def solve_part(self, p: Polynomial, *, odd: int, shift: int) -> tuple[Polynomial | None, Scalar]:
+        """Solve the triangular system of one part; also return what is left at the resonance."""
+
 
 class Rationals:
     """Rational coefficients, dense in y.
@@ -83,6 +98,9 @@ class Rationals:
 
     names: tuple[str, ...] = ()
     basis: Basis | None = None
+
+    def __init__(self, last: int | None = None) -> None:
+        self.last = last
 
     def constant(self, value: Scalar) -> Polynomial:
         return fmpq_poly([value])
@@ -101,6 +119,18 @@ class Rationals:
 
     def assemble(self, coefficients: Sequence[Scalar]) -> Polynomial:
         return fmpq_poly(list(coefficients))
+
+    def at_one(self, p: Polynomial) -> Scalar:
+        return p(1)
+
+    def length(self, p: Polynomial) -> int:
+        return int(p.length())
+
+    def paired(self, p: Polynomial, weights: Sequence[int], denominator: int) -> Scalar:
+        return fmpq(sum(map(mul, p.numer().coeffs(), weights), fmpz(0)), p.denom() * denominator)
+
+    def solve_part(self, p: Polynomial, *, odd: int, shift: int) -> tuple[Polynomial | None, Scalar]:
+        return solve_rational(p, odd=odd, shift=shift)
 
 
 class Modular(Rationals):
@@ -121,6 +151,12 @@ class Modular(Rationals):
 
     def assemble(self, coefficients: Sequence[Scalar]) -> Polynomial:
         return nmod_poly([nmod(value, self.prime) for value in coefficients], self.prime)
+
+    def paired(self, p: Polynomial, weights: Sequence[int], denominator: int) -> Scalar:
+        return _paired(self, p, weights, denominator)
+
+    def solve_part(self, p: Polynomial, *, odd: int, shift: int) -> tuple[Polynomial | None, Scalar]:
+        return _solved(self, p, odd=odd, shift=shift)
 
 
 class Parametric:
@@ -163,6 +199,29 @@ class Parametric:
                 total[(m, *powers[1:])] = value
         return self._context.from_dict(total)
 
+    def at_one(self, p: Polynomial) -> Scalar:
+        return sum(self.coefficients(p), fmpq(0))
+
+    def length(self, p: Polynomial) -> int:
+        return len(self.coefficients(p))
+
+    def paired(self, p: Polynomial, weights: Sequence[int], denominator: int) -> Scalar:
+        return _paired(self, p, weights, denominator)
+
+    def solve_part(self, p: Polynomial, *, odd: int, shift: int) -> tuple[Polynomial | None, Scalar]:
+        return _solved(self, p, odd=odd, shift=shift)
+
+
+def _paired(space: Space, p: Polynomial, weights: Sequence[int], denominator: int) -> Scalar:
+    """Pair coefficient by coefficient."""
+    return sum((c * fmpq(w, denominator) for c, w in zip(space.coefficients(p), weights, strict=True)), fmpq(0))
+
+
+def _solved(space: Space, p: Polynomial, *, odd: int, shift: int) -> tuple[Polynomial | None, Scalar]:
+    """Solve coefficient by coefficient."""
+    found, left = back_substitute(space.coefficients(p), odd=odd, shift=shift)
+    return space.assemble(found) if any(value != 0 for value in found) else None, left
+
 
 def is_zero(value: Scalar) -> bool:
     """Whether a scalar is zero; of a ball, whether it is certainly zero (``!= 0`` would mean certainly not).
@@ -175,13 +234,16 @@ def is_zero(value: Scalar) -> bool:
 
 
 @lru_cache(maxsize=64)
-def space_for(names: tuple[str, ...]) -> Space:
+def space_for(names: tuple[str, ...], last: int | None = None) -> Space:
     """Return the exact space for coefficients in the named parameters.
 
     Parameters
     ----------
     names : tuple of str
         The parameters left symbolic; none for plain rationals.
+    last : int, optional
+        The highest order of the series whose coefficients these are, where it is known: sums of products over the
+        rationals are then taken in blocks of orders.
 
     Returns
     -------
@@ -193,4 +255,4 @@ def space_for(names: tuple[str, ...]) -> Space:
     >>> space_for(("mu",)).names
     ('mu',)
     """
-    return Parametric(names) if names else Rationals()
+    return Parametric(names) if names else Rationals(last)

@@ -11,6 +11,8 @@ what a symmetry removes costs nothing.  The operator of every perturbation equat
     (d^2/dtau^2 + 1) x^m   =   (1 - m^2) x^m       + m (m-1) x^(m-2)
     (d^2/dtau^2 + 1) S x^m = S [(1 - (m+1)^2) x^m  + m (m-1) x^(m-2)]
 
+(solved in ``triangular``).
+
 The polynomials live in a ``Space`` (see ``spaces``), which decides what the coefficients are.  A space may bring a
 ``basis`` of its own, which gives the four polynomials another meaning (harmonics, for balls) and its own rules.
 """
@@ -216,38 +218,19 @@ def solve_oscillator(right: Trig) -> tuple[Trig, Scalar, Scalar]:
     """
     space = right.space
     if space.basis is not None:
-        solution, p, q = space.basis.solve(right.parts)
-        return Trig(space, solution), p, q
+        parts, p, q = space.basis.solve(right.parts)
+        return Trig(space, parts), p, q
     solutions: list[Polynomial | None] = []
     resonant: list[Scalar] = [fmpq(0), fmpq(0)]
     for part, p in enumerate(right.parts):
         if p is None:
             solutions.append(None)
             continue
-        found, left = _back_substitute(space.coefficients(p), odd=part & 1, shift=part >> 1)
-        solutions.append(space.assemble(found) if any(value != 0 for value in found) else None)
+        solution, left = space.solve_part(p, odd=part & 1, shift=part >> 1)
+        solutions.append(solution)
         if part in (1, 2):
             resonant[part - 1] = left
     return Trig(space, (solutions[0], solutions[1], solutions[2], solutions[3])), resonant[0], resonant[1]
-
-
-def _back_substitute(right: list[Scalar], *, odd: int, shift: int) -> tuple[list[Scalar], Scalar]:
-    """Solve the triangular system of one part: diagonal 1 - (m + shift)^2 at the power m = 2 i + odd of x.
-
-    Returns the solution and what is left where the diagonal vanishes (the solution is 0 there).
-    """
-    solution: list[Scalar] = [fmpq(0)] * len(right)
-    left: Scalar = fmpq(0)
-    above: Scalar | None = None
-    for i in range(len(right) - 1, -1, -1):
-        m = 2 * i + odd
-        known = right[i] if above is None else right[i] - above * ((m + 2) * (m + 1))
-        diagonal = 1 - (m + shift) ** 2
-        if diagonal == 0:
-            left, above = known, None
-        else:
-            above = solution[i] = known * fmpq(1, diagonal)
-    return solution, left
 
 
 def harmonic(p: Trig, multiple: int) -> tuple[Scalar, Scalar]:
@@ -278,19 +261,19 @@ def harmonic(p: Trig, multiple: int) -> tuple[Scalar, Scalar]:
     if p.space.basis is not None:
         return p.space.basis.harmonic(p.parts, multiple)
     parity = multiple % 2
-    cos_part: Scalar = fmpq(0)
-    sin_part: Scalar = fmpq(0)
-    for i, value in enumerate(p.coefficients(parity)):
-        m = 2 * i + parity
-        if m >= multiple:
-            weight = fmpq(_binomial(m, (m - multiple) // 2), 2**m)
-            cos_part = cos_part + value * (weight if multiple == 0 else 2 * weight)
-    for i, value in enumerate(p.coefficients(2 + 1 - parity) if multiple else []):
-        m = 2 * i + 1 - parity
-        j = (m + 1 - multiple) // 2
-        if j >= 0:
-            sin_part = sin_part + value * fmpq(_binomial(m, j) - _binomial(m, j - 1), 2**m)
+    cos_part = _paired(p, parity, lambda m: _binomial(m, (m - multiple) // 2) * (2 if multiple else 1))
+    sin_part = _paired(p, 3 - parity, lambda m: _ballot(m, (m + 1 - multiple) // 2)) if multiple else fmpq(0)
     return cos_part, sin_part
+
+
+def _paired(p: Trig, part: int, weight: Callable[[int], int]) -> Scalar:
+    """Sum of the coefficients at x^m, each times weight(m) / 2^m."""
+    q = p.parts[part]
+    if q is None:
+        return fmpq(0)
+    powers = range(part & 1, 2 * p.space.length(q), 2)
+    top = powers[-1] if powers else 0
+    return p.space.paired(q, [weight(m) << (top - m) for m in powers], 2**top)
 
 
 def degree(p: Trig) -> int:
@@ -313,8 +296,12 @@ def at_zero(p: Trig) -> Scalar:
     """
     if p.space.basis is not None:
         return p.space.basis.at_zero(p.parts)
-    return sum((value for part in (0, 1) for value in p.coefficients(part)), fmpq(0))
+    return sum((p.space.at_one(q) for q in p.parts[:2] if q is not None), fmpq(0))
 
 
 def _binomial(n: int, k: int) -> int:
     return math.comb(n, k) if 0 <= k <= n else 0
+
+
+def _ballot(n: int, k: int) -> int:
+    return _binomial(n, k) - _binomial(n, k - 1)
