@@ -65,7 +65,7 @@ class OnlineSums:
     final when n is asked for.  The sums of a series with itself are taken over all pairs.
     """
 
-    def __init__(self, space: Rationals, x: Factor, y: Factor, last: int) -> None:
+    def __init__(self, space: Space, x: Factor, y: Factor, last: int) -> None:
         self.space, self.x, self.y, self.last = space, x, y, last
         self.skip: tuple[int, int] | None = None
         self.reached = 2 * BASE - 1
@@ -119,7 +119,12 @@ class OnlineSums:
             own.append((numerator * times if times > 1 else numerator, d))
 
 
-def sums_of_products(space: Rationals, x: list[Trig], y: list[Trig], last: int) -> Sums:
+def last_order(space: Space) -> int | None:
+    """Return the highest order that blocks are taken for; None where products are taken one by one."""
+    return space.last if isinstance(space, Rationals) else None
+
+
+def sums_of_products(space: Space, x: list[Trig], y: list[Trig], last: int) -> Sums:
     """Return the sums for two growing series of trigonometric polynomials."""
     left = Factor(x, _row)
     return OnlineSums(space, left, left if x is y else Factor(y, _row), last)
@@ -127,8 +132,9 @@ def sums_of_products(space: Rationals, x: list[Trig], y: list[Trig], last: int) 
 
 def weighted_sums(space: Space, weights: list[Scalar], series: list[Trig]) -> Sums:
     """Return the sums of w_j u_(n-j) for two growing series, the first of numbers."""
-    if isinstance(space, Rationals) and space.last is not None:
-        return OnlineSums(space, Factor(weights, integral_scalar), Factor(series, _row), space.last)
+    last_of_all = last_order(space)
+    if last_of_all is not None:
+        return OnlineSums(space, Factor(weights, integral_scalar), Factor(series, _row), last_of_all)
     zero = constant(space, fmpq(0))
 
     def plain(n: int, first: int, last: int) -> Trig:

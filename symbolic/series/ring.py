@@ -10,9 +10,9 @@ from flint import arb, fmpq, nmod
 from ridgeback.common.errors import InputError
 from ridgeback.common.recurrences import Node, Product, Sums, plain_sums
 from ridgeback.symbolic.series.harmonic_basis import Balls
-from ridgeback.symbolic.series.online_sums import OnlineProduct, sums_of_products
+from ridgeback.symbolic.series.online_sums import OnlineProduct, last_order, sums_of_products
 from ridgeback.symbolic.series.relaxed_product import RelaxedProduct
-from ridgeback.symbolic.series.spaces import Rationals, Space
+from ridgeback.symbolic.series.spaces import Space
 from ridgeback.symbolic.series.trigonometric import NOTHING, Trig, constant, dot
 
 # Values at the only arguments where an elementary function of a rational is rational.
@@ -64,13 +64,12 @@ class TrigRing:
         """Return the node of a product: in blocks for balls and rationals, where products are long."""
         if isinstance(self.space, Balls):
             return RelaxedProduct(self, x, y, self.space)
-        return OnlineProduct(self, x, y) if isinstance(self.space, Rationals) else Product(self, x, y)
+        return OnlineProduct(self, x, y) if last_order(self.space) is not None else Product(self, x, y)
 
     def sums(self, x: list[Trig], y: list[Trig]) -> Sums:
         """Return the sums of products of two growing series."""
-        if isinstance(self.space, Rationals) and self.space.last is not None:
-            return sums_of_products(self.space, x, y, self.space.last)
-        return plain_sums(self, x, y)
+        last = last_order(self.space)
+        return plain_sums(self, x, y) if last is None else sums_of_products(self.space, x, y, last)
 
     def invert(self, element: Trig) -> Trig:
         """Return the inverse of a rational constant; InputError for 0 and for what oscillates."""

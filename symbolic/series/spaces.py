@@ -144,6 +144,7 @@ class Modular(Rationals):
     """
 
     def __init__(self, prime: int) -> None:
+        super().__init__()
         self.prime = prime
 
     def constant(self, value: Scalar) -> Polynomial:
