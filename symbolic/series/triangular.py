@@ -42,7 +42,7 @@ def solve_rational(p: fmpq_poly, *, odd: int, shift: int) -> tuple[fmpq_poly | N
     """Solve over the rationals, in integers: over the denominator of ``common_multiple`` every w_i is whole.
 
     >>> solve_rational(fmpq_poly([0, 1]), odd=1, shift=0)
-    (-1/8*x, 3/4)
+    ((-1/8)*x, 3/4)
     """
     numerators, multiple = p.numer().coeffs(), common_multiple(p.length(), odd, shift)
     solution, left, above = [fmpz(0)] * len(numerators), fmpz(0), fmpz(0)
