@@ -5,7 +5,7 @@ No plane is stored: columns are formed, transformed, searched and dropped in blo
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -14,13 +14,15 @@ from numpy.typing import NDArray
 
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.distributions.bin_interpolation import (
-    DEGREE,
     HALF,
     maximum,
     neighbours,
     parabola_vertex,
     slopes_around,
 )
+
+AT_ONCE = 1 << 15
+"""Columns that are read between the bins at a time."""
 
 
 class Kernel(Protocol):
@@ -74,21 +76,38 @@ def highest(values: NDArray[np.floating], spacing: float, low: Array, high: Arra
     return np.asarray(within.argmax(axis=1) + first, dtype=np.intp)
 
 
+@dataclass(frozen=True)
+class Peaks:
+    """Highest bins of neighbouring columns, not yet read between the bins."""
+
+    part: slice
+    spacing: float
+    at: NDArray[np.intp]
+    around: NDArray[np.floating]
+    """Values of the neighbouring bins, ``(columns, 2 HALF + 1)`` or so, the highest in the middle."""
+
+
 def follow(kernel: Kernel, low: Array, high: Array) -> Ridge:
     """Return the ridge of ``kernel`` between ``low[n]`` and ``high[n]`` (rad per time unit, one value per column)."""
     low, high = low - kernel.origin, high - kernel.origin
-    size = low.size
-    derivatives, three = np.empty((size, 2 * DEGREE - 1)), np.empty((size, 3))
-    at, spacing = np.empty(size, dtype=np.intp), np.empty(size)
+    omega, height, inside = np.empty(low.size), np.empty(low.size), np.empty(low.size, dtype=np.bool_)
+    waiting: list[Peaks] = []
     for begin, end, values in kernel.searched():
-        part = slice(begin, end)
-        spacing[part] = kernel.period / values.shape[1]
-        at[part] = highest(values, spacing[begin], low[part], high[part])
-        around = neighbours(values, at[part])
-        derivatives[part] = slopes_around(around)
-        three[part] = around[:, HALF - 1 : HALF + 2]
-    left, centre, right = three.T
-    coarse = at * spacing
+        part, spacing = slice(begin, end), kernel.period / values.shape[1]
+        at = highest(values, spacing, low[part], high[part])
+        waiting.append(Peaks(part, spacing, at, neighbours(values, at)))
+        if end == low.size or end - waiting[0].part.start >= AT_ONCE:
+            some = slice(waiting[0].part.start, end)
+            omega[some], height[some], inside[some] = between_bins(waiting, low[some], high[some])
+            waiting = []
+    return Ridge(kernel.origin + omega, height, inside)
+
+
+def between_bins(peaks: Sequence[Peaks], low: Array, high: Array) -> tuple[Array, Array, Mask]:
+    """Frequency of each peak, its height, and whether it is one and lies between ``low`` and ``high``."""
+    around = np.concatenate([some.around for some in peaks])
+    spacing = np.concatenate([np.full(some.at.size, some.spacing) for some in peaks])
+    coarse = spacing * np.concatenate([some.at for some in peaks])
+    left, centre, right = around[:, HALF - 1 : HALF + 2].astype(np.float64).T
     inside = (centre >= left) & (centre >= right) & (coarse >= low) & (coarse <= high)
-    omega = coarse + spacing * maximum(derivatives, parabola_vertex(left, centre, right))
-    return Ridge(kernel.origin + omega, centre, inside)
+    return coarse + spacing * maximum(slopes_around(around), parabola_vertex(left, centre, right)), centre, inside

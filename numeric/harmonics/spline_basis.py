@@ -2,74 +2,162 @@
 
 A model that is linear in F splines on the same knots, x(t) = sum over f of w_f(t) s_f(t), has K F coefficients.
 Ordered knot by knot, index k F + f, its normal matrix has a bandwidth of 6 F, whatever the length of the record.
+Everything of the length of the record is formed in parts of it and dropped: a model is its coefficients.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations_with_replacement
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 from scipy.linalg import cho_solve_banded, cholesky_banded
-from scipy.sparse import coo_array, csr_array, diags_array
+from scipy.sparse import csr_array
 
 from ridgeback.numeric.arrays import Array
 
 DEGREE = 5
 """Of the splines: with quintics the phase of a decay needs half the knots that cubics need (measured)."""
-PRODUCTS = 8_000_000
-"""Products of weights that are held at a time (64 MB)."""
+PRODUCTS = 4_000_000
+"""Products of weights that are held at a time (32 MB)."""
+ROWS = 1 << 13
+"""Samples of a part."""
+UNKNOWNS = 8_000_000
+"""Numbers of the columns of a covariance that are found at a time (64 MB)."""
 FLOOR = 1e-12
 """Added to the unit diagonal: a column that the data leave empty is no reason to fail."""
 
+Weights = Callable[["Part"], Array]
+"""What multiplies each of the F splines at the samples of a part, ``(R, F)``."""
+
+
+# The recursion of Cox and de Boor, A Practical Guide to Splines, ch. X: B_(i,d) from the two B_(i,d-1) beside it.
+def splines_at(time: Array, knots: Array, left: NDArray[np.integer], degree: int) -> Array:
+    """The B-splines of a degree that are not 0 at each time, ``(R, degree + 1)``; ``left`` is the knot before it.
+
+    >>> splines_at(np.array([0.25]), np.array([0.0, 0.0, 1.0, 1.0]), np.array([1]), 1).tolist()
+    [[0.75, 0.25]]
+    """
+    found = np.zeros((degree + 1, time.size))
+    found[0] = 1.0
+    before = [time - knots[left + 1 - j] for j in range(1, degree + 1)]
+    beyond = [knots[left + j] - time for j in range(1, degree + 1)]
+    for d in range(1, degree + 1):
+        carried = np.zeros(time.size)
+        for i in range(d):
+            share = found[i] / (beyond[i] + before[d - 1 - i])
+            found[i] = carried + beyond[i] * share
+            carried = before[d - 1 - i] * share
+        found[d] = carried
+    return np.ascontiguousarray(found.T)
+
 
 @dataclass(frozen=True)
-class SplineBasis:
-    """Values and time derivatives of K B-splines at N times, as sparse ``(N, K)`` arrays."""
+class Part:
+    """The B-splines at R neighbouring samples: each sees six of them, from ``first`` on."""
 
-    values: csr_array
-    slopes: csr_array
+    rows: slice
+    time: Array
     knots: Array
 
     @property
     def count(self) -> int:
         """K."""
-        return int(self.values.shape[1])
+        return self.knots.size - DEGREE - 1
+
+    @cached_property
+    def first(self) -> NDArray[np.int32]:
+        """The number of the first spline that each sample sees."""
+        left = np.searchsorted(self.knots, self.time, side="right") - 1
+        return (np.clip(left, DEGREE, self.count - 1) - DEGREE).astype(np.int32)
+
+    @cached_property
+    def entries(self) -> Array:
+        """The values of the six splines at each sample, ``(R, 6)``."""
+        return splines_at(self.time, self.knots, self.first + DEGREE, DEGREE)
+
+    @cached_property
+    def values(self) -> csr_array:
+        """B_k(t_n), ``(R, K)``."""
+        return self.sparse(self.entries)
+
+    # c'_i = d (c_(i+1) - c_i) / (t_(i+d+1) - t_(i+1)), d the degree: de Boor, A Practical Guide to Splines, ch. X
+    @cached_property
+    def slopes(self) -> csr_array:
+        """B_k'(t_n), ``(R, K)``."""
+        knots, lower = self.knots, splines_at(self.time, self.knots, self.first + DEGREE, DEGREE - 1)
+        rise = DEGREE / (knots[DEGREE + 1 : -1] - knots[1 : -DEGREE - 1])
+        steps = lower * rise[self.first[:, None] + np.arange(DEGREE)]
+        return self.sparse(np.diff(np.pad(-steps, ((0, 0), (1, 1))), axis=1))
 
     @cached_property
     def overlaps(self) -> tuple[csr_array, ...]:
-        """The products B_k(t_n) B_(k+j)(t_n) as ``(K, N)``, j = 0 .. DEGREE: times a weight they sum it over n."""
-        size = self.values.shape[0]
-        value = self.values.data.reshape(size, DEGREE + 1)
-        index = self.values.indices.reshape(size, DEGREE + 1)
-        sample = np.repeat(np.arange(size), DEGREE + 1).reshape(size, DEGREE + 1)
-        products = []
-        for j in range(DEGREE + 1):
-            keep = DEGREE + 1 - j
-            entries = (value[:, :keep] * value[:, j:]).ravel()
-            where = (index[:, :keep].ravel(), sample[:, :keep].ravel())
-            products.append(csr_array(coo_array((entries, where), shape=(self.count, size))))
-        return tuple(products)
+        """The products B_k(t_n) B_(k+j)(t_n) as ``(R, K)``, j = 0 .. DEGREE."""
+        value = self.entries
+        return tuple(self.sparse(value[:, : DEGREE + 1 - j] * value[:, j:]) for j in range(DEGREE + 1))
+
+    def sparse(self, entries: Array) -> csr_array:
+        """Entries ``(R, width)`` that stand from ``first`` on, as ``(R, K)``."""
+        size, width = entries.shape
+        columns = self.first[:, None] + np.arange(width, dtype=np.int32)
+        ends = np.arange(0, (size + 1) * width, width, dtype=np.int32)
+        return csr_array((entries.ravel(), columns.ravel(), ends), shape=(size, self.count))
+
+
+@dataclass(frozen=True)
+class SplineBasis:
+    """K B-splines on ``knots``, read at N times."""
+
+    time: Array
+    knots: Array
+
+    @property
+    def count(self) -> int:
+        """K."""
+        return self.knots.size - DEGREE - 1
+
+    @cached_property
+    def _whole(self) -> Part:
+        return Part(slice(0, self.time.size), self.time, self.knots)
+
+    def parts(self) -> Iterator[Part]:
+        """All samples, in parts; those of a short record are one, which is kept."""
+        size = self.time.size
+        if size <= ROWS:
+            yield self._whole
+            return
+        for first in range(0, size, ROWS):
+            rows = slice(first, min(first + ROWS, size))
+            yield Part(rows, self.time[rows], self.knots)
+
+    def along(self, of: Callable[[Part], Array]) -> Array:
+        """What a function gives for each part, joined, ``(N,)``."""
+        found = np.empty(self.time.size)
+        for part in self.parts():
+            found[part.rows] = of(part)
+        return found
+
+    def values(self, coefficients: Array) -> Array:
+        """The spline with these coefficients at all times."""
+        return self.along(lambda part: part.values @ coefficients)
+
+    def slopes(self, coefficients: Array) -> Array:
+        """Its derivative by time."""
+        return self.along(lambda part: part.slopes @ coefficients)
 
 
 def spline_basis(time: Array, breaks: Array) -> SplineBasis:
     """B-splines on the intervals between ``breaks``, the first and last of which are the ends of ``time``.
 
     >>> basis = spline_basis(np.linspace(0.0, 1.0, 5), np.array([0.0, 0.5, 1.0]))
-    >>> basis.count, np.asarray(basis.values.sum(axis=1)).round(12).tolist()
+    >>> basis.count, basis.values(np.ones(7)).round(12).tolist()
     (7, [1.0, 1.0, 1.0, 1.0, 1.0])
     """
-    knots = np.concatenate([np.full(DEGREE, breaks[0]), breaks, np.full(DEGREE, breaks[-1])])
-    values = csr_array(BSpline.design_matrix(time, knots, DEGREE))
-    lower = csr_array(BSpline.design_matrix(time, knots[1:-1], DEGREE - 1))
-    # c'_i = d (c_(i+1) - c_i) / (t_(i+d+1) - t_(i+1)), d the degree: de Boor, A Practical Guide to Splines, ch. X
-    rise = DEGREE / (knots[DEGREE + 1 : -1] - knots[1 : -DEGREE - 1])
-    count = values.shape[1]
-    difference = diags_array([-rise, rise], offsets=[0, 1], shape=(count - 1, count))
-    return SplineBasis(values, csr_array(lower @ difference), knots)
+    return SplineBasis(time, np.concatenate([np.full(DEGREE, breaks[0]), breaks, np.full(DEGREE, breaks[-1])]))
 
 
 # de Boor's NEWNOT, A Practical Guide to Splines, ch. XII: breaks between which |s^(d+1)|^(1/(d+1)) has equal integrals,
@@ -88,18 +176,32 @@ def adapted_density(coefficients: Array, breaks: Array, before: Array) -> Array:
     return before if total <= 0.0 else np.asarray(0.5 * before + 0.5 * wanted / total, dtype=np.float64)
 
 
+def alone(part: Part) -> Array:
+    """The weight of one spline by itself: 1."""
+    return np.ones((part.time.size, 1))
+
+
 @dataclass(frozen=True)
 class NormalEquations:
     """The factored normal matrix of F weighted splines; coefficients come as ``(K, F)``."""
 
     basis: SplineBasis
-    weights: Array
+    weights: Weights
     factor: Array
     scale: Array
+    """Square roots of its diagonal, ``(K F,)``."""
+
+    @property
+    def families(self) -> int:
+        """F."""
+        return self.scale.size // self.basis.count
 
     def moments(self, x: Array) -> Array:
         """J^T x, ``(K, F)``."""
-        return np.asarray(self.basis.values.T @ (self.weights * x[:, None]), dtype=np.float64)
+        total = np.zeros((self.basis.count, self.families))
+        for part in self.basis.parts():
+            total += part.values.T @ (self.weights(part) * x[part.rows, None])
+        return total
 
     def inverse_times(self, right: Array) -> Array:
         """(J^T J)^-1 of the columns of ``right``, ``(K F, columns)``."""
@@ -113,45 +215,63 @@ class NormalEquations:
 
     def model(self, coefficients: Array) -> Array:
         """J times coefficients: the samples they stand for."""
-        return np.asarray(((self.basis.values @ coefficients) * self.weights).sum(axis=1), dtype=np.float64)
+        return self.basis.along(lambda part: ((part.values @ coefficients) * self.weights(part)).sum(axis=1))
 
-    def variance(self, rows: csr_array, family: int) -> Array:
-        """Diagonal of R C R^T per unit noise variance, C the covariance of one family's K coefficients, R ``rows``."""
-        count, families = self.basis.count, self.weights.shape[1]
-        total = np.zeros(rows.shape[0])
-        for first in range(0, count, 256):
-            wanted = np.arange(first, min(first + 256, count))
+    # Six neighbouring splines meet at a sample: only the band of C within five of the diagonal counts there.
+    def variance(self, family: int, *, slopes: bool = False) -> Array:
+        """Diagonal of R C R^T per unit noise variance: C that of one family's coefficients, R its values or slopes."""
+        band = self.band(family)
+
+        def at(part: Part) -> Array:
+            rows = (part.slopes if slopes else part.values).data.reshape(-1, DEGREE + 1)
+            total = np.zeros(part.time.size)
+            for j in range(DEGREE + 1):
+                pairs = rows[:, : DEGREE + 1 - j] * rows[:, j:]
+                total += (1.0 if j == 0 else 2.0) * (part.sparse(pairs) @ band[:, j])
+            return np.maximum(total, 0.0)
+
+        return self.basis.along(at)
+
+    def band(self, family: int) -> Array:
+        """C_(k, k+j) of one family, ``(K, 6)``, j = 0 .. DEGREE; 0 beyond the last."""
+        count, families = self.basis.count, self.families
+        found, columns = np.zeros((count, DEGREE + 1)), max(16, UNKNOWNS // (count * families))
+        for first in range(0, count, columns):
+            wanted = np.arange(first, min(first + columns, count))
             unit = np.zeros((count * families, wanted.size))
             unit[wanted * families + family, np.arange(wanted.size)] = 1.0
             part = self.inverse_times(unit)[family::families]
-            total += np.asarray(rows[:, wanted].multiply(rows @ part).sum(axis=1)).ravel()
-        return np.maximum(total, 0.0)
+            for j in range(DEGREE + 1):
+                inside = wanted[wanted + j < count]
+                found[inside, j] = part[inside + j, inside - first]
+        return found
 
 
-def overlap_sums(basis: SplineBasis, weights: Array, pairs: list[tuple[int, int]]) -> Iterator[Array]:
+def overlap_sums(basis: SplineBasis, weights: Weights, pairs: list[tuple[int, int]]) -> list[Array]:
     """Sums over n of B_k B_(k+j) w_f w_g as ``(K, pairs)``, for j = 0 .. DEGREE in turn."""
     left, right = np.array(pairs).T
-    sums = [np.zeros((basis.count, len(pairs))) for _ in basis.overlaps]
-    rows = max(1024, PRODUCTS // len(pairs))
-    for first in range(0, weights.shape[0], rows):
-        part = weights[first : first + rows]
-        products = part[:, left] * part[:, right]
-        for j, overlap in enumerate(basis.overlaps):
-            sums[j] += (overlap if len(part) == len(weights) else overlap[:, first : first + rows]) @ products
-    yield from sums
+    sums = [np.zeros((basis.count, len(pairs))) for _ in range(DEGREE + 1)]
+    step = max(1024, PRODUCTS // len(pairs))
+    for part in basis.parts():
+        given = weights(part)
+        for first in range(0, part.time.size, step):
+            some = slice(first, first + step)
+            products = given[some][:, left] * given[some][:, right]
+            for j, overlap in enumerate(part.overlaps):
+                sums[j] += (overlap if len(products) == len(given) else overlap[some]).T @ products
+    return sums
 
 
-def normal_equations(basis: SplineBasis, weights: Array) -> NormalEquations:
-    """Form and factor J^T J of the model with ``weights``, ``(N, F)``.
+def normal_equations(basis: SplineBasis, weights: Weights, families: int) -> NormalEquations:
+    """Form and factor J^T J of the model with ``weights`` for ``families`` splines.
 
     >>> t = np.linspace(0.0, 1.0, 40)
-    >>> weights = np.stack([np.ones(40), np.cos(30 * t)], axis=1)
-    >>> equations = normal_equations(spline_basis(t, np.linspace(0.0, 1.0, 4)), weights)
+    >>> basis = spline_basis(t, np.linspace(0.0, 1.0, 4))
+    >>> equations = normal_equations(basis, lambda part: np.stack([part.time**0, np.cos(30 * part.time)], axis=1), 2)
     >>> x = t**3 + (1.0 - t) * np.cos(30 * t)
     >>> bool(np.abs(equations.model(equations.solve(x)) - x).max() < 1e-9)
     True
     """
-    families = weights.shape[1]
     size = basis.count * families
     bands = np.zeros(((DEGREE + 1) * families, size))
     pairs = list(combinations_with_replacement(range(families), 2))

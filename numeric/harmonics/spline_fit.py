@@ -24,8 +24,10 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics.spline_basis import (
     DEGREE,
     NormalEquations,
+    Part,
     SplineBasis,
     adapted_density,
+    alone,
     normal_equations,
     spline_basis,
 )
@@ -75,12 +77,13 @@ class SplineModel:
     @cached_property
     def phase(self) -> Array:
         """phi at the samples."""
-        return np.asarray(self.basis.values @ self.coefficients[:, -1], dtype=np.float64)
+        return self.basis.values(self.coefficients[:, -1])
 
     @property
     def cycles(self) -> float:
         """Cycles per knot interval, on the mean."""
-        return float(self.phase[-1] - self.phase[0]) / TWO_PI / (self.breaks.size - 1)
+        turned = self.coefficients[-1, -1] - self.coefficients[0, -1]  # at its ends a spline is its end coefficient
+        return float(turned) / TWO_PI / (self.breaks.size - 1)
 
     @property
     def omega(self) -> Array:
@@ -107,14 +110,15 @@ class SplineModel:
         """
         c = self.coefficients if change is None else self.coefficients + change
         if multiple == 1:
-            return np.asarray(self.basis.slopes @ c[:, -1]), np.asarray(self.basis.values @ c[:, 0])
+            return self.basis.slopes(c[:, -1]), self.basis.values(c[:, 0])
         if multiple not in self.multiples:
             raise InputError(f"harmonic {multiple} is not in the model of the signal; it holds {(1, *self.multiples)}")
         # b_h and c_h are solved for beside cos and sin of h times the phase as it was, before it takes its increment
-        omega = self.basis.slopes @ self.coefficients[:, -1]
+        omega = self.basis.slopes(self.coefficients[:, -1])
         at = 1 + 2 * self.multiples.index(multiple)
-        turning = c[:, at] - 1j * c[:, at + 1]
-        value, slope = self.basis.values @ turning, self.basis.slopes @ turning
+        cosine, sine = c[:, at], c[:, at + 1]
+        value = self.basis.values(cosine) - 1j * self.basis.values(sine)
+        slope = self.basis.slopes(cosine) - 1j * self.basis.slopes(sine)
         size = np.abs(value)
         drift = (slope * value.conj()).imag / np.maximum(size, np.finfo(float).tiny) ** 2
         return np.asarray(multiple * omega + drift, dtype=np.float64), np.asarray(size, dtype=np.float64)
@@ -123,8 +127,7 @@ class SplineModel:
         """The model's samples: of the harmonics (0 the offset, 1 the fundamental, ...) for which ``keep`` is true."""
         order = (1, *(h for h in self.multiples for _ in "bc"), 0)
         kept = np.array([keep(h) for h in order] + [False])
-        part = np.where(kept, self.coefficients, 0.0)
-        return np.asarray(((self.basis.values @ part) * self.equations.weights).sum(axis=1), dtype=np.float64)
+        return self.equations.model(np.where(kept, self.coefficients, 0.0))
 
     def response(self, noise: Array) -> tuple[Array, Array]:
         """What small noise in the samples does to the coefficients, and the part of the noise that the fit takes up."""
@@ -134,14 +137,14 @@ class SplineModel:
     @cached_property
     def clear(self) -> bool:
         """Whether the amplitude rises out of the noise anywhere, CLEAR times its own deviation."""
-        deviation = self.noise * np.sqrt(self.equations.variance(self.basis.values, 0))
+        deviation = self.noise * np.sqrt(self.equations.variance(0))
         return bool((np.abs(self.amplitude) > CLEAR * deviation).any())
 
     @cached_property
     def omega_deviation(self) -> Array:
         """One sigma of omega in white noise of the residual's size: the Cramer-Rao bound of this model."""
         last = self.coefficients.shape[1] - 1
-        return np.asarray(self.noise * np.sqrt(self.equations.variance(self.basis.slopes, last)), dtype=np.float64)
+        return np.asarray(self.noise * np.sqrt(self.equations.variance(last, slopes=True)), dtype=np.float64)
 
 
 def weights_of(phase: Array, amplitude: Array, multiples: tuple[int, ...]) -> Array:
@@ -152,25 +155,39 @@ def weights_of(phase: Array, amplitude: Array, multiples: tuple[int, ...]) -> Ar
     return np.stack([*columns, np.ones_like(phase), -amplitude * np.sin(phase)], axis=1)
 
 
+@dataclass(frozen=True)
+class Linearised:
+    """The weights of a model about a phase and an amplitude, as coefficients of splines ``(K,)``."""
+
+    phase: Array
+    amplitude: Array
+    multiples: tuple[int, ...]
+
+    def __call__(self, part: Part) -> Array:
+        """The weights at the samples of a part, ``(R, F)``."""
+        return weights_of(part.values @ self.phase, part.values @ self.amplitude, self.multiples)
+
+
 def fit_on(
     x: Array, time: Array, phase: Array, amplitude: Array, breaks: Array, multiples: tuple[int, ...]
 ) -> SplineModel:
     """Gauss-Newton with knots at ``breaks``, from a phase and an amplitude; each step half a radian at most."""
     basis = spline_basis(time, breaks)
-    p = normal_equations(basis, np.ones((x.size, 1))).solve(phase)[:, 0]
+    plain = normal_equations(basis, alone, 1)
+    p, a = plain.solve(phase)[:, 0], plain.solve(amplitude)[:, 0]
     step = math.inf
     for _ in range(ITERATIONS):
-        equations = normal_equations(basis, weights_of(basis.values @ p, amplitude, multiples))
+        equations = normal_equations(basis, Linearised(p, a, multiples), 3 + 2 * len(multiples))
         c = equations.solve(x)
-        amplitude = basis.values @ c[:, 0]
-        turn, size = np.abs(basis.values @ c[:, -1]), np.abs(amplitude)
+        a = c[:, 0]
+        turn, size = np.abs(basis.values(c[:, -1])), np.abs(basis.values(a))
         before, step = step, float((turn * size).max() / max(float(size.max()), np.finfo(float).tiny))
         if step < 1e-10 or (step < SETTLED and step > 0.5 * before):
             break
         p = p + c[:, -1] * min(1.0, 0.5 / float(turn.max()))
     residual = x - equations.model(c)
     c[:, -1] = p
-    noise = math.sqrt(float((residual**2).sum()) / max(1, x.size - c.size))
+    noise = math.sqrt(float(residual @ residual) / max(1, x.size - c.size))
     return SplineModel(time, breaks, c, multiples, noise, step < SETTLED, equations)
 
 
@@ -226,7 +243,7 @@ def on_more_knots(
 def follows(time: Array, breaks: Array, phase: Array, amplitude: Array) -> bool:
     """Tell whether splines come within half a radian of a phase, rms, weighted with the amplitude."""
     weight = np.maximum(amplitude, 1e-6 * amplitude.max())
-    fitted = normal_equations(spline_basis(time, breaks), weight[:, None])
+    fitted = normal_equations(spline_basis(time, breaks), lambda part: weight[part.rows, None], 1)
     off = fitted.model(fitted.solve(phase * weight)) - phase * weight
     return bool((off**2).mean() < 0.25 * (weight**2).mean())
 

@@ -9,14 +9,42 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.harmonics import spline_basis as spline_basis_module
 from ridgeback.numeric.harmonics.signal_model import signal_models
-from ridgeback.numeric.harmonics.spline_basis import DEGREE, normal_equations, spline_basis
+from ridgeback.numeric.harmonics.spline_basis import DEGREE, SplineBasis, alone, normal_equations, spline_basis
 from ridgeback.numeric.harmonics.spline_fit import best_model, fit_on, harmonic_splines, weights_of
 
 RATE = 32.0
 T = np.arange(641) / RATE
 PHASE = 2 * np.pi * (1.0 * T + 0.01 * T**2) + 0.3 * np.sin(0.4 * T)
 OMEGA = 2 * np.pi * (1.0 + 0.02 * T) + 0.12 * np.cos(0.4 * T)
+
+
+def values_of(basis: SplineBasis) -> Array:
+    return np.concatenate([part.values.toarray() for part in basis.parts()])
+
+
+def slopes_of(basis: SplineBasis) -> Array:
+    return np.concatenate([part.slopes.toarray() for part in basis.parts()])
+
+
+def test_a_record_in_parts_is_the_record_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    x = np.cos(PHASE) + 0.2 * np.cos(3 * PHASE - 1.0) + 0.05 * np.random.default_rng(2).normal(size=T.size)
+    breaks = np.array([0.0, 4.0, 9.0, 20.03125]) * T[-1] / 20.03125
+
+    def measured() -> tuple[Array, ...]:
+        model = fit_on(x, T, PHASE, np.ones(T.size), breaks, (3,))
+        change, taken = model.response(x)
+        third = model.tone(3, change)
+        return model.coefficients, model.omega_deviation, model.samples(keep=lambda h: h == 3), taken, *third
+
+    whole = measured()
+    monkeypatch.setattr(spline_basis_module, "ROWS", 100)
+    monkeypatch.setattr(spline_basis_module, "PRODUCTS", 1)
+    monkeypatch.setattr(spline_basis_module, "UNKNOWNS", 1)
+    for part, at_once in zip(measured(), whole, strict=True):
+        assert_allclose(part, at_once, rtol=1e-7, atol=1e-9)
 
 
 @given(st.integers(0, 500), st.integers(1, 4), st.integers(1, 5))
@@ -26,21 +54,22 @@ def test_banded_least_squares_are_the_dense_ones(seed: int, families: int, inter
     time, weights = np.linspace(0.0, 2.0, 160), rng.normal(size=(160, families))
     breaks = np.concatenate([[0.0], np.sort(rng.uniform(0.2, 1.8, intervals - 1)), [2.0]])
     basis = spline_basis(time, breaks)
-    equations = normal_equations(basis, weights)
-    dense = (basis.values.toarray()[:, :, None] * weights[:, None, :]).reshape(160, -1)
+    equations = normal_equations(basis, lambda part: weights[part.rows], families)
+    dense = (values_of(basis)[:, :, None] * weights[:, None, :]).reshape(160, -1)
     x = rng.normal(size=160)
     if np.linalg.cond(dense) < 1e4:
         assert_allclose(equations.solve(x).ravel(), np.linalg.lstsq(dense, x, rcond=None)[0], rtol=1e-4, atol=1e-5)
-        covariance, slopes = np.linalg.inv(dense.T @ dense)[::families, ::families], basis.slopes.toarray()
-        expected = np.einsum("nk,kl,nl->n", slopes, covariance, slopes)
-        assert_allclose(equations.variance(basis.slopes, 0), expected, rtol=1e-4)
+        covariance = np.linalg.inv(dense.T @ dense)[::families, ::families]
+        for rows, slopes in ((values_of(basis), False), (slopes_of(basis), True)):
+            expected = np.einsum("nk,kl,nl->n", rows, covariance, rows)
+            assert_allclose(equations.variance(0, slopes=slopes), expected, rtol=1e-4)
 
 
 def test_slopes_are_those_of_the_splines() -> None:
     basis = spline_basis(T, np.array([0.0, 3.0, 11.0, 20.03125]) * T[-1] / 20.03125)
-    assert_allclose(basis.slopes.sum(axis=1), 0.0, atol=1e-10)
-    p = normal_equations(basis, np.ones((T.size, 1))).solve(T**DEGREE)[:, 0]
-    assert_allclose(basis.slopes @ p, DEGREE * T ** (DEGREE - 1), rtol=1e-6, atol=1e-2)
+    assert_allclose(basis.slopes(np.ones(basis.count)), 0.0, atol=1e-10)
+    p = normal_equations(basis, alone, 1).solve(T**DEGREE)[:, 0]
+    assert_allclose(basis.slopes(p), DEGREE * T ** (DEGREE - 1), rtol=1e-6, atol=1e-2)
 
 
 def test_exact_where_the_model_holds_up_to_the_very_ends() -> None:
@@ -60,10 +89,8 @@ def test_deviation_is_the_cramer_rao_bound_and_is_met() -> None:
     sigma, breaks = 0.1, np.array([0.0, 7.0, 14.0, 20.0])
     phase, omega = 2 * np.pi * (1.0 * T + 0.01 * T**2), 2 * np.pi * (1.0 + 0.02 * T)
     basis = spline_basis(T, breaks)
-    jacobian = (basis.values.toarray()[:, :, None] * weights_of(phase, np.ones(T.size), ())[:, None, :]).reshape(
-        641, -1
-    )
-    slopes = basis.slopes.toarray()
+    jacobian = (values_of(basis)[:, :, None] * weights_of(phase, np.ones(T.size), ())[:, None, :]).reshape(641, -1)
+    slopes = slopes_of(basis)
     covariance = np.linalg.inv(jacobian.T @ jacobian)[2::3, 2::3]
     bound = sigma * np.sqrt(np.einsum("nk,kl,nl->n", slopes, covariance, slopes))
     found, claimed = [], []
