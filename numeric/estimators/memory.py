@@ -11,7 +11,7 @@ from types import MappingProxyType
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.signal.samples import MEMORY_BUDGET
 
-WITH_BIAS = 3000
+WITH_BIAS = 500
 """For each sample, of the models of the whole signal that bias and interval rest on, and by which ``auto`` chooses."""
 BYTES: Mapping[str, int] = MappingProxyType(
     {

@@ -66,8 +66,8 @@ def dead_zone(noise: float, smallest: float) -> float:
 
     Three times the noise, but at least a fiftieth and at most a half of that amplitude.
 
-    >>> dead_zone(0.1, 1.0), dead_zone(0.0, 1.0), dead_zone(1.0, 1.0)
-    (0.30000000000000004, 0.02, 0.5)
+    >>> dead_zone(0.1, 2.0), dead_zone(0.0, 2.0), dead_zone(1.0, 2.0)
+    (0.30000000000000004, 0.04, 1.0)
     """
     return min(max(3.0 * noise, 0.02 * smallest), 0.5 * smallest)
 

@@ -29,6 +29,8 @@ def bracketed_newton(
     >>> root = bracketed_newton(lambda x: (x * x - [2.0, 9.0], 2 * x), np.zeros(2), np.full(2, 10.0))
     >>> [round(float(r), 12) for r in root]
     [1.414213562373, 3.0]
+    >>> bracketed_newton(lambda x: (2.0 - x, -np.ones(1)), np.zeros(1), np.full(1, 10.0)).tolist()
+    [2.0]
     """
     low, high = np.array(low, dtype=float), np.array(high, dtype=float)
     if low.size == 0:

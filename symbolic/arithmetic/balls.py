@@ -249,7 +249,10 @@ def evaluated(function: Callable[[arb], arb], value: Any) -> Any:
 
     Examples
     --------
+    >>> import mpmath
     >>> evaluated(lambda x: x.sqrt(), 2.0) == 2.0**0.5
+    True
+    >>> evaluated(lambda x: x.sqrt(), mpmath.mpf(2)) == mpmath.sqrt(2)
     True
     """
     if hasattr(value, "flat") and value.ndim > 0:

@@ -104,6 +104,7 @@ def test_nearly_even_times_are_interpolated_and_say_so(tmp_path: Path) -> None:
     t = T + 0.06 / RATE * np.sin(T)
     found = read_recording(written(tmp_path / "a.csv", t, wave(t)))
     assert found.facts["interpolation_error"] < 1e-3
+    assert found.rate == pytest.approx(RATE, rel=1e-3)
     assert np.abs(found.values - wave(found.time)).max() < 1e-4
     assert any("uneven times were resampled" in note.lower() for note in found.notes)
 

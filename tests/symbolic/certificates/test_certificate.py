@@ -41,6 +41,11 @@ def test_what_does_not_apply_is_said() -> None:
     assert "u'" in found["energy integral"].statement
 
 
+def test_the_number_of_coefficients_that_agree_is_said() -> None:
+    said = {c.name: c.statement for c in certify(find("pendulum"), lindstedt(find("pendulum"), 6))}
+    assert "the same 7 coefficients (peak amplitude)" in said["energy integral"]
+
+
 def test_a_wrong_frequency_fails_every_check_that_can_see_it() -> None:
     good = lindstedt(find("pendulum"), 6)
     wrong = replace(good, coefficients=(*good.coefficients[:-1], good.coefficients[-1] + fmpq(1, 10**6)))

@@ -348,3 +348,14 @@ def test_coefficients_of_many_thousand_digits_are_written() -> None:
     scaled = unit * fmpq(10) ** 4900  # omega0 depends on c A^2 alone
     assert (fmpz(numerator), fmpz(denominator or "1")) == (scaled.p, scaled.q)
     assert len(expansion.latex()) > 100_000
+
+
+@pytest.mark.parametrize("name", ["duffing", "van-der-pol", "helmholtz-duffing"])
+def test_a_truncated_expansion_is_the_expansion_of_that_order(name: str) -> None:
+    long, short = lindstedt(find(name), 6), lindstedt(find(name), 4)
+    cut = long.truncated(4)
+    assert (cut.order, cut.coefficients) == (4, short.coefficients)
+    assert cut.amplitude_coefficients == short.amplitude_coefficients
+    assert cut.waveform is not None
+    assert short.waveform is not None
+    assert len(cut.waveform) == len(short.waveform)

@@ -5,11 +5,13 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
+import sympy
 from flint import arb, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ridgeback.symbolic.series.harmonic_basis import Balls
+from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Space, space_for
 from ridgeback.symbolic.series.trigonometric import (
     Trig,
@@ -115,3 +117,16 @@ def test_a_wrong_sign_would_be_seen() -> None:
     wave = made(space, {2: (Fraction(1), Fraction(1, 3))})
     assert same(wave, {2: (Fraction(1), Fraction(1, 3))})
     assert not same(-wave, {2: (Fraction(1), Fraction(1, 3))})
+
+
+FUNCTIONS = ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "asin", "atan", "asinh", "atanh", "log")
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+    "name", ["sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "asin", "atan", "asinh", "atanh", "log"]
+)
+def test_functions_of_the_one_constant_where_they_are_rational(name: str) -> None:
+    at = int(name == "log")
+    expected = int(getattr(sympy, name)(at))
+    ring = TrigRing(SPACES["powers"])
+    assert at_zero(ring.function(name, ring.rational(at, 1))) == fmpq(expected)
