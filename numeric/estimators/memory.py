@@ -24,7 +24,7 @@ BYTES: Mapping[str, int] = MappingProxyType(
         "hilbert": 400,
         "zero-crossing": 430,
         "polynomial-wigner": 3600,
-        "harmonic-least-squares": 2500,
+        "harmonic-least-squares": 500,
     }
 )
 """For each sample, by method, without bias and interval."""

@@ -133,12 +133,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--kills", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--minutes", type=float, default=float("inf"), help="begin no chain after so long")
     given = parser.parse_args(arguments)
+    last = time.monotonic() + 60.0 * given.minutes
     totals: dict[str, Counter[str]] = {name: Counter() for name in JOBS}
     faults: list[str] = []
     with tempfile.TemporaryDirectory(prefix="ridgeback-kill-") as root:
         undisturbed = references(Path(root))
         for name, stops in chains(given.kills, random.Random(given.seed)):  # noqa: S311 - moments, no secrets
+            if time.monotonic() > last:
+                break
             reference, seconds = undisturbed[name]
             trial = Trial(name, Path(tempfile.mkdtemp(dir=root)), reference)
             for stop, share in stops:

@@ -57,14 +57,10 @@ class Choice:
         return [f"ridgeback/{path}", *(str(test.relative_to(self.root)) for test in sorted(folder.glob("test_*.py")))]
 
     def others(self, path: str) -> dict[str, int]:
-        """Further tests with their distances: those that import a file, and those of its room that reach it."""
-        room, near = f"tests/{path.partition('/')[0]}/", set(self.near(path))
+        """Further tests of its room and of the one where rooms meet that reach a file, with their distances."""
+        rooms, near = (f"tests/{path.partition('/')[0]}/", "tests/compare/"), set(self.near(path))
         reached = self.distances(path)
-        return {
-            t: far
-            for t, far in reached.items()
-            if t not in near and (far == 1 or (far <= FARTHEST and t.startswith(room)))
-        }
+        return {t: far for t, far in reached.items() if t not in near and far <= FARTHEST and t.startswith(rooms)}
 
     def far(self, path: str) -> list[str]:
         """The others, the nearest first."""

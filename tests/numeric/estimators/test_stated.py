@@ -61,3 +61,17 @@ def test_resampling_keeps_the_last_sample(last: float, rate: float, count: int) 
     found = off_grid(Stamped(time, np.sin(time), np.arange(time.size), 0), none, rate, last)
     assert found.values.size == count
     assert found.values[-1] == pytest.approx(np.sin(last), abs=1e-6)
+
+
+def test_a_local_fit_takes_the_window_that_suits_the_signal() -> None:
+    """A tone that hardly moves is known best over a long window, a fast chirp over a short one."""
+    rng = np.random.default_rng(8)
+    noise = 0.1 * rng.standard_normal(TIME.size)
+    chirp = np.cos(2 * np.pi * (TIME + 0.02 * TIME**2 + 0.15 * np.sin(0.9 * TIME)))
+    long, short = (
+        estimate(x + noise, RATE, method="harmonic-least-squares", scope="local").used.lag_seconds
+        for x in (TONE, chirp)
+    )
+    assert long is not None
+    assert short is not None
+    assert long > 8.0 > short

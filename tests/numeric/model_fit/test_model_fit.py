@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -11,13 +12,14 @@ import pytest
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.model_fit.family import Family
-from ridgeback.numeric.model_fit.fit import ModelFit, model_fit
-from ridgeback.numeric.model_fit.problem import inverse_normal
+from ridgeback.numeric.model_fit.fit import OPERATIONS, ModelFit, model_fit
+from ridgeback.numeric.model_fit.problem import EVALUATIONS, inverse_normal
 from ridgeback.numeric.model_fit.sensitivity import respond, steps_needed
 from ridgeback.numeric.model_fit.track import model_track
 from ridgeback.numeric.model_fit.whiteness import whiteness
 from ridgeback.numeric.motion.dynamics import duffing, pendulum, van_der_pol
 from ridgeback.numeric.motion.trajectory import integrate
+from ridgeback.numeric.signal import samples
 
 RATE = 16.0
 
@@ -201,3 +203,13 @@ def test_what_cannot_be_fitted_is_refused() -> None:
         pendulum_family(k=math.nan)
     with pytest.raises(InputError, match="steps per sample do not follow"):
         steps_needed(pendulum_family(), (900.0, 0.0), (1.0, 0.0), samples=20, rate=1.0, bound=10.0, tolerance=1e-9)
+
+
+def test_what_a_fit_costs_is_seen_before_it_begins(monkeypatch: pytest.MonkeyPatch) -> None:
+    time = np.arange(400) / RATE
+    monkeypatch.setattr(samples, "WORK_BUDGET", 1e6)
+    with pytest.raises(InputError, match="the fit of pendulum to 400 samples needs about") as refusal:
+        model_fit(np.cos(0.98 * time), RATE, pendulum_family())
+    said = re.search(r"about (\S+) operations", str(refusal.value))
+    assert said is not None
+    assert float(said[1]) >= 400 * OPERATIONS * EVALUATIONS

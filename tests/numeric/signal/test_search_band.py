@@ -1,0 +1,24 @@
+"""Where the fundamental is looked for in a record of few cycles, and what is said of a window that does not fit it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.signal.search_band import guide_path
+from ridgeback.numeric.signal.windows import half_width
+
+
+@pytest.mark.parametrize("size", [60, 61, 62, 63])
+def test_a_record_shorter_than_the_guides_window_guides_itself(size: int) -> None:
+    x = np.cos(6.0 * np.arange(size) / 20.0)
+    path = guide_path(x, 20.0, 6.0, 3.0, 12.0)
+    assert path.shape == x.shape
+    assert np.abs(path - 6.0).max() < 1.0
+
+
+def test_a_window_beyond_the_record_is_refused_with_the_longest_that_fits() -> None:
+    with pytest.raises(InputError, match=r"lag_seconds 10 needs 201 samples, the signal has 50; use at most 2\.45$"):
+        half_width(10.0, 20.0, longest=50)
+    assert half_width(2.45, 20.0, longest=50) == 24
