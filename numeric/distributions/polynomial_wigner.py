@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -36,6 +37,8 @@ DESIGNS: Mapping[int, tuple[tuple[int, float], ...]] = MappingProxyType(
     {2: ((1, 0.5),), 4: ((2, 0.25),), 6: ((2, _C), (1, -(2.0 ** (1.0 / 3.0)) * _C))}
 )
 """Pairs (b_k, c_k) for each order."""
+STRETCH_BYTES = 256_000_000
+"""Lag products that are held at a time."""
 
 
 def shifted(z: ComplexArray, samples: float) -> ComplexArray:
@@ -44,20 +47,48 @@ def shifted(z: ComplexArray, samples: float) -> ComplexArray:
     >>> shifted(np.array([1.0 + 0j, 2.0, 3.0, 4.0]), 1.0).real.round(12).tolist()
     [2.0, 3.0, 4.0, 0.0]
     """
-    turn = np.exp(2j * math.pi * fft.fftfreq(z.size) * samples)
-    moved = fft.ifft(fft.fft(z) * turn)
-    at = np.arange(z.size) + samples
-    inside = (at >= -1e-9) & (at <= z.size - 1 + 1e-9)
-    return np.asarray(np.where(inside, moved, 0.0), dtype=np.complex128)
+    return moved(fft.fft(z), samples, slice(0, z.size))
+
+
+def moved(spectrum: ComplexArray, samples: float, rows: slice) -> ComplexArray:
+    """Some rows of z at n + samples, from its DFT."""
+    turn = np.exp(2j * math.pi * fft.fftfreq(spectrum.size) * samples)
+    turn *= spectrum
+    there = fft.ifft(turn, overwrite_x=True)[rows]
+    at = np.arange(rows.start, rows.stop) + samples
+    inside = (at >= -1e-9) & (at <= spectrum.size - 1 + 1e-9)
+    return np.asarray(np.where(inside, there, 0.0), dtype=np.complex128)
 
 
 @dataclass(frozen=True)
 class PolynomialKernel:
-    """The lag products of one order for all times, ``products[n, m]`` at tau = 2 m / rate, under the window h[0..M]."""
+    """The lag products of one order of complex samples, at tau = 2 m / rate, under the window h[0..M].
 
-    products: ComplexArray
+    They are formed for a stretch of time after the other, and dropped.
+    """
+
+    signal: ComplexArray
     rate: float
+    order: int
+    half_window: Array
     n_fft: int
+    progress: Progress = silent
+
+    @cached_property
+    def _spectrum(self) -> ComplexArray:
+        return np.asarray(fft.fft(self.signal), dtype=np.complex128)
+
+    def products(self, start: int, stop: int) -> ComplexArray:
+        """The products ``[n - start, m]`` for n = start .. stop - 1."""
+        found = np.empty((stop - start, self.half_window.size), dtype=np.complex128)
+        rows, size = slice(start, stop), self.signal.size
+        for m, weight in enumerate(self.half_window):
+            self.progress((start + (stop - start) * m / self.half_window.size) / size, "lag products")
+            found[:, m] = weight
+            for power, c in DESIGNS[self.order]:
+                ahead, behind = (moved(self._spectrum, side * 2.0 * c * m, rows) for side in (1.0, -1.0))
+                found[:, m] *= (ahead * behind.conj()) ** power
+        return found
 
     @property
     def omega(self) -> Array:
@@ -76,11 +107,15 @@ class PolynomialKernel:
 
     def searched(self) -> Iterator[tuple[int, int, Array]]:
         """All real spectra on the bins ``omega``, scaled by 2 / rate, a few at a time."""
-        size, block = self.products.shape[0], max(1, BLOCK_BYTES // (16 * self.n_fft))
-        for start in range(0, size, block):
-            stop = min(start + block, size)
-            spectra = fft.hfft(self.products[start:stop], n=self.n_fft, axis=1)
-            yield start, stop, np.asarray(spectra * (2.0 / self.rate), dtype=np.float64)
+        size, block = self.signal.size, max(1, BLOCK_BYTES // (16 * self.n_fft))
+        stretch = max(1, STRETCH_BYTES // (16 * self.half_window.size))
+        for begin in range(0, size, stretch):
+            end = min(begin + stretch, size)
+            products = self.products(begin, end)
+            for start in range(begin, end, block):
+                stop = min(start + block, end)
+                spectra = fft.hfft(products[start - begin : stop - begin], n=self.n_fft, axis=1)
+                yield start, stop, np.asarray(spectra * (2.0 / self.rate), dtype=np.float64)
 
 
 def half_lags(lag_seconds: float, rate: float, order: int, size: int) -> int:
@@ -100,12 +135,11 @@ def polynomial_kernel(
     order: int = 6,
     lag_window: str = "hann",
     n_fft: int | None = None,
-    memory: int = MEMORY_BUDGET,
     progress: Progress = silent,
 ) -> PolynomialKernel:
     """Build the polynomial lag kernel of complex samples, which have been checked, over ``lag_seconds`` of signal.
 
-    Raises InputError for an order other than 2, 4, 6, a window longer than the signal, or products over ``memory``.
+    Raises InputError for an order other than 2, 4, 6, a or a window longer than the signal.
 
     >>> t = np.arange(129) / 16.0
     >>> kernel = polynomial_kernel(np.exp(2j * np.pi * 3.0 * t), 16.0, lag_seconds=2.0)
@@ -117,16 +151,7 @@ def polynomial_kernel(
     bins = fft.next_fast_len(2 * (2 * M + 1), real=True) if n_fft is None else int(n_fft)
     if bins < 2 * M + 1:
         raise InputError(f"n_fft {bins} is below the {2 * M + 1} lags of the kernel; use at least {2 * M + 1}")
-    checked_budget(48 * z.size * (M + 1), memory, f"{z.size} by {M + 1} lag products", "use a shorter lag_seconds")
-    h = window(lag_window, M)[M:]
-    products = np.empty((z.size, M + 1), dtype=np.complex128)
-    for m in range(M + 1):
-        progress(m / (M + 1), "lag products")
-        column = np.full(z.size, h[m], dtype=np.complex128)
-        for power, c in DESIGNS[order]:
-            column *= (shifted(z, 2.0 * c * m) * shifted(z, -2.0 * c * m).conj()) ** power
-        products[:, m] = column
-    return PolynomialKernel(products, rate, bins)
+    return PolynomialKernel(z, rate, order, window(lag_window, M)[M:], bins, progress)
 
 
 @documented
@@ -192,15 +217,13 @@ def polynomial_wigner(
             order=order,
             lag_window=lag_window,
             n_fft=n_fft,
-            memory=memory,
             progress=lambda share, step: told(0.9 * share, step),
         )
-        told(0.9, "polynomial-wigner")
         return _plane(kernel, order=order, start=start, memory=memory, border=0.5 * lag_seconds)
 
 
 def _plane(kernel: PolynomialKernel, *, order: int, start: float, memory: int, border: float) -> Distribution:
-    size, M = kernel.products.shape[0], kernel.products.shape[1] - 1
+    size, M = kernel.signal.size, kernel.half_window.size - 1
     remedy = "shorten the signal or lower n_fft"
     checked_budget(8 * size * kernel.n_fft, memory, f"polynomial-wigner of {size} samples", remedy)
     columns = np.empty((size, kernel.n_fft))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
+from ridgeback.numeric.distributions import polynomial_wigner
 from ridgeback.numeric.distributions.polynomial_wigner import DESIGNS, polynomial_deviation, polynomial_kernel, shifted
 from ridgeback.numeric.distributions.ridge import follow
 from ridgeback.numeric.distributions.wigner import wigner_kernel
@@ -40,7 +41,7 @@ def test_order_two_is_the_pseudo_wigner_distribution() -> None:
     x = np.cos(8.0 * T + np.sin(T))
     same = polynomial_kernel(as_analytic(x), RATE, lag_seconds=3.0, order=2)
     usual = wigner_kernel(x, RATE, lag_seconds=3.0)
-    assert np.abs(same.products * 2 / RATE - usual.columns(0, T.size)).max() < 1e-12
+    assert np.abs(same.products(0, T.size) * 2 / RATE - usual.columns(0, T.size)).max() < 1e-12
 
 
 def test_products_are_those_of_the_interpolated_signal_written_out() -> None:
@@ -48,8 +49,8 @@ def test_products_are_those_of_the_interpolated_signal_written_out() -> None:
     size, cycles = 128, 9
     z = np.exp(2j * np.pi * cycles * np.arange(size) / size)
     kernel = polynomial_kernel(z, 16.0, lag_seconds=2.0, lag_window="rectangular")
-    m = np.arange(kernel.products.shape[1])
-    assert np.abs(kernel.products[64] - np.exp(2j * np.pi * cycles * 2 * m / size)).max() < 1e-12
+    m = np.arange(kernel.half_window.size)
+    assert np.abs(kernel.products(0, z.size)[64] - np.exp(2j * np.pi * cycles * 2 * m / size)).max() < 1e-12
 
 
 @pytest.mark.parametrize("samples", [0.3, -1.7, 5.0])
@@ -89,5 +90,14 @@ def test_unusable_requests_are_named() -> None:
     x = as_analytic(np.cos(8.0 * T))
     with pytest.raises(InputError, match=r"order 5 .* use 2, 4 or 6"):
         polynomial_kernel(x, RATE, lag_seconds=2.0, order=5)
-    with pytest.raises(InputError, match="513 by 19 lag products needs"):
-        polynomial_kernel(x, RATE, lag_seconds=2.0, memory=1000)
+    with pytest.raises(InputError, match=r"n_fft 20 is below the 39 lags"):
+        polynomial_kernel(x, RATE, lag_seconds=2.0, n_fft=20)
+
+
+def test_stretches_of_time_make_the_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    z = as_analytic(np.cos(8.0 * T + np.sin(T)))
+    whole = [spectra for *_, spectra in polynomial_kernel(z, RATE, lag_seconds=3.0).searched()]
+    monkeypatch.setattr(polynomial_wigner, "STRETCH_BYTES", 16 * 36 * 100)
+    parts = list(polynomial_kernel(z, RATE, lag_seconds=3.0).searched())
+    assert len(parts) > len(whole)
+    assert np.abs(np.concatenate([spectra for *_, spectra in parts]) - np.concatenate(whole)).max() < 1e-12
