@@ -90,7 +90,7 @@ def test_unusable_requests_are_named() -> None:
     x = as_analytic(np.cos(8.0 * T))
     with pytest.raises(InputError, match=r"order 5 .* use 2, 4 or 6"):
         polynomial_kernel(x, RATE, lag_seconds=2.0, order=5)
-    with pytest.raises(InputError, match=r"n_fft 20 is below the 39 lags"):
+    with pytest.raises(InputError, match=r"n_fft 20 is below the 37 lags"):
         polynomial_kernel(x, RATE, lag_seconds=2.0, n_fft=20)
 
 
