@@ -233,7 +233,7 @@ def estimation(
     if method == "auto":
         samples, search = decimated(samples, band=options.band, per_cycle=max(PER_CYCLE, 4.0 * harmonic))
     check_memory(method, samples.x.size)
-    no_room = without_room(samples.x.size) if options.bias else None
+    no_room = without_room(method, samples.x.size) if options.bias else None
     if no_room is not None and remove_bias:
         raise InputError(no_room)
     options = options if no_room is None else replace(options, bias=False)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -9,19 +12,39 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.estimators import memory
 from ridgeback.numeric.estimators.estimate import estimate
 
+MEASURE = """
+import resource, sys
+import numpy as np
+from ridgeback.numeric.estimators.estimate import estimate
+
+size = int(sys.argv[2])
+estimate(np.cos(0.2 * np.arange(2000)), 32.0, method=sys.argv[1], bias=False)
+x = np.cos(0.2 * np.arange(size)) + 0.01 * np.random.default_rng(1).normal(size=size)
+before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+estimate(x, 32.0, method=sys.argv[1], bias=False)
+print(1024 * (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before))
+"""
+
 
 def test_a_method_that_does_not_fit_is_refused_before_it_begins() -> None:
-    x = np.cos(0.2 * np.arange(1_000_000))
-    with pytest.raises(InputError, match=r"polynomial-wigner of 1000000 samples would take about 3\.6 GB, over 1 GB"):
+    x = np.cos(0.2 * np.arange(3_000_000))
+    with pytest.raises(InputError, match=r"polynomial-wigner of 3000000 samples would take about 2\.2 GB, over 1 GB"):
         estimate(x, 100.0, method="polynomial-wigner")
-    with pytest.raises(InputError, match=r"the bias of 1000000 samples would take about 3 GB"):
+    with pytest.raises(InputError, match=r"the bias of 3000000 samples would take about 1\.4 GB"):
         estimate(x, 100.0, method="hilbert", remove_bias=True)
 
 
 def test_a_record_whose_bias_does_not_fit_is_measured_without(monkeypatch: pytest.MonkeyPatch) -> None:
     x = np.cos(0.2 * np.arange(2000))
-    monkeypatch.setattr(memory, "MEMORY_BUDGET", 5_000_000)
+    monkeypatch.setattr(memory, "MEMORY_BUDGET", memory.FIXED + 700_000)
     track = estimate(x, 100.0, method="hilbert")
     assert track.valid.any()
     assert track.interval is None
     assert "the bias of 2000 samples would take" in str(track.no_interval)
+    assert str(track.no_interval).endswith(f"at most {700_000 // memory.WITH_BIAS}")
+
+
+@pytest.mark.skipif(sys.platform == "darwin", reason="counts bytes there, not kilobytes")
+def test_the_prediction_holds_within_a_factor_of_three() -> None:
+    run = subprocess.run([sys.executable, "-c", MEASURE, "hilbert", "300000"], capture_output=True, check=True)
+    assert 1 / 3 < int(run.stdout) / memory.predicted_bytes("hilbert", 300_000, bias=False) < 3
