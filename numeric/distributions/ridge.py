@@ -21,7 +21,7 @@ from ridgeback.numeric.distributions.bin_interpolation import (
     slopes_around,
 )
 
-AT_ONCE = 1 << 15
+AT_ONCE = 1 << 11
 """Columns that are read between the bins at a time."""
 
 
