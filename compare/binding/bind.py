@@ -18,11 +18,15 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR
 from ridgeback.compare.binding.taylor_jet import force_jet
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.motion.dynamics import Dynamics, duffing_frequency, pendulum_frequency
+from ridgeback.numeric.motion.dynamics import Dynamics, Switches, duffing_frequency, pendulum_frequency
 from ridgeback.symbolic.arithmetic.closures import evaluator
+from ridgeback.symbolic.enclosure.enclosure import enclose
+from ridgeback.symbolic.flow.averaged_losses import undamped
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.elliptic import cubic_force, sine_force
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V, Value
+from ridgeback.symbolic.systems.sides import is_kinked, without_velocity
+from ridgeback.symbolic.systems.structure import dissipative_names
 
 Vectorised = Callable[[ArrayLike], Array]
 
@@ -73,18 +77,61 @@ def _bound(bound: Oscillator) -> Dynamics:
 
 def _in_doubles(bound: Oscillator) -> Dynamics:
     force, potential = bound.substituted_force, bound.substituted_potential
+    potential = potential if bound.is_linear_at_rest else None  # what is made of one supposes a natural frequency
     scalar, precise = evaluator(force, (U, V), SCALAR), evaluator(force, (U, V), PRECISE)
+    switches = switches_of(force) if is_kinked(force) else None
     return Dynamics(
         name=bound.name,
         force=lambda u, v: float(scalar((u, v))),
-        natural_frequency=float(bound.natural_frequency.evalf(30)),
+        natural_frequency=_time_scale(bound),
         damping=_linear_damping(force),
         potential=None if potential is None else _vectorised(potential),
-        restoring=None if potential is None else _vectorised(sympy.diff(potential, U)),
-        closed_form=None if potential is None else closed_form(force.subs(V, 0)),
+        restoring=None if potential is None else _vectorised(_slope(potential, force)),
+        closed_form=None if potential is None else closed_form(without_velocity(force)),
         precise_force=lambda u, v: precise((u, v)),
-        jet=force_jet(force),
+        jet=None if switches else force_jet(force),
+        switches=switches,
     )
+
+
+def _time_scale(oscillator: Oscillator) -> float:
+    """k, or without a linear force omega0 at the peak amplitude that the oscillator's initial u is of, undamped."""
+    if oscillator.is_linear_at_rest:
+        return float(oscillator.natural_frequency.evalf(30))
+    rest = undamped(oscillator, dissipative_names(oscillator.force))
+    return float(enclose(rest, abs(oscillator.initial[0]) or 1.0, bits=64).middle)
+
+
+def _slope(potential: sympy.Expr, force: sympy.Expr) -> sympy.Expr:
+    """V', or the force itself where V has a kink."""
+    return without_velocity(force) if is_kinked(force, U) else sympy.diff(potential, U)
+
+
+def switches_of(force: sympy.Expr) -> Switches:
+    """The sides of a force with kinks, each smooth.
+
+    >>> sides = switches_of(U * abs(U) + sympy.sign(V))
+    >>> sides.force(-1, 1)(-2.0, 0.5), sides.force(1, -1)(2.0, -0.5)
+    (-3.0, 3.0)
+    """
+    forces = {(one, other): _on_sides(force, one, other) for one in (1, -1) for other in (1, -1)}
+    return Switches(is_kinked(force, U), is_kinked(force, V), lambda one, other: forces[one, other])
+
+
+def _on_sides(force: sympy.Expr, one: int, other: int) -> Callable[[float, float], float]:
+    """The force on one side each of u and u'; broken powers are held at 0 beyond it."""
+    sizes = {U: sympy.Symbol("|u|", real=True), V: sympy.Symbol("|u'|", real=True)}
+    signs = {sympy.sign(U): sympy.Integer(one), sympy.sign(V): sympy.Integer(other)}
+    smooth = evaluator(
+        force.xreplace({**signs, **{sympy.Abs(x): s for x, s in sizes.items()}}), (U, V, *sizes.values()), SCALAR
+    )
+    held = any(power.exp.is_Integer is False for power in force.atoms(sympy.Pow) if power.base in (abs(U), abs(V)))
+
+    def value(u: float, v: float) -> float:
+        x, y = one * u, other * v
+        return float(smooth((u, v, max(x, 0.0) if held else x, max(y, 0.0) if held else y)))
+
+    return value
 
 
 def _check_numbers(oscillator: Oscillator) -> None:
@@ -106,7 +153,7 @@ def _vectorised(expression: sympy.Expr) -> Vectorised:
 
 def _linear_damping(force: sympy.Expr) -> float:
     """Return mu when the velocity enters as 2 mu u' and in no other way, else 0."""
-    velocity_part = sympy.expand(force - force.xreplace({V: sympy.Integer(0)}))
+    velocity_part = sympy.expand(force - without_velocity(force))
     rate = sympy.cancel(velocity_part / V)
     return float(rate / 2) if rate.is_number else 0.0
 

@@ -64,7 +64,12 @@ def _whole_power(inner: Evaluator, whole: int) -> Evaluator:
 
 
 def _of(module: Any) -> dict[str, Callable[[Any], Any]]:
-    return {name: getattr(module, name) for name in FUNCTIONS}
+    return {name: getattr(module, name) for name in FUNCTIONS} | {"Abs": abs, "sign": getattr(module, "sign", _sign)}
+
+
+def _sign(x: float) -> float:
+    """-1, 0 or 1."""
+    return math.copysign(1.0, x) if x else 0.0
 
 
 SCALAR: Final = Library("float", _of(math), _is_number, _rounded, _float_power)

@@ -22,6 +22,23 @@ from ridgeback.numeric.motion.precise_ring import PRECISE, Jet, Precise, solutio
 from ridgeback.numeric.motion.roots import bracketed_newton
 
 
+@dataclass(frozen=True)
+class Switches:
+    """The sides of a force with kinks at u = 0 or u' = 0.
+
+    Parameters
+    ----------
+    in_u, in_velocity : bool
+        Where the kinks are.
+    force : callable
+        (side of u, side of u'), each 1 or -1, to the f(u, u') that holds there and goes on smoothly beyond.
+    """
+
+    in_u: bool
+    in_velocity: bool
+    force: Callable[[int, int], Callable[[float, float], float]]
+
+
 @dataclass(frozen=True, repr=False)
 class Dynamics:
     """The oscillator ``u'' + f(u, u') = 0`` with all its parameters set.
@@ -35,7 +52,8 @@ class Dynamics:
     force : callable
         f(u, u') on plain floats.
     natural_frequency : float
-        k, the frequency of small oscillations without damping, rad per time unit.
+        k, the frequency of small oscillations without damping, rad per time unit; for a force without a linear part
+        omega0 at the oscillator's initial amplitude, as the scale of time.
     damping : float
         mu in the linear damping 2 mu u', per time unit; 0 when there is none or it is of another form.
     potential : callable, optional
@@ -47,7 +65,10 @@ class Dynamics:
     precise_force : callable, optional
         f in mpmath arithmetic.
     jet : callable, optional
-        (u0, u0', degree) to the Taylor coefficients [u0, u0', u''/2!, ...] at mpmath's current precision.
+        (u0, u0', degree) to the Taylor coefficients [u0, u0', u''/2!, ...] at mpmath's current precision; None for a
+        force with kinks.
+    switches : Switches, optional
+        The sides of a force with kinks.
 
     Examples
     --------
@@ -64,6 +85,7 @@ class Dynamics:
     closed_form: Callable[[ArrayLike], Array] | None = None
     precise_force: Callable[[Precise, Precise], Precise] | None = None
     jet: Jet | None = None
+    switches: Switches | None = None
 
     def __repr__(self) -> str:
         return f"<Dynamics: {self.name}, k = {self.natural_frequency:.6g}, mu = {self.damping:.6g}>"

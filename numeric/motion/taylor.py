@@ -21,9 +21,10 @@ from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.arrays import Array, frozen, frozen_mask
 from ridgeback.numeric.motion.dynamics import Dynamics, well
 from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
+from ridgeback.numeric.motion.integration import MEMORY_BUDGET, Interpolant
 from ridgeback.numeric.motion.precise_ring import Precise
 from ridgeback.numeric.motion.request import check_inside, check_request
-from ridgeback.numeric.motion.trajectory import MEMORY_BUDGET, Interpolant, Trajectory, sample_times
+from ridgeback.numeric.motion.trajectory import Trajectory, sample_times
 
 _GUARD = 8  # digits carried beyond those asked for, against rounding over many steps
 PILOT = 40
@@ -169,6 +170,8 @@ def taylor_solution(
     3.14159265358979323846264338328
     """
     jet = dynamics.jet
+    if jet is None and dynamics.switches is not None:
+        raise InputError(f"{dynamics.name}: a force with kinks has no Taylor series there; use method DOP853 instead")
     if jet is None:
         raise InputError(f"{dynamics.name}: no Taylor coefficients are given (jet); use method DOP853 instead")
     if not 5 <= digits <= 1000:

@@ -22,16 +22,20 @@ from scipy.interpolate import BarycentricInterpolator
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics
-from ridgeback.numeric.orbits.period import action, exact_frequency, peak_of_action
-from ridgeback.numeric.orbits.potential import peak_limit, restoring_of
+from ridgeback.numeric.orbits.period import FrequencyTable, action, exact_frequency, peak_of_action
+from ridgeback.numeric.orbits.potential import gauss, mean_restoring, peak_limit, restoring_of
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
 
 POINTS = 512
 """Phases over one cycle: the mean of a smooth periodic function converges geometrically in their number."""
+HALF_POINTS = 48
+"""Points of Gauss-Legendre in a quarter of a cycle."""
 HARMONICS = 120
 NODES = (17, 33, 65, 129)
 """Chebyshev points in ln J; their number is doubled until R is interpolated to ``ACCURACY``."""
 ACCURACY = 1e-9
+MOST_SPAN = 16.0
+"""ln J below the start at which a motion under dry friction counts as at rest."""
 SPAN = 4.0
 """ln J below the start that the first table covers."""
 EDGE = 1 - 1e-6
@@ -46,11 +50,8 @@ class Cycle:
     action: float
     power: Array
     """u' d(u, u') at the phases: the energy lost per time."""
-
-    @property
-    def mean(self) -> float:
-        """P, its mean over the phase."""
-        return float(self.power.mean())
+    mean: float
+    """P, its mean over the phase."""
 
     @property
     def rate(self) -> float:
@@ -104,7 +105,27 @@ def cycles_of(dynamics: Dynamics, peaks: Array) -> list[Cycle]:
     velocity = -np.sin(np.outer(phase, m)) @ (m[:, None] * cosine) * table.omega
     lost = damping_force(dynamics, u.ravel(), velocity.ravel()).reshape(u.shape) * velocity
     whole = np.concatenate((lost, lost[-2:0:-1]))
-    return [Cycle(float(w), float(J), p) for w, J, p in zip(table.omega, table.action, whole.T, strict=True)]
+    means = whole.mean(axis=0) if dynamics.switches is None else _lost_by_halves(dynamics, table)
+    rows = zip(table.omega, table.action, whole.T, means, strict=True)
+    return [Cycle(float(w), float(J), p, float(mean)) for w, J, p, mean in rows]
+
+
+def _lost_by_halves(dynamics: Dynamics, table: FrequencyTable) -> Array:
+    """P of a force with kinks, by Gauss-Legendre from each turning point W to 0, where all is smooth.
+
+    P = omega0/(2 pi) times the loop integral of d du, 2 times that over B < u < A; with u = W (1 - x^2) the speed is
+    x sqrt(2 |W| q), q the mean of V' from u to W.
+    """
+    x, weights = gauss(HALF_POINTS)
+    x, weights = 0.5 * (1 + x), 0.5 * weights
+    total = np.zeros_like(table.omega)
+    for turn in (table.trough[:, None], table.peak[:, None]):
+        fall = turn * x**2
+        q = np.abs(mean_restoring(restoring_of(dynamics), turn, -fall, HALF_POINTS))
+        speed = x * np.sqrt(2 * np.abs(turn) * q)
+        lost = damping_force(dynamics, (turn - fall).ravel(), speed.ravel()).reshape(fall.shape)
+        total += 2 * (lost * 2 * np.abs(turn) * x) @ weights
+    return np.asarray(table.omega / (2 * np.pi) * total)
 
 
 def averaged_action(dynamics: Dynamics, start: float, time: Array) -> Array:
@@ -133,13 +154,18 @@ def averaged_action(dynamics: Dynamics, start: float, time: Array) -> Array:
     """
     top = _highest(dynamics, start)
     span = SPAN
-    while True:
+    rough = dynamics.switches is not None and dynamics.switches.in_velocity
+    while span <= MOST_SPAN or not rough:
         low = math.log(start) - span
         table = _table(dynamics, low, math.log(top))
         level = _followed(table, math.log(start), low, time)
         if level is not None:
             return np.asarray(np.exp(level))
         span *= 2
+    raise InputError(
+        f"{dynamics.name}: the averaged motion comes to rest before t = {time.max():.6g}, by dry friction; take a "
+        "shorter time"
+    )
 
 
 def _highest(dynamics: Dynamics, start: float) -> float:

@@ -30,6 +30,7 @@ from ridgeback.numeric.motion.roots import bracketed_newton
 from ridgeback.numeric.orbits.potential import (
     Restoring,
     check_peaks,
+    gauss,
     mean_restoring,
     peak_limit,
     restoring_of,
@@ -149,15 +150,17 @@ def _doubled(dynamics: Dynamics, low: Array, high: Array, tolerance: float) -> t
     """Return omega0, J and the error of omega0, doubling nodes until each orbit has settled."""
     restoring = restoring_of(dynamics)
     share, c = stretch(dynamics, low, high)
-    inner, inner_error = inner_points(restoring, low, high)
-    omega, J = _sums(restoring, low, high, c, _FIRST_NODES, inner)
+    kinked = dynamics.switches is not None and dynamics.switches.in_u
+    sums = _by_halves if kinked else _sums
+    inner, inner_error = inner_points(restoring, low, high, to_rest=kinked)
+    omega, J = sums(restoring, low, high, c, _FIRST_NODES, inner)
     # u is rounded next to the end of the well, where V' depends on the distance to it; 1e-3 is what was observed
     # on the pendulum from 1e-3 to 1e-12 before its separatrix, with a margin of 2
     rounding = 1e-15 + 1e-3 * np.spacing(1.0) / share
     error = np.full_like(omega, np.inf)
     active, nodes = np.arange(omega.size), 2 * _FIRST_NODES
     while active.size and nodes <= _LAST_NODES:
-        finer, J[active] = _sums(restoring, low[active], high[active], c[active], nodes, inner)
+        finer, J[active] = sums(restoring, low[active], high[active], c[active], nodes, inner)
         change = np.abs(finer - omega[active])
         omega[active], error[active] = finer, change + (rounding[active] + inner_error) * finer
         active, nodes = active[change > tolerance * finer], 2 * nodes
@@ -176,17 +179,19 @@ def stretch(dynamics: Dynamics, low: Array, high: Array) -> tuple[Array, Array]:
     return share, np.minimum(1.0, (2 * share) ** 0.25)  # delta = sqrt(2 share), from cosh(delta) = 1 + share
 
 
-def inner_points(restoring: Restoring, low: Array, high: Array) -> tuple[int, float]:
+def inner_points(restoring: Restoring, low: Array, high: Array, *, to_rest: bool = False) -> tuple[int, float]:
     """Return Gauss points that give the mean of V' over each half orbit, and the relative error left (0: none).
+
+    The halves meet in the middle of the orbit, with ``to_rest`` at u = 0.
 
     >>> inner_points(np.sin, np.array([-1.0]), np.array([1.0]))
     (16, 0.0)
     """
-    half = 0.5 * (high - low)
-    means = _halves(restoring, low, high, half, 8)
+    spans = (-low, high) if to_rest else (0.5 * (high - low),) * 2
+    means = _halves(restoring, low, high, spans, 8)
     inner, change = 8, np.zeros(1)
     while inner < _MOST_INNER:
-        finer = _halves(restoring, low, high, half, 2 * inner)
+        finer = _halves(restoring, low, high, spans, 2 * inner)
         change = np.abs(finer / means - 1)
         if np.all(change <= 1e-12):  # the points converge geometrically: twice as many have twice the digits
             return 2 * inner, 0.0
@@ -194,8 +199,9 @@ def inner_points(restoring: Restoring, low: Array, high: Array) -> tuple[int, fl
     return inner, float(change.max(initial=0.0))
 
 
-def _halves(restoring: Restoring, low: Array, high: Array, half: Array, inner: int) -> Array:
-    return np.concatenate((mean_restoring(restoring, low, half, inner), mean_restoring(restoring, high, -half, inner)))
+def _halves(restoring: Restoring, low: Array, high: Array, spans: tuple[Array, Array], inner: int) -> Array:
+    ahead, back = spans
+    return np.concatenate((mean_restoring(restoring, low, ahead, inner), mean_restoring(restoring, high, -back, inner)))
 
 
 def _sums(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, inner: int) -> tuple[Array, Array]:
@@ -208,6 +214,24 @@ def _sums(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, i
     if not parts:
         return np.zeros(0), np.zeros(0)
     return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
+
+
+def _by_halves(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, inner: int) -> tuple[Array, Array]:  # noqa: ARG001
+    """omega0 and J of a force with a kink at u = 0, by Gauss-Legendre from each turning point W to 0.
+
+    With u = W (1 - x^2), E - V = W x^2 q and q the mean of V' from u to W, a quarter takes sqrt(2 |W|) times the
+    integral of q^(-1/2) dx, and J is (2/pi) |W|^(3/2) sqrt(2) times that of x^2 q^(1/2) dx, summed over both sides.
+    """
+    x, weights = gauss(min(nodes, _MOST_INNER))
+    x, weights = 0.5 * (1 + x), 0.5 * weights
+    time, area = np.zeros_like(low), np.zeros_like(low)
+    for turn in (low, high):
+        fall = turn[:, None] * x**2
+        q = np.abs(mean_restoring(restoring, turn[:, None], -fall, inner))
+        size = np.abs(turn)
+        time += np.sqrt(2 * size) * ((q**-0.5) @ weights)
+        area += math.sqrt(2) * size**1.5 * ((np.sqrt(q) * x**2) @ weights)
+    return math.pi / time, 2 / math.pi * area
 
 
 def _midpoint(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, inner: int) -> tuple[Array, Array]:

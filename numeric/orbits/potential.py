@@ -166,7 +166,7 @@ def troughs(dynamics: Dynamics, peaks: Array) -> Array:
 
 def _saturation(restoring: Restoring) -> float:
     """Level that V approaches far on the left, or infinity while it still grows at the end of the scan."""
-    x, w = _gauss(8)
+    x, w = gauss(8)
     edges = np.concatenate(([0.0], -SCAN))
     width = np.diff(edges)
     with np.errstate(all="ignore"):
@@ -202,7 +202,7 @@ def _at_level(dynamics: Dynamics, level: Array, low: Array, high: Array, guess: 
 
 def mean_restoring(restoring: Restoring, start: Array, offset: Array, inner: int) -> Array:
     """Mean of V' from ``start`` to ``start + offset`` by Gauss-Legendre with ``inner`` points."""
-    x, w = _gauss(inner)
+    x, w = gauss(inner)
     total = np.zeros(np.broadcast_shapes(start.shape, offset.shape))
     for share, weight in zip(0.5 * (1 + x), 0.5 * w, strict=True):
         total += weight * np.asarray(restoring(start + share * offset))
@@ -210,6 +210,11 @@ def mean_restoring(restoring: Restoring, start: Array, offset: Array, inner: int
 
 
 @lru_cache(maxsize=16)
-def _gauss(points: int) -> tuple[Array, Array]:
+def gauss(points: int) -> tuple[Array, Array]:
+    """Nodes and weights of Gauss-Legendre on [-1, 1].
+
+    >>> float(gauss(3)[1].sum())
+    2.0
+    """
     x, w = np.polynomial.legendre.leggauss(points)
     return frozen(x), frozen(w)

@@ -49,7 +49,8 @@ def command(
 ) -> None:
     """Integrate SYSTEM from the state U,V and write the columns time_s, u, velocity.
 
-    Every number is written with all the digits that it needs to be read back the same.
+    Every number is written with all the digits that it needs to be read back the same.  A force with kinks (abs, sign)
+    is integrated from one located switch to the next; JSON says when dry friction holds the motion (rest_from).
 
     \b
     ridgeback simulate pendulum --set mu=0.01 --set k=12.566370614359172 --initial 2.984513,0 -o run.csv
@@ -88,4 +89,5 @@ def printed(system: str, run: Trajectory, style: str) -> str:
     if style == "csv":
         return csv_text(COLUMNS, rows)
     about: dict[str, Any] = {"system": system, "method": run.method, "rtol": run.rtol, "rate": run.rate}
-    return json_text({**about, "samples": rows})
+    rest = {} if run.rest_from is None else {"rest_from": run.rest_from}
+    return json_text({**about, **rest, "samples": rows})

@@ -10,8 +10,9 @@ import pytest
 from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
 from ridgeback.numeric.motion.dynamics import pendulum
+from ridgeback.numeric.motion.integration import TooManyStepsError
 from ridgeback.numeric.motion.taylor import integrate_taylor
-from ridgeback.numeric.motion.trajectory import TooManyStepsError, integrate
+from ridgeback.numeric.motion.trajectory import integrate
 from ridgeback.symbolic.systems.any_form import as_oscillator
 
 
