@@ -10,6 +10,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
 from ridgeback.common.progress import Wanted
 from ridgeback.interface.source import known_form
+from ridgeback.interface.unused import refuse_unused
 from ridgeback.symbolic.codegen import Formula, written
 from ridgeback.symbolic.codegen.closed_forms import mean_form, sine_series
 from ridgeback.symbolic.codegen.program import MODES as ARITHMETIC
@@ -193,10 +194,13 @@ def generate(
     result: Formula
     if isinstance(formula, PowerExpansion | LossFlow):
         raise InputError(formula.without_code())
+    check_formula(resummed, degrees, growth, terms)
     if isinstance(formula, Expansion | SlowFlow | Resummation):
+        refuse_unused("a formula that has been derived", method=method, amplitude=amplitude, parameters=parameters)
         system, result = as_oscillator(formula.system if oscillator is None else oscillator), formula
         series = lindstedt(system, formula.order) if isinstance(formula, Resummation) else formula
     else:
+        refuse_unused("an oscillator to derive the formula of", oscillator=oscillator)
         system = as_oscillator(formula, parameters=parameters)
         found = derive(system, order, method=method, amplitude=amplitude, progress=progress)
         if isinstance(found, PowerExpansion | LossFlow):
@@ -207,6 +211,17 @@ def generate(
     how = cast(Mode, chosen(mode, ARITHMETIC, "mode"))
     form = known_form(system, series, result, up_to=up_to, name=name, mode=how, real=real, motion=motion)
     return written(form, language)
+
+
+def check_formula(resummed: str | None, degrees: tuple[int, int] | None, growth: Fraction, terms: int) -> None:
+    """Refuse what the formula asked for has no use for."""
+    what = "a series" if resummed is None else f"resummed {resummed!r}"
+    if resummed in (None, "agm", "sine"):
+        refuse_unused(what, degrees=degrees)
+    if resummed != "map":
+        refuse_unused(what, growth=growth or None)
+    if resummed != "sine":
+        refuse_unused(what, terms=None if terms == 1 else terms)
 
 
 def in_its_place(

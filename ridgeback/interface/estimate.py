@@ -12,6 +12,7 @@ from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.binding.family import family_of
 from ridgeback.compare.recording.measurements import as_tracked, marked, samples_behind
 from ridgeback.interface.signals import SignalLike, as_recording
+from ridgeback.interface.unused import refuse_unused
 from ridgeback.numeric.backbone import backbone as along
 from ridgeback.numeric.backbone import half_cycles as cycles
 from ridgeback.numeric.backbone.curve import Backbone
@@ -323,7 +324,8 @@ def backbone(
     Raises
     ------
     InputError
-        When fewer than four points are clear of the noise, and as :func:`estimate` does.
+        When fewer than four points are clear of the noise, for settings that would go unused, and as :func:`estimate`
+        does.
 
     Examples
     --------
@@ -335,7 +337,10 @@ def backbone(
     """
     name = chosen(method, (*ESTIMATORS, "half-cycles"), "method")
     used = as_recording(x, rate, time=time, column=column)
+    if track is not None:
+        refuse_unused("a backbone along a track", method=None if name == "auto" else method, **settings)
     if name == "half-cycles":
+        refuse_unused("method 'half-cycles'", window_seconds=window_seconds)
         return replace(half_cycles(used, progress=progress, **settings).backbone(), units=used.units)
     found = estimate(used, method=name, progress=progress, **settings) if track is None else track
     return replace(measured_along(found, used, window_seconds), units=used.units)

@@ -17,6 +17,7 @@ from ridgeback.compare.report.system_report import ORDER, TARGET, system_report
 from ridgeback.compare.study import study as studies
 from ridgeback.compare.study.results import Study
 from ridgeback.interface.signals import SignalLike, as_recording
+from ridgeback.interface.unused import refuse_unused
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
@@ -145,6 +146,8 @@ def report(
     """
     with showing(progress) as told:
         if recording is not None:
+            if oscillator is None:
+                refuse_unused("a recording without an oscillator", parameters=parameters, about=about)
             refuse("a simulation", initial=initial, duration=duration)
             refuse("the study of a system", order=order, orders=orders, amplitudes=amplitudes, target=target)
             theory = None if oscillator is None else as_oscillator(oscillator, parameters=parameters, about=about)

@@ -65,7 +65,9 @@ def as_recording(
     """
     treatment: dict[str, Any] = {"resample": resample, "fill": fill, "detrend": detrend, "span": span}
     if isinstance(x, Recording):
-        refuse_known("a Recording", rate=rate, time=time, column=column, resample=resample, fill=fill, span=span)
+        taken_off = None if detrend == "none" else detrend
+        treated = {"resample": resample, "fill": fill, "detrend": taken_off, "span": span}
+        refuse_known("a Recording", rate=rate, time=time, column=column, **treated)
         return x
     if isinstance(x, Trajectory):
         refuse_known("a Trajectory", rate=rate, time=time, column=column)
