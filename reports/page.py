@@ -10,10 +10,12 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from ridgeback.compare.report.results import Report
 from ridgeback.reports.drawing.theme import variables_css
-from ridgeback.reports.sections import sections
+from ridgeback.reports.sections import head_parts, sections
 from ridgeback.reports.text.mathml import FormulaError, mathml
 
 WARN_BYTES = 2_000_000
+LETTERS = {"expansions": "E", "series model": "S", "estimates": "T", "": ""}
+"""Letter of each way, which names its colour in the style sheet."""
 
 
 def html_page(report: Report) -> str:
@@ -33,15 +35,25 @@ def html_page(report: Report) -> str:
         One HTML file that fetches nothing.
     """
     environment = _environment()
-    script, style = _source("script.js"), _source("style.css")
+    script, style = _script(report), _source("style.css")
     return environment.get_template("page.html").render(
         report=report,
         equation=_equation(report),
+        letters=LETTERS,
+        head=head_parts(report),
+        head_name="Accuracy and cost" if report.benchmark else "Overview" if report.cards else "",
         sections=sections(report),
         style=variables_css() + style,
         script=script,
         script_hash=_hash(script),
     )
+
+
+def _script(report: Report) -> str:
+    """The page's script with the generated code of every order in it."""
+    code = {} if report.grid is None else report.grid.code
+    functions = ",".join(f"{order}:{text}" for order, text in sorted(code.items()))
+    return _source("script.js").replace("/*CODE*/", functions, 1)
 
 
 def size_warning(page: str) -> str | None:
@@ -81,10 +93,10 @@ def _hash(script: str) -> str:
 
 
 def _equation(report: Report) -> str:
-    """Return the equation of a decay as MathML, empty when there is none or when it cannot be set."""
-    if report.decay is None:
+    """The equation as MathML, empty when there is none or when it cannot be set."""
+    if report.described is None:
         return ""
     try:
-        return mathml(report.decay.case.equation_latex)
+        return mathml(report.described.equation_latex)
     except FormulaError:
         return ""

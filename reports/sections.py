@@ -1,238 +1,190 @@
-"""A report as a list of sections: what stands where on the page.  A section exists only if the report has it."""
+"""A report as sections in reading order; a section exists only if the report has what it shows."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Literal
-from urllib.parse import quote
+from collections.abc import Iterator
 
-from ridgeback.common.numbers import number, relative
-from ridgeback.compare.recording.results import RecordingComparison
-from ridgeback.compare.report.results import Provenance, Report
-from ridgeback.compare.study.results import Checked, Derivation, Formula, Range
-from ridgeback.reports.figures.decay import budget_figure, residuals_figure, tracks_figure
-from ridgeback.reports.figures.identification import identification_blocks, parameter_table, ranking_table
-from ridgeback.reports.figures.noise import noise_blocks, noise_table
-from ridgeback.reports.figures.paper import paper_figures
-from ridgeback.reports.figures.recording import recording_blocks
-from ridgeback.reports.figures.study import backbone_block, error_block, map_block, order_needed
-from ridgeback.reports.text.mathml import FormulaError, formula_latex, formula_mathml
-from ridgeback.reports.text.tables import (
-    budget_table,
-    certified_table,
-    estimator_table,
-    range_table,
-    score_table,
-    timing_table,
+import numpy as np
+
+from ridgeback.common.numbers import listing, number
+from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.motion.results import DecayComparison
+from ridgeback.compare.report.naming import short_name
+from ridgeback.compare.report.results import Report
+from ridgeback.compare.study.results import Derivation
+from ridgeback.reports.figures.accuracy_cost import accuracy_cost
+from ridgeback.reports.figures.budget import budget_figure, budget_heading
+from ridgeback.reports.figures.in_time import Drawn, along, in_time
+from ridgeback.reports.figures.motion import motion
+from ridgeback.reports.figures.noise import noise_figure, noise_heading, noise_sentence, noise_table
+from ridgeback.reports.figures.order_map import letter, order_map, reach_sentence
+from ridgeback.reports.figures.planes import planes
+from ridgeback.reports.parts import (
+    Part,
+    Section,
+    check_line,
+    downloads,
+    fold,
+    provenance_part,
+    set_formula,
+    set_harmonics,
 )
+from ridgeback.reports.recording_sections import recording_sections
+from ridgeback.reports.text.tables import budget_table, certified_table, contender_table, range_table
 
-DEFINED = (
-    "These samples hold no noise, and the intervals are far narrower than ω₀(t) of a decay is defined: its crossings "
-    "and its turning points read it {} apart, rms. A coverage below 95 % here tells of definitions; in noise it is "
-    "measured by ridgeback estimate --monte-carlo."
-)
-PartKind = Literal["figure", "table", "formula", "text", "lines", "statement", "code", "downloads", "provenance"]
-
-
-@dataclass(frozen=True)
-class Part:
-    """One piece of a section; the template knows how each kind is set."""
-
-    kind: PartKind
-    value: object
-
-
-@dataclass(frozen=True)
-class Section:
-    """One titled section of the page."""
-
-    key: str
-    title: str
-    parts: tuple[Part, ...]
-
-
-@dataclass(frozen=True)
-class SetFormula:
-    """A formula with its MathML; without it (LaTeX that cannot be set) the page shows the LaTeX itself."""
-
-    title: str
-    markup: str
-    latex: str
-    python: str
-    note: str
+FORMULAS = 2
+"""Formulas that stand open; the others are folded."""
 
 
 def sections(report: Report) -> tuple[Section, ...]:
-    """Return the sections of a page in reading order, empty ones left out."""
+    """The sections of a page below its head, empty ones left out."""
     found = (
-        Section("section-backbone", "Frequency against amplitude", tuple(_backbone(report))),
-        Section("section-recording", "The recording", tuple(_recording(report.recording))),
-        Section("section-identification", "What made it", tuple(_identification(report))),
-        Section("section-formula", "The expansion", tuple(_derivation(report.derivation))),
-        Section("section-error", "Error against amplitude", tuple(_study_errors(report))),
-        Section("section-map", "Which order is needed", tuple(_orders(report))),
-        Section("section-tracks", "Frequency against time", tuple(_tracks(report))),
-        Section("section-paper", "The paper's figures, measured", tuple(_paper(report))),
-        Section("section-budget", "Where the errors come from", tuple(_errors(report))),
-        Section("section-estimators", "The estimators", tuple(_estimators(report))),
-        Section("section-timing", "What an evaluation costs", tuple(_timings(report))),
-        Section("section-code", "Generated code", tuple(_code(report.derivation))),
-        Section("section-data", "Data", tuple(_downloads(report.csv))),
-        Section("section-provenance", "Provenance", (Part("provenance", _provenance(report.provenance)),)),
+        *recording_sections(report),
+        _time(report),
+        _order(report),
+        _expansion(report),
+        _motion(report),
+        _paper(report),
+        _noise(report),
+        _budget(report),
+        _code(report.derivation),
+        _data(report),
+        Section("provenance", "Provenance", "Provenance", (provenance_part(report.provenance),)),
     )
-    return tuple(section for section in found if section.parts)
+    return tuple(section for section in found if section is not None and section.parts)
 
 
-def _finding(report: Report) -> Range | None:
-    return report.finding or (report.ranges[0] if report.ranges else None)
+def head_parts(report: Report) -> tuple[Part, ...]:
+    """The first figure with its table; below the cards."""
+    if report.benchmark is None:
+        return ()
+    target = report.finding.target if report.finding else 1e-3
+    count = len({short_name(row) for row in report.benchmark.contenders})
+    return (
+        Part("figure", accuracy_cost(report.benchmark, target)),
+        fold(f"All {count} contenders as a table", Part("table", contender_table(report.benchmark))),
+    )
 
 
-def _backbone(report: Report) -> Iterator[Part]:
-    if report.study:
-        yield Part("figure", backbone_block(report.study, _finding(report)))
+def _time(report: Report) -> Section | None:
+    found, decay = report.benchmark, report.decay
+    if found is None or decay is None:
+        return None
+    return Section("time", "Frequency in time", _time_title(found, decay), (Part("figure", in_time(found, decay)),))
 
 
-def _recording(recording: RecordingComparison | None) -> Iterator[Part]:
-    if recording is None:
-        return
-    yield Part("text", f"{recording.source}, column {recording.column}, at {number(recording.rate)} Hz.")
-    yield from (Part("figure", drawn) for drawn in recording_blocks(recording))
-    if recording.fit:
-        yield Part("formula", set_formula(recording.fit))
-    if recording.notes:
-        yield Part("lines", recording.notes)
+def _time_title(found: Benchmark, decay: DecayComparison) -> str:
+    """Where along the motion the drawn contenders err most, told for those that agree."""
+    drawn = along(found, decay)
+    said = []
+    for letter_, name in (("E", "expansions err"), ("S", "the models err"), ("T", "")):
+        for place in ("at the start", "in the middle", "at the end"):
+            own = [d for d in drawn if d.letter == letter_ and _where(found, d) == place]
+            if name and len(own) == len([d for d in drawn if d.letter == letter_]) and own:
+                said.append(f"{name} most {place}")
+            elif not name and (worst := [d for d in own if d.row.method == "wigner"]):
+                said.append(f"the {short_name(worst[0].row)} errs most {place}")
+    return f"In time, {listing(said)}" if said else "Frequency in time"
 
 
-def _derivation(derivation: Derivation | None) -> Iterator[Part]:
-    if derivation is None:
-        return
-    yield from (Part("formula", set_formula(formula)) for formula in derivation.formulas)
-    if derivation.certificate:
-        yield Part("text", "Checked exactly:")
-        yield Part("lines", tuple(map(check_line, derivation.certificate)))
+def _where(found: Benchmark, drawn: Drawn) -> str:
+    inside = (found.time >= found.support[0]) & (found.time <= found.support[1]) & np.isfinite(drawn.error)
+    if not inside.any():
+        return ""
+    at = float(found.time[inside][int(np.argmax(drawn.error[inside]))])
+    share = (at - found.support[0]) / (found.support[1] - found.support[0])
+    return "at the start" if share < 0.2 else "at the end" if share > 0.8 else "in the middle"
 
 
-def check_line(check: Checked) -> str:
-    """One check of a certificate as a sentence; a failed one says so first.
-
-    >>> check_line(Checked("residual", "it vanishes", False))
-    'FAILED: Residual: it vanishes.'
-    """
-    failed = "FAILED: " if check.passed is False else ""
-    return f"{failed}{check.name[0].upper()}{check.name[1:]}: {check.statement}."
-
-
-def set_formula(formula: Formula) -> SetFormula:
-    r"""Set a formula; LaTeX that cannot be set is kept as text, never dropped.
-
-    >>> set_formula(Formula(title="", left="u", terms=(r"\nonsense",))).markup
-    ''
-    """
-    try:
-        markup = "".join(formula_mathml(formula))
-    except FormulaError:
-        markup = ""
-    return SetFormula(formula.title, markup, formula_latex(formula), formula.python, formula.note)
-
-
-def _study_errors(report: Report) -> Iterator[Part]:
-    if report.study:
-        yield Part("figure", error_block(report.study, _finding(report)))
-
-
-def _orders(report: Report) -> Iterator[Part]:
-    study = report.study
-    if study is None:
-        return
-    yield Part("figure", map_block(study))
-    needed = order_needed(study, report.ranges)
-    if needed:
-        yield Part("figure", needed)
-    if report.ranges:
-        letter = "A" if study.variable == "A" else "ε"
-        yield Part("table", range_table(report.ranges, letter, study.amplitude_unit))
+def _order(report: Report) -> Section | None:
+    study, grid, finding = report.study, report.grid, report.finding
+    if study is None or grid is None or finding is None:
+        return None
+    parts = [Part("figure", order_map(study, grid, finding.order, report.decay))]
+    tables = [Part("table", range_table(report.ranges, letter(study), study.amplitude_unit))]
     if report.certified:
-        yield Part("table", certified_table(report.certified, study.amplitude_unit))
+        tables.append(Part("table", certified_table(report.certified, study.amplitude_unit)))
+    parts.append(fold("Ranges of use, and other formulas from the same coefficients", *tables))
+    title = reach_sentence(study, finding.target, finding.order, finding.up_to)
+    return Section("order", f"Order, {'amplitude' if study.variable == 'A' else 'ε'}", title, tuple(parts))
 
 
-def _tracks(report: Report) -> Iterator[Part]:
-    if report.decay:
-        yield Part("figure", tracks_figure(report.decay))
-        if report.decay.curves:
-            yield Part("figure", residuals_figure(report.decay))
-
-
-def _paper(report: Report) -> Iterator[Part]:
-    if report.decay:
-        for item in paper_figures(report.decay):
-            yield Part("statement", item.statement)
-            yield from (Part("figure", drawn) for drawn in item.blocks)
-
-
-def _errors(report: Report) -> Iterator[Part]:
-    if report.decay is None:
-        return
-    drawn = budget_figure(report.decay)
-    if drawn:
-        yield Part("figure", drawn)
-    if report.decay.budget:
-        yield Part("table", budget_table(report.decay.budget))
-    if report.decay.scores:
-        yield Part("table", score_table(report.decay.scores, report.decay.reference.label))
-
-
-def _estimators(report: Report) -> Iterator[Part]:
-    if report.estimator_scores and report.decay:
-        yield Part("table", estimator_table(report.estimator_scores, report.decay.reference.label))
-        known = max((row.definition for row in report.decay.budget), default=0.0)
-        if known:
-            yield Part("text", DEFINED.format(relative(known)))
-    if report.noise:
-        yield from (Part("figure", drawn) for drawn in noise_blocks(report.noise))
-        yield Part("table", noise_table(report.noise))
-        if report.noise.notes:
-            yield Part("lines", report.noise.notes)
-
-
-def _identification(report: Report) -> Iterator[Part]:
-    found = report.identification
+def _expansion(report: Report) -> Section | None:
+    found = report.derivation
     if found is None:
-        return
-    yield Part("text", found.verdict)
-    yield Part("table", ranking_table(found))
-    yield Part("table", parameter_table(found.best))
-    yield from (Part("figure", drawn) for drawn in identification_blocks(found))
-    if found.notes:
-        yield Part("lines", found.notes)
+        return None
+    formulas = [Part("formula", set_formula(formula)) for formula in found.formulas]
+    parts: list[Part] = [*formulas[:1]]
+    failed = [check_line(check) for check in found.certificate if check.passed is False]
+    checked = [check_line(check) for check in found.certificate]
+    if failed:
+        parts.append(Part("lines", failed))
+    if found.harmonics is not None:
+        parts.append(Part("harmonics", set_harmonics(found.harmonics)))
+    rest = [*formulas[1:], *((Part("lines", checked),) if checked else ())]
+    if rest:
+        parts.append(fold(_rest_title(found), *rest))
+    return Section("expansion", "The expansion", "The expansion, exact", tuple(parts))
 
 
-def _timings(report: Report) -> Iterator[Part]:
-    if report.timings:
-        yield Part("table", timing_table(report.timings))
+def _rest_title(found: Derivation) -> str:
+    names = [formula.title[:1].lower() + formula.title[1:] for formula in found.formulas[1:]]
+    passed = sum(check.passed is True for check in found.certificate)
+    checks = f"{passed} exact checks passed" if passed else ""
+    text = listing([*names, *((checks,) if checks else ())])
+    return text[:1].upper() + text[1:]
 
 
-def _code(derivation: Derivation | None) -> Iterator[Part]:
-    for name, text in (derivation.code if derivation else {}).items():
-        yield Part("code", {"name": name, "text": text, "lines": text.count("\n") + (not text.endswith("\n"))})
+def _motion(report: Report) -> Section | None:
+    decay = report.decay
+    if decay is None:
+        return None
+    cycle = report.study is not None and report.study.variable != "A"
+    parts = (Part("figure", motion(decay, cycle=cycle)), Part("figure", planes(decay)))
+    return Section("motion", "Motion, planes", "The motion, and where its frequency shows", parts)
 
 
-def _downloads(csv: Mapping[str, str]) -> Iterator[Part]:
-    if csv:
-        yield Part("downloads", [_download(name, text) for name, text in csv.items()])
+def _paper(report: Report) -> Section | None:
+    if not report.paper or report.decay is None:
+        return None
+    rows = [(f"Fig. {said.figure}: {said.title}", said.paper, said.measured) for said in report.decay.statements]
+    return Section("paper", "The paper’s claims", "The paper, claim by claim", (Part("claims", rows),))
 
 
-def _download(name: str, text: str) -> dict[str, str]:
-    uri = "data:text/csv;charset=utf-8," + quote(text, safe=" ,.:;=+-_()/*")
-    return {"name": name, "uri": uri.replace(" ", "%20"), "size": f"{len(text.encode()) / 1000:.0f} kB"}
+def _noise(report: Report) -> Section | None:
+    if report.noise is None:
+        return None
+    sentence = noise_sentence(report.noise)
+    parts: Iterator[Part] = iter(
+        (
+            *((Part("text", sentence),) if sentence else ()),
+            Part("figure", noise_figure(report.noise)),
+            fold("The numbers, with their ratio to the bound", Part("table", noise_table(report.noise))),
+            *((Part("lines", report.noise.notes),) if report.noise.notes else ()),
+        )
+    )
+    return Section("noise", "Estimates in noise", noise_heading(report.noise), tuple(parts))
 
 
-def _provenance(provenance: Provenance) -> dict[str, object]:
-    facts = [
-        *((name, value) for name, value in provenance.parameters.items()),
-        *((f"{name} version", value) for name, value in provenance.versions.items()),
-        ("settings hash", provenance.settings_hash),
-        ("input hash", provenance.input_hash),
-        *((f"time, {name}", f"{number(seconds, 2)} s") for name, seconds in provenance.seconds.items()),
-    ]
-    return {"command": provenance.command, "facts": [(name, value) for name, value in facts if value]}
+def _budget(report: Report) -> Section | None:
+    decay = report.decay
+    if decay is None or not decay.budget:
+        return None
+    parts = (
+        Part("figure", budget_figure(decay.budget)),
+        fold(
+            f"All {number(len(decay.budget))} methods as a table, with closure",
+            Part("table", budget_table(decay.budget)),
+        ),
+    )
+    return Section("errors", "Error budget", budget_heading(decay.budget), parts)
+
+
+def _code(found: Derivation | None) -> Section | None:
+    if found is None or not found.code:
+        return None
+    return Section("code", "Generated code", f"Generated code, order {found.order}", (Part("code", dict(found.code)),))
+
+
+def _data(report: Report) -> Section | None:
+    return Section("data", "Data", "Data", (downloads(report.csv),)) if report.csv else None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -11,20 +11,31 @@ from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.binding.heyoka import integrate_heyoka
 from ridgeback.compare.motion.error_budget import budget
 from ridgeback.compare.motion.error_norms import failure, score
-from ridgeback.compare.motion.estimate_curves import WIGNER, Outcome, estimates
+from ridgeback.compare.motion.estimate_curves import RECIPES, WIGNER, Outcome, Recipe, estimates
 from ridgeback.compare.motion.model_curves import LOW_ORDERS, model_curves
 from ridgeback.compare.motion.motion import CHECKED, Motion, Setting, integrate_motion
 from ridgeback.compare.motion.overtones import Overtones, overtones
 from ridgeback.compare.motion.paper_statements import Evidence, statements
-from ridgeback.compare.motion.planes import spectrogram_image, wigner_image
+from ridgeback.compare.motion.planes import spectrogram_image, wigner_plane
 from ridgeback.compare.motion.reconstruction import known_motion, reconstruct
-from ridgeback.compare.motion.results import Amplitudes, BudgetRow, Curve, DecayComparison, Image, Integrator, Score
+from ridgeback.compare.motion.results import (
+    Amplitudes,
+    BudgetRow,
+    Curve,
+    DecayComparison,
+    Image,
+    Integrator,
+    Score,
+    SignedPlane,
+)
 from ridgeback.compare.motion.wigner_bias import wigner_bias
 from ridgeback.compare.study.derived import Derived, derive
 
 HIGH_ORDER = 20
 TOP_MULTIPLE = 8
 """Highest multiple of the fundamental that the spectrograms show."""
+SIGNED_TOP = 2.3
+"""The same for the Wigner distribution: fundamental, ridge and the cross term with the third harmonic."""
 
 
 def compare_decay(
@@ -32,6 +43,7 @@ def compare_decay(
     *,
     derived: Derived | None = None,
     orders: Iterable[int] = (*LOW_ORDERS, HIGH_ORDER),
+    recipes: Sequence[Recipe] = RECIPES,
     progress: Progress = silent,
 ) -> DecayComparison:
     """Hold models, expansions and estimates of omega0(t) against the cycle frequency of an integrated motion.
@@ -44,6 +56,8 @@ def compare_decay(
         The expansion and the slow flow, which must reach the highest of ``orders``; derived here by default.
     orders
         Orders of the expansion that are drawn along the motion.
+    recipes
+        The estimates that take part; ``LEAN`` leaves out what models the whole signal.
     progress
         Called with the share of the work that is done, 0 to 1, and the name of the step.
 
@@ -74,7 +88,7 @@ def compare_decay(
     motion = integrate_motion(chosen) if isinstance(chosen, Setting) else chosen
     exact = derive(motion.setting.oscillator, max(wanted)) if derived is None else derived
     models = model_curves(motion, exact, orders=wanted)
-    outcomes = estimates(motion, _within(progress, 0.2, 0.45))
+    outcomes = estimates(motion, _within(progress, 0.2, 0.45), recipes)
     progress(0.45, "harmonics")
     tones = overtones(motion, outcomes)
     rows = budget(motion, models, outcomes, _within(progress, 0.55, 0.85))
@@ -180,19 +194,20 @@ def _amplitudes(motion: Motion) -> Amplitudes:
     )
 
 
-def _images(motion: Motion, curves: tuple[Curve, ...]) -> tuple[Image, Image, Image]:
+def _images(motion: Motion, curves: tuple[Curve, ...]) -> tuple[Image, Image, SignedPlane]:
     run = motion.trajectory
     fastest, slowest = float(motion.known_omega.max()), float(motion.known_omega.min())
     top, period = TOP_MULTIPLE * fastest, 2 * np.pi / slowest
+    name = motion.setting.case().symbol
     wigner, unit = _named(curves, WIGNER), motion.setting.time_unit
     return (
-        spectrogram_image(run.u, run.rate, period=period, top=top, name="Spectrogram of u", unit=unit),
-        spectrogram_image(run.velocity, run.rate, period=period, top=top, name="Spectrogram of u'", unit=unit),
-        wigner_image(
+        spectrogram_image(run.u, run.rate, period=period, top=top, name=f"Spectrogram of {name}", unit=unit),
+        spectrogram_image(run.velocity, run.rate, period=period, top=top, name=f"Spectrogram of {name}′", unit=unit),
+        wigner_plane(
             run.u,
             run.rate,
-            top=3.4 * fastest,
-            name="Wigner distribution of u",
+            top=SIGNED_TOP * fastest,
+            name=f"Wigner distribution of {name}",
             overlays=(motion.reference_curve(), *(() if wigner is None else (wigner,))),
             note="Between two components lies their cross term, which oscillates along time.",
         ),

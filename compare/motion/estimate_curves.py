@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -46,6 +46,8 @@ RECIPES = (
     Recipe("harmonic-least-squares", "harmonic least squares on u", "harmonic-least-squares"),
     Recipe("zero-crossing", "zero crossings of u", "zero-crossing"),
 )
+LEAN = tuple(recipe.bare for recipe in RECIPES if recipe.name != CORRECTED)
+"""The same without a bias taken from a model of the whole signal: each is that method alone, and costs less."""
 
 
 @dataclass(frozen=True)
@@ -81,10 +83,12 @@ def attempt(recipe: Recipe, x: Array, rate: float) -> Outcome:
         return Outcome(recipe, None, str(error))
 
 
-def estimates(motion: Motion, progress: Callable[[str], None]) -> tuple[Outcome, ...]:
+def estimates(
+    motion: Motion, progress: Callable[[str], None], recipes: Sequence[Recipe] = RECIPES
+) -> tuple[Outcome, ...]:
     """Run every recipe on the sampled motion."""
     outcomes = []
-    for recipe in RECIPES:
+    for recipe in recipes:
         progress(recipe.label)
         outcomes.append(attempt(recipe, signal_of(motion, recipe), motion.trajectory.rate))
     return tuple(outcomes)

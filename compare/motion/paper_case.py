@@ -33,3 +33,17 @@ def paper_case(*, duration: float = DURATION, rate: float = RATE) -> Setting:
     """
     oscillator = find("damped-pendulum").with_parameters(PARAMETERS)
     return setting(oscillator, initial=INITIAL, duration=duration, rate=rate, time_unit="s")
+
+
+def is_paper_case(chosen: Setting) -> bool:
+    """Whether a setting is the paper's own: its equation, parameters, start, duration and rate.
+
+    >>> is_paper_case(paper_case()), is_paper_case(paper_case(duration=10.0))
+    (True, False)
+    """
+    paper = paper_case()
+    same = chosen.oscillator.equation == paper.oscillator.equation
+    mine, theirs = (s.case().parameters for s in (chosen, paper))
+    numbers = [(chosen.duration, paper.duration), (chosen.rate, paper.rate)]
+    numbers += list(zip(chosen.initial, paper.initial, strict=True))
+    return same and mine == theirs and all(math.isclose(a, b, rel_tol=1e-6, abs_tol=1e-12) for a, b in numbers)

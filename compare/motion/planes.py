@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ridgeback.compare.motion.results import Curve, Image
+from ridgeback.compare.motion.results import Curve, Image, SignedPlane
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.distributions.distribution import Distribution
 from ridgeback.numeric.distributions.spectrogram import spectrogram
@@ -14,9 +14,11 @@ from ridgeback.numeric.distributions.wigner import wigner
 
 COLUMNS = 320
 """Columns kept: what a figure of about 800 pixels can show."""
+SIGNED_COLUMNS = 480
 FLOOR_DB = -70.0
-WIGNER_FLOOR_DB = -35.0
-"""Below this the interference of the whole record covers the plane."""
+KNEE = 0.035
+"""Share of the maximum at which the arcsinh scale of a signed plane turns from linear to logarithmic: fringes, cross
+term and ridge are then told apart."""
 WINDOW_CYCLES = 4.0
 """Spectrogram window in cycles of the slowest fundamental: parts the harmonics and still follows them."""
 
@@ -50,23 +52,26 @@ def columns(plane: Distribution, keep: Mask) -> Distribution:
     return replace(plane, values=plane.values[:, keep], time=plane.time[keep])
 
 
-def wigner_image(
+def wigner_plane(
     x: Array, rate: float, *, top: float, name: str, overlays: tuple[Curve, ...] = (), note: str = ""
-) -> Image:
-    """Size of the full-length Wigner distribution of the analytic signal of ``x``.
+) -> SignedPlane:
+    """Full-length Wigner distribution of the analytic signal of ``x``, signed, on an arcsinh scale.
 
     The interference between distant times oscillates faster than a figure has columns; picking columns would alias it
-    into patterns that are not there, so each column shown is the rms over its block.
+    into patterns that are not there, so each column shown is the mean over its block, in which it cancels.
     """
     plane = wigner(x, rate)
-    step = max(1, plane.time.size // COLUMNS)
+    step = max(1, plane.time.size // SIGNED_COLUMNS)
     count = plane.time.size // step
-    blocks = plane.size()[:, : count * step].reshape(plane.omega.size, count, step)
-    size = np.sqrt(np.mean(blocks**2, axis=2))
+    keep = plane.omega <= top
+    blocks = np.real(plane.values)[keep, : count * step].reshape(int(keep.sum()), count, step)
     middle = plane.time[: count * step].reshape(count, step).mean(axis=1)
-    thin = replace(plane, values=size, time=middle)
-    told = f"{note}  Each column is the rms over {step} samples.".strip()
-    return image(thin, top=top, name=name, overlays=overlays, note=told, floor_db=WIGNER_FLOOR_DB)
+    values = np.mean(blocks, axis=2)
+    share = values / np.abs(values).max()
+    scaled = np.arcsinh(share / KNEE) / np.arcsinh(1.0 / KNEE)
+    scaled.flags.writeable = False
+    told = f"{note}  Each column is the mean over {step} samples.".strip() if step > 1 else note
+    return SignedPlane(name, middle, plane.omega[keep], scaled, KNEE, overlays, told)
 
 
 def image(

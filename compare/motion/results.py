@@ -168,6 +168,19 @@ class Image(Brief):
 
 
 @dataclass(frozen=True, repr=False)
+class SignedPlane(Brief):
+    """A distribution with its sign: arcsinh(share of the maximum / knee), scaled to -1 .. 1, [frequency, time]."""
+
+    name: str
+    time: Array
+    omega: Array
+    values: Array
+    knee: float
+    overlays: tuple[Curve, ...] = ()
+    note: str = ""
+
+
+@dataclass(frozen=True, repr=False)
 class Amplitudes(Brief):
     """Amplitude along the decay, definition ``peak``: by energy (21), averaged action, turning points."""
 
@@ -216,7 +229,7 @@ class DecayComparison(Brief):
     reconstruction: Reconstruction
     spectrogram_u: Image
     spectrogram_velocity: Image
-    wigner_u: Image
+    wigner_u: SignedPlane
     harmonics: tuple[Curve, ...]
     """Harmonic tracks (omega of the harmonic itself, not divided), their predictions, and the raw peak."""
     statements: tuple[Statement, ...]

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ridgeback.common.numbers import uncertain
 from ridgeback.compare.study.results import Formula
 from ridgeback.numeric.arrays import Array
 
@@ -81,7 +82,7 @@ def formula_of(fit: BackboneFit) -> Formula:
     ('2.000', '-0.2500\\,a^{2}')
     """
     terms = tuple(_term(value, deviation, 2 * n) for n, (value, deviation) in enumerate(_pairs(fit)))
-    spread = ", ".join(f"{value:.6g} ± {deviation:.1e}" for value, deviation in _pairs(fit))
+    spread = ", ".join(uncertain(value, deviation) for value, deviation in _pairs(fit))
     return Formula(
         title="Measured backbone, even polynomial in the fundamental amplitude",
         left=r"\omega_0(a)",

@@ -13,17 +13,14 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import relative
-from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion.estimate_curves import curve_of
 from ridgeback.compare.motion.planes import spectrogram_image
 from ridgeback.compare.motion.results import Curve
 from ridgeback.compare.recording.backbone_fit import fit_backbone, formula_of
 from ridgeback.compare.recording.results import RecordingComparison
+from ridgeback.compare.recording.theory import over_measured, theory_curve
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.estimators.estimate import estimate
-from ridgeback.numeric.orbits.period import exact_frequency
-from ridgeback.numeric.orbits.potential import peak_limit
-from ridgeback.numeric.orbits.waveform import orbit_harmonics
 from ridgeback.numeric.recording.reading import read_recording
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.tracking.track import Track
@@ -149,6 +146,7 @@ def _assembled(
         fit=None if fit is None else formula_of(fit),
         notes=tuple(_notes(recording, curves, measured, failed)),
         theory=() if oscillator is None else (theory_curve(oscillator, measured),),
+        over=None if oscillator is None else over_measured(oscillator, measured),
     )
 
 
@@ -180,35 +178,3 @@ def distance(first: Curve, second: Curve) -> float | None:
         return None
     expected = np.interp(second.time[keep], own, first.omega[first.valid])
     return float(np.sqrt(np.mean((second.omega[keep] / expected - 1) ** 2)))
-
-
-def theory_curve(oscillator: Oscillator, measured: Backbone, *, points: int = 200) -> Curve:
-    """Exact backbone of an oscillator at the measured fundamental amplitude, along the recording's time.
-
-    The exact frequency belongs to the peak amplitude; the first harmonic of the same orbit gives the fundamental one.
-
-    Parameters
-    ----------
-    oscillator
-        Its parameters in the recording's units.
-    measured
-        The backbone of the recording: amplitudes in its unit at times in s.
-    points
-        Orbits between which omega0 is interpolated.
-    """
-    dynamics = bind(oscillator)
-    limit = peak_limit(dynamics)
-    most = 0.999 * limit if np.isfinite(limit) else 2.0 * float(measured.amplitude.max())
-    peaks = np.linspace(most / points, most, points)
-    fundamental = np.abs(orbit_harmonics(dynamics, peaks, count=1).cosine[1])
-    omega = np.interp(measured.amplitude, fundamental, exact_frequency(dynamics, peaks).omega)
-    inside = measured.amplitude <= fundamental[-1]
-    return Curve(
-        name=oscillator.name,
-        label=f"{oscillator.title}, exact backbone",
-        kind="model",
-        time=measured.time,
-        omega=omega,
-        valid=inside,
-        note="At the measured fundamental amplitude, parameters as given.",
-    )

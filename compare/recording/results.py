@@ -8,8 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from ridgeback.common.show.brief import Brief
 from ridgeback.compare.motion.results import Curve, Image
+from ridgeback.compare.recording.theory import TheoryBackbone
 from ridgeback.compare.study.results import Formula
 from ridgeback.numeric.arrays import Array
 
@@ -39,3 +42,10 @@ class RecordingComparison(Brief):
     fit: Formula | None
     notes: tuple[str, ...]
     theory: tuple[Curve, ...] = ()
+    over: TheoryBackbone | None = None
+    """The named oscillator's backbone over the measured one."""
+
+    @property
+    def damping_ratio(self) -> Array:
+        """-a'/(a omega0) at the amplitudes of the backbone."""
+        return np.asarray(-self.growth_rate / self.backbone_omega)

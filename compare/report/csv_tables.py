@@ -8,7 +8,8 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from ridgeback.common.csv_text import csv_text
-from ridgeback.compare.motion.results import BudgetRow, Curve, DecayComparison, Score
+from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.motion.results import BudgetRow, Curve, DecayComparison
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.study.results import Study
 from ridgeback.numeric.arrays import Array
@@ -66,10 +67,10 @@ def _columns_table(columns: Mapping[str, Sequence[object]]) -> str:
     return csv_text(list(columns), zip(*columns.values(), strict=True))
 
 
-def scores_table(scores: Sequence[Score]) -> str:
-    """One row per method, failures included."""
-    header = ["method", "kind", "rms_interior", "max_interior", "mean_interior", "rms_start", "rms_end", "failed"]
-    return csv_text(header, [[getattr(score, name) for name in header] for score in scores])
+def contenders_table(found: Benchmark) -> str:
+    """One row per contender, refused ones included."""
+    header = list(found.contenders[0].to_dict())
+    return csv_text(header, [[row.to_dict()[name] for name in header] for row in found.contenders])
 
 
 def budget_table(rows: Sequence[BudgetRow]) -> str:

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from ridgeback.common.progress import Progress, silent
-from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.noise.monte_carlo import truth_of
 from ridgeback.compare.noise.truth import SMOOTH, Truth
 from ridgeback.compare.recording.recording import compare_recording
@@ -33,6 +32,7 @@ def recording_report(
     oscillator: OscillatorLike | None = None,
     cycles: float | None = None,
     trials: int = TRIALS,
+    timed: bool = True,
     command: str = "",
     progress: Progress = silent,
 ) -> Report:
@@ -52,6 +52,8 @@ def recording_report(
         How many of the first cycles predict the rest; by default a third of them.
     trials
         Noisy records a point of the noise study; 0 for none.
+    timed
+        Whether measured times are kept; without them the same inputs give the same report.
     command
         The command line that makes the same report, for its provenance.
     progress
@@ -84,17 +86,19 @@ def recording_report(
     return Report(
         title=recording_title(found),
         lead=f"{found.source}, {found.column}: {found.time.size} samples shown, {found.rate:g} per second.",
-        summary=(*_verdict(made.found), *recording_sentences(found), *left_out),
+        summary=(*recording_sentences(found, made.found), *left_out),
         cards=recording_cards(found),
         derivation=None,
         study=None,
         ranges=(),
         decay=None,
         recording=found,
-        timings=(),
-        provenance=provenance(settings, command=command, input_hash=found.sha256, seconds=watch.seconds()),
+        provenance=provenance(
+            settings, command=command, input_hash=found.sha256, seconds=watch.seconds() if timed else None
+        ),
         noise=noise.study,
         identification=made.found,
+        timed=timed,
         csv={"backbone.csv": tables.backbone_table(found), "tracks.csv": tables.curves_table(found.curves)},
     )
 
@@ -115,10 +119,6 @@ def _truth(recording: Recording, found: RecordingComparison) -> Truth:
     """The recording's own smooth model, from the track that the comparison made where that has every sample."""
     known = [c.omega for c in found.curves if c.name == SMOOTH and c.time.size == recording.time.size]
     return truth_of(recording, omega=known[0] if known else None)
-
-
-def _verdict(made: Identification | None) -> tuple[str, ...]:
-    return () if made is None else (f"What made it: {made.verdict}",)
 
 
 def _settings(found: RecordingComparison, theory: Oscillator | None, chosen: Mapping[str, object]) -> dict[str, object]:

@@ -5,59 +5,89 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ridgeback.common.numbers import relative, signed
+from ridgeback.common.numbers import number, per_cent, uncertain
 from ridgeback.common.quantities import frequency
+from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.results import Card
 from ridgeback.compare.study.results import Trend, trend_of
 from ridgeback.numeric.arrays import Array
 
+Indices = NDArray[np.intp]
+KNOWN = 2.0
+"""A point of the backbone is spoken of when its deviation is at most this many times the median one."""
+HELD = 0.8
+"""Share of what was measured later that must lie in the 95 % bands of a forecast that is said to have held."""
 
-def _ends(found: RecordingComparison) -> tuple[int, int]:
-    """Indices of the smallest and the largest amplitude of the backbone."""
-    return int(np.argmin(found.backbone_amplitude)), int(np.argmax(found.backbone_amplitude))
+
+def _known(found: RecordingComparison) -> Indices:
+    """Indices of the points that are known about as well as most: the noisiest are never in a headline."""
+    limit = KNOWN * float(np.median(found.backbone_omega_sd))
+    kept = np.flatnonzero(found.backbone_omega_sd <= limit)
+    return kept if kept.size > 1 else np.arange(found.backbone_amplitude.size)
+
+
+def ends(found: RecordingComparison) -> tuple[int, int]:
+    """Indices of the smallest and the largest amplitude that are known about as well as most."""
+    kept = _known(found)
+    sizes = found.backbone_amplitude[kept]
+    return int(kept[np.argmin(sizes)]), int(kept[np.argmax(sizes)])
 
 
 def _hertz(value: float) -> str:
     return frequency(value, "s")
 
 
-def _trend(found: RecordingComparison) -> Trend:
+def trend(found: RecordingComparison) -> Trend:
     """From the smallest amplitude to the largest: what lies between is known less well than the ends are apart."""
-    ends = list(_ends(found))
-    return trend_of(found.backbone_omega[ends], found.backbone_omega_sd[ends])
+    pair = list(ends(found))
+    return trend_of(found.backbone_omega[pair], found.backbone_omega_sd[pair])
 
 
 def recording_title(found: RecordingComparison) -> str:
     """State the frequency at the largest and the smallest amplitude."""
-    low, high = _ends(found)
+    low, high = ends(found)
     text = (
         f"{_hertz(found.backbone_omega[high])} at amplitude {found.backbone_amplitude[high]:.3g}, "
         f"{_hertz(found.backbone_omega[low])} at {found.backbone_amplitude[low]:.3g}"
     )
-    trend = _trend(found)
-    return f"{text}: no dependence beyond the uncertainty" if trend is Trend.CONSTANT else f"{text}: {trend.value}"
+    way = trend(found)
+    return f"{text}: no dependence beyond the uncertainty" if way is Trend.CONSTANT else f"{text}: {way.value}"
 
 
-def recording_sentences(found: RecordingComparison) -> tuple[str, ...]:
-    """Say in plain words what was estimated, how the estimators compare, and what the growth rate is."""
-    return tuple(_sentences(found))
+def recording_sentences(found: RecordingComparison, made: Identification | None) -> tuple[str, ...]:
+    """At most five findings: the theory named, what made it, the forecast, how well the backbone is known."""
+    return tuple(_sentences(found, made))[:5]
 
 
-def _sentences(found: RecordingComparison) -> Iterator[str]:
-    low, high = _ends(found)
-    yield (
-        f"As the amplitude of the fundamental goes from {found.backbone_amplitude[high]:.3g} to "
-        f"{found.backbone_amplitude[low]:.3g}, the frequency goes from {_hertz(found.backbone_omega[high])} to "
-        f"{_hertz(found.backbone_omega[low])}."
-    )
-    yield f"The backbone's relative standard deviation is {relative(_middle(_relative_sd(found)))} in the median."
-    yield (
-        f"The amplitude changes at a′/a = {signed(found.growth_rate[high])} per second at the largest amplitude and "
-        f"{signed(found.growth_rate[low])} at the smallest."
-    )
-    yield from found.notes
+def _sentences(found: RecordingComparison, made: Identification | None) -> Iterator[str]:
+    if found.over is not None:
+        yield found.over.sentence()
+    if made is not None:
+        yield f"What made it: {made.verdict}"
+        if made.prediction is not None:
+            yield forecast(made)
+    yield f"The backbone’s relative standard deviation is {per_cent(_middle(_relative_sd(found)))} in the median."
+
+
+def held(made: Identification) -> bool:
+    """Whether the forecast's bands held what was measured later."""
+    return made.prediction is not None and min(made.prediction.coverage.values(), default=0.0) >= HELD
+
+
+def forecast(made: Identification) -> str:
+    """The forecast and whether it held, from the share of later values in its bands."""
+    ahead = made.prediction
+    if ahead is None:
+        return "Nothing was forecast."
+    shares = ", ".join(f"{100 * share:.0f} % of {_PLURAL.get(name, name)}" for name, share in ahead.coverage.items())
+    verb = "held" if held(made) else "did not hold"
+    return f"The forecast from the first {number(ahead.cycles, 3)} cycles {verb}: {shares} lie in its 95 % bands."
+
+
+_PLURAL = {"amplitude": "amplitudes", "omega": "frequencies", "phase": "phases"}
 
 
 def _relative_sd(found: RecordingComparison) -> Array:
@@ -69,17 +99,36 @@ def _middle(values: Array) -> float:
 
 
 def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
-    """Frequency range, growth rate, uncertainty."""
-    low, high = _ends(found)
-    span = f"{_hertz(found.backbone_omega[high])} to {_hertz(found.backbone_omega[low])}"
-    amplitudes = f"{found.backbone_amplitude[high]:.3g} to {found.backbone_amplitude[low]:.3g}"
-    growth_rate = float(np.median(found.growth_rate))
+    """Frequency, growth rate and damping ratio, uncertainty, each with its ends."""
+    low, high = ends(found)
+    sizes = [f"at {found.backbone_amplitude[i]:.3g}" for i in (high, low)]
+    omega = [
+        uncertain(found.backbone_omega[i] / (2 * np.pi), found.backbone_omega_sd[i] / (2 * np.pi)) for i in (high, low)
+    ]
+    growth = [uncertain(found.growth_rate[i], found.growth_rate_sd[i]) for i in (high, low)]
+    ratio = [uncertain(found.damping_ratio[i], found.growth_rate_sd[i] / found.backbone_omega[i]) for i in (high, low)]
+    middle = _middle(found.damping_ratio[_known(found)])
+    relative = _relative_sd(found)[_known(found)]
     return (
-        Card("Fundamental frequency", span, f"Amplitudes {amplitudes} (first harmonic): {_trend(found).value}."),
-        Card("Growth rate", f"{signed(growth_rate)} per s", "Median of a′/a over the backbone; see the figure."),
         Card(
-            "Uncertainty",
-            relative(_middle(_relative_sd(found))),
-            "Median relative standard deviation of the backbone's points.",
+            "Fundamental frequency",
+            _hertz(_middle(found.backbone_omega[_known(found)])),
+            f"median; {trend(found).value}",
+            tuple((size, f"{value} Hz") for size, value in zip(sizes, omega, strict=True)),
+        ),
+        Card(
+            "Damping ratio",
+            per_cent(middle, signed=middle < 0),
+            "median of −a′/(aω₀)",
+            (
+                *((size, value) for size, value in zip(sizes, ratio, strict=True)),
+                ("a′/a", f"{growth[0]} and {growth[1]} per s"),
+            ),
+        ),
+        Card(
+            "Uncertainty of ω₀",
+            per_cent(_middle(relative)),
+            "one standard deviation, median",
+            (("best", per_cent(float(relative.min()))), ("worst", per_cent(float(_relative_sd(found).max())))),
         ),
     )

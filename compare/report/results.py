@@ -4,45 +4,42 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Literal
 
 from ridgeback.common.show.brief import Brief
+from ridgeback.compare.benchmark.contenders import Way
+from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.motion.results import DecayComparison
 from ridgeback.compare.noise.results import NoiseStudy
 from ridgeback.compare.recording.results import RecordingComparison
+from ridgeback.compare.report.error_grid import ErrorGrid
 from ridgeback.compare.report.shown import ShownReport
-from ridgeback.compare.study.results import Certified, Derivation, Range, Study, Timing
+from ridgeback.compare.study.results import Certified, Derivation, Range, Study
 
 
 @dataclass(frozen=True)
 class Card:
-    """One of the three figures that a reader takes away."""
+    """One of the figures that a reader takes away: a number, what it is of, and rows that compare across cards."""
 
     heading: str
     value: str
     text: str
+    rows: tuple[tuple[str, str], ...] = ()
+    """Name and value of each row."""
+    way: Way | Literal[""] = ""
+    """The way to omega0 that the card is about, which gives its colour; empty for a recording."""
 
 
 @dataclass(frozen=True)
-class EstimatorScore:
-    """One estimator with its own defaults on the samples of a motion, with and without its bias."""
+class Described:
+    """What was studied, for the line below the title."""
 
-    method: str
-    rms_raw: float | None
-    """Relative, like the next four, against the cycle frequency; over the interior, bias left in."""
-    rms_interior: float | None
-    """Over the interior, bias removed; so are the next two."""
-    rms_start: float | None
-    rms_end: float | None
-    half_width: float | None
-    """Median half width of its 95 % interval over the interior; None where it claims none."""
-    coverage: float | None
-    """Share of the interior's samples whose interval holds the reference."""
-    seconds: float
-    """CPU time of the whole track on the machine that made the page."""
-    note: str = ""
-    failed: str = ""
-    """Why the method gave nothing, when it did not."""
+    name: str
+    equation_latex: str
+    given: str
+    """Parameters, start and sampling in words."""
+    reference: str = ""
 
 
 @dataclass(frozen=True, repr=False)
@@ -81,14 +78,20 @@ class Report(ShownReport):
         One motion: expansions and estimates along it.
     recording : RecordingComparison, optional
         What was measured of a recording.
-    timings : tuple of Timing
-        Cost of evaluation.
     provenance : Provenance
         How to get the same page again.
     certified : Certified, optional
         Proved errors of the series and its resummations, where omega0 can be enclosed.
-    estimator_scores : tuple of EstimatorScore
-        Every estimator on the same samples.
+    benchmark : Benchmark, optional
+        Every contender on the motion: error and cost.
+    grid : ErrorGrid, optional
+        omega0 by generated code over order and amplitude, with its enclosed error.
+    described : Described, optional
+        Equation, parameters and start.
+    paper : bool
+        Whether this is the paper's own case.
+    timed : bool
+        Whether measured times are shown; without them the same inputs give the same bytes.
     noise : NoiseStudy, optional
         The estimators in noise, beside the Cramér-Rao bound.
     identification : Identification, optional
@@ -102,7 +105,7 @@ class Report(ShownReport):
     --------
     >>> provenance = Provenance("ridgeback report", {}, {}, "")
     >>> cards = (Card("Range", "0.5", "up to which order 2 errs by less than 1 %"),)
-    >>> Report("Pendulum", "", (), cards, None, None, (), None, None, (), provenance).findings()
+    >>> Report("Pendulum", "", (), cards, None, None, (), None, None, provenance).findings()
     (('Range', '0.5', 'up to which order 2 errs by less than 1 %'),)
     """
 
@@ -115,14 +118,17 @@ class Report(ShownReport):
     ranges: tuple[Range, ...]
     decay: DecayComparison | None
     recording: RecordingComparison | None
-    timings: tuple[Timing, ...]
     provenance: Provenance
     certified: Certified | None = None
-    estimator_scores: tuple[EstimatorScore, ...] = ()
     noise: NoiseStudy | None = None
     identification: Identification | None = None
     csv: Mapping[str, str] = field(default_factory=dict)
     finding: Range | None = None
+    benchmark: Benchmark | None = None
+    grid: ErrorGrid | None = None
+    described: Described | None = None
+    paper: bool = False
+    timed: bool = True
 
     def findings(self) -> tuple[tuple[str, str, str], ...]:
         """The cards."""

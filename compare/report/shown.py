@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from ridgeback.compare.study.results import Study
 
 
+FRAME = 900
+"""Height of a page in a notebook, in pixels."""
+
+
 class ShownReport(Displayed):
     """What a report shows of itself."""
 
@@ -42,8 +46,10 @@ class ShownReport(Displayed):
         return self.title
 
     def _repr_html_(self) -> str:
-        sentences = "".join(f"<li>{escape(sentence)}</li>" for sentence in self.summary)
-        return f"{super()._repr_html_()}<ul>{sentences}</ul>"
+        """The page itself, in a frame of its own."""
+        page = escape(self.to_html(), quote=True)
+        title = escape(self.title, quote=True)
+        return f'<iframe title="{title}" srcdoc="{page}" style="width:100%;height:{FRAME}px;border:0"></iframe>'
 
     def picture(self) -> Picture:
         """The errors of the study, or the measured backbone."""

@@ -3,41 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
-from ridgeback.common.quantities import symbol
+from ridgeback.compare.benchmark.benchmark import assembled
+from ridgeback.compare.benchmark.estimates import estimates
+from ridgeback.compare.benchmark.expansions import ORDERS as CONTENDING
+from ridgeback.compare.benchmark.expansions import theory
+from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.comparison import HIGH_ORDER, compare_decay
+from ridgeback.compare.motion.estimate_curves import LEAN
 from ridgeback.compare.motion.model_curves import LOW_ORDERS
-from ridgeback.compare.motion.motion import Setting, integrate_motion, setting
+from ridgeback.compare.motion.motion import Motion, Setting, integrate_motion, setting
+from ridgeback.compare.motion.paper_case import is_paper_case
 from ridgeback.compare.motion.results import DecayComparison
 from ridgeback.compare.noise.truth import motion_truth
 from ridgeback.compare.report import csv_tables as tables
-from ridgeback.compare.report.estimator_scores import estimator_scores
+from ridgeback.compare.report.cards import Known, cards
+from ridgeback.compare.report.error_grid import ErrorGrid, error_grid
+from ridgeback.compare.report.findings import findings, lead_of, title_of
+from ridgeback.compare.report.naming import parameters_line
 from ridgeback.compare.report.noise_part import TRIALS, noise_part
 from ridgeback.compare.report.provenance import provenance
-from ridgeback.compare.report.results import Report
+from ridgeback.compare.report.results import Described, Report
 from ridgeback.compare.report.stages import Stopwatch
-from ridgeback.compare.report.summary import cards, decay_sentences, study_sentences, study_title
 from ridgeback.compare.study.certified import certified
 from ridgeback.compare.study.derivation import derivation
 from ridgeback.compare.study.derived import Derived, derive
-from ridgeback.compare.study.results import Range, Study, Timing
+from ridgeback.compare.study.results import Range, Study
 from ridgeback.compare.study.study import ranges, study_of
-from ridgeback.compare.study.timing import timings
 from ridgeback.compare.study.truncations import already_derived
 from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.systems.any_form import OscillatorLike
 
-ORDERS = (2, 4, 6, 8, 10, 12, 16, 20, 30, 40)
-CYCLE_ORDERS = (2, 4, 6, 8, 12, 16, 20, 30, 48)
+ORDERS = tuple(range(2, 41, 2))
+CYCLE_ORDERS = (2, 4, 6, 8, 10, 12, 16, 20, 24, 30, 36)
 """Orders in eps for limit cycles, whose series cost more per order."""
-AMPLITUDES = 49
-CYCLE_STRENGTHS = np.linspace(0.2, 2.6, 13)
-ORDER, TARGET = 8, 1e-3
+AMPLITUDES = 98
+CYCLE_STRENGTHS = np.linspace(0.1, 2.6, 26)
+ORDER, TARGET = 20, 1e-3
+FLOW_ORDER = 8
+BEYOND = 1.1
+"""The study goes at least this many times as far as the motion."""
 
 
 @dataclass(frozen=True)
@@ -69,6 +79,15 @@ class Plan:
         }
 
 
+@dataclass(frozen=True)
+class Accuracy:
+    """Order against amplitude: the study, how far each order may be used, and the grid of the sliders."""
+
+    study: Study
+    ranges: tuple[Range, ...]
+    grid: ErrorGrid
+
+
 def system_report(
     chosen: Setting | OscillatorLike,
     *,
@@ -77,6 +96,7 @@ def system_report(
     amplitudes: Sequence[float] | Array | None = None,
     target: float = TARGET,
     trials: int = TRIALS,
+    timed: bool = True,
     command: str = "",
     progress: Progress = silent,
 ) -> Report:
@@ -88,16 +108,18 @@ def system_report(
         An oscillator, or anything that names one, which then starts from its own initial state; or a setting with its
         initial state, duration and rate.
     order
-        The expansion that title, formulas and code are about.
+        The expansion that formulas and code are about, and at which the sliders stand.
     orders
-        Orders of the accuracy study; by default up to 40 (limit cycles: 48).
+        Orders of the accuracy study; by default the even ones to 40 (limit cycles: some to 36).
     amplitudes
         Peak amplitudes of the study in the unit of u, or values of eps for a limit cycle, shape (n,); by default up to
-        98 % of the separatrix.
+        98 % of the separatrix, else beyond the start.
     target
         Relative error of the ranges of use, between 0 and 1.
     trials
         Noisy records a point of the noise study; 0 for none.
+    timed
+        Whether measured times are kept; without them the same inputs give the same report.
     command
         The command line that makes the same report, for its provenance.
     progress
@@ -115,45 +137,79 @@ def system_report(
     """
     case = chosen if isinstance(chosen, Setting) else setting(chosen)
     watch = Stopwatch(progress)
-    with watch.stage("deriving", 0.0, 0.05):
-        plan, derived = _plan(case, order, orders, amplitudes, target, trials)
-    with watch.stage("accuracy-order study", 0.05, 0.15):
-        result = study_of(derived.undamped, plan.orders, plan.amplitudes, truncate=already_derived(derived))
-    with watch.stage("along the motion", 0.15, 0.5) as inner:
+    with watch.stage("integrating the motion twice", 0.0, 0.1):
         motion = integrate_motion(case)
-        decay = compare_decay(motion, derived=derived, orders=_drawn(derived, order), progress=inner)
-    with watch.stage("every estimator", 0.5, 0.7) as inner:
-        ranked = estimator_scores(decay, progress=inner)
-    with watch.stage("estimators in noise", 0.7, 0.97) as inner:
+    with watch.stage("deriving and studying", 0.1, 0.2):
+        plan, derived = _plan(motion, order, orders, amplitudes, target, trials)
+        accuracy = _accuracy(derived, plan)
+    with watch.stage("contenders", 0.2, 0.5) as inner:
+        found = _contenders(motion, inner, timed=timed)
+    with watch.stage("along the motion", 0.5, 0.7) as inner:
+        decay = compare_decay(motion, derived=derived, orders=_drawn(derived, order), recipes=LEAN, progress=inner)
+    with watch.stage("estimators in noise", 0.7, 1.0) as inner:
         noise = noise_part(lambda: motion_truth(motion), trials, inner)
-    with watch.stage("evaluation time", 0.97, 1.0):
-        times = _timings(derived, plan)
     progress(1.0, "done")
-    found = ranges(result, plan.target)
-    finding = next(item for item in found if item.order == plan.order)
-    left_out = (noise.left_out,) if noise.left_out else ()
+    known = Known(
+        benchmark=found,
+        study=accuracy.study,
+        ranges=accuracy.ranges,
+        noise=noise.study,
+        target=target,
+        pendulum=case.is_pendulum,
+        natural_frequency=motion.dynamics.natural_frequency,
+    )
+    said = findings(found, decay, derived, float(motion.energy_peak[0]))
     return Report(
-        title=study_title(result, finding),
-        lead=_lead(case),
-        summary=(*study_sentences(result, found), *decay_sentences(decay), *left_out),
-        cards=cards(result, finding, times),
+        title=title_of(found.verdict, found.reference),
+        lead=lead_of(found, timed=timed),
+        summary=(*said, *((noise.left_out,) if noise.left_out else ())),
+        cards=cards(known),
         derivation=derivation(derived, order=plan.order),
-        study=result,
-        ranges=_shown_ranges(result, plan.target),
+        study=accuracy.study,
+        ranges=accuracy.ranges,
         decay=decay,
         recording=None,
-        timings=times,
-        provenance=provenance(plan.settings(), command=command, seconds=watch.seconds()),
+        provenance=provenance(plan.settings(), command=command, seconds=watch.seconds() if timed else None),
         certified=certified(derived.undamped.oscillator, plan.order, float(plan.amplitudes[-1])),
-        estimator_scores=ranked,
         noise=noise.study,
-        csv=_system_csv(result, decay),
-        finding=finding,
+        csv=_csv(accuracy.study, decay, found),
+        finding=next(item for item in accuracy.ranges if item.order == plan.order and item.target == plan.target),
+        benchmark=found,
+        grid=accuracy.grid,
+        described=described(case),
+        paper=is_paper_case(case),
+        timed=timed,
     )
 
 
+def described(case: Setting) -> Described:
+    """Equation, parameters, start and sampling."""
+    o = case.oscillator
+    return Described(o.title, o.equation_latex, parameters_line(case.case()), o.reference)
+
+
+def _contenders(motion: Motion, progress: Progress, *, timed: bool) -> Benchmark:
+    steps = iter(range(1, 100))
+
+    def step(label: str) -> None:
+        progress(min(next(steps) / 14, 0.99), label)
+
+    rows = [*theory(motion, CONTENDING, step), *estimates(motion, {}, step)]
+    found = assembled(motion, rows)
+    return found if timed else untimed(found)
+
+
+def untimed(found: Benchmark) -> Benchmark:
+    """A benchmark without its measured times."""
+    rows = tuple(replace(r, time_ns_per_value=None, time_s_per_track=None) for r in found.contenders)
+    by_name = {row.method: row for row in rows}
+    verdict = found.verdict
+    rival = None if verdict.rival is None else by_name[verdict.rival.method]
+    return replace(found, contenders=rows, verdict=replace(verdict, best=by_name[verdict.best.method], rival=rival))
+
+
 def _plan(
-    case: Setting,
+    motion: Motion,
     order: int,
     orders: Sequence[int] | None,
     amplitudes: Sequence[float] | Array | None,
@@ -162,34 +218,40 @@ def _plan(
 ) -> tuple[Plan, Derived]:
     if not 0 < target < 1:
         raise InputError(f"target {target} is not a relative error between 0 and 1; use e.g. 0.001")
+    case = motion.setting
     cycle = case.oscillator.kind == "limit-cycle"
     wanted = tuple(sorted({*(orders or (CYCLE_ORDERS if cycle else ORDERS)), order}))
-    derived = derive(case.oscillator, max(HIGH_ORDER, *wanted), flow_order=min(max(order, 2), 8))
-    grid = np.asarray(amplitudes, dtype=float) if amplitudes is not None else _amplitudes(case, derived)
+    derived = derive(case.oscillator, max(HIGH_ORDER, *wanted), flow_order=min(max(order, 2), FLOW_ORDER))
+    grid = _amplitudes(motion, derived) if amplitudes is None else np.asarray(amplitudes, dtype=float)
     return Plan(case, order, wanted, np.sort(grid), target, trials), derived
 
 
-def _amplitudes(case: Setting, derived: Derived) -> Array:
-    """Up to 98 % of the separatrix; without one, beyond the radius of convergence or the initial amplitude."""
+def _amplitudes(motion: Motion, derived: Derived) -> Array:
+    """Up to 98 % of the separatrix; without one, beyond the start and beyond the radius of convergence."""
     if derived.expansion.variable == "eps":
-        return CYCLE_STRENGTHS
+        own = _strength(motion)
+        return CYCLE_STRENGTHS if own <= CYCLE_STRENGTHS[-1] else np.linspace(0.1, BEYOND * own, 26)
     if derived.undamped.limit is not None:
-        return np.linspace(0.02, 0.98, AMPLITUDES) * derived.undamped.limit
+        return np.linspace(0.01, 0.98, AMPLITUDES) * derived.undamped.limit
+    start = max(float(motion.energy_peak[0]), 0.1)
     radius = derived.limits.radius
-    top = 1.5 * (max(abs(case.initial[0]), 0.1) if radius is None else radius)
-    return np.linspace(0.02, 1.0, AMPLITUDES) * top
+    top = BEYOND * start if radius is None else max(BEYOND * start, min(1.5 * radius, 3.0 * start))
+    return np.linspace(0.01, 1.0, AMPLITUDES) * top
+
+
+def _strength(motion: Motion) -> float:
+    """The motion's own eps."""
+    return float(motion.setting.case().parameters[motion.setting.oscillator.small or "eps"])
+
+
+def _accuracy(derived: Derived, plan: Plan) -> Accuracy:
+    result = study_of(derived.undamped, plan.orders, plan.amplitudes, truncate=already_derived(derived))
+    return Accuracy(result, _shown_ranges(result, plan.target), error_grid(derived, result))
 
 
 def _drawn(derived: Derived, order: int) -> tuple[int, ...]:
-    """Orders drawn along the motion: the paper's low ones, the chosen one, and a high one."""
+    """Orders compared along the motion: the paper's low ones, the chosen one, and a high one."""
     return tuple(sorted({*LOW_ORDERS, min(order, derived.expansion.order), HIGH_ORDER}))
-
-
-def _timings(derived: Derived, plan: Plan) -> tuple[Timing, ...]:
-    expansion = derived.expansion.truncated(plan.order)
-    return timings(
-        expansion, derived.undamped.dynamics, upper=float(plan.amplitudes[-1]), pendulum=plan.setting.is_pendulum
-    )
 
 
 def _shown_ranges(result: Study, target: float) -> tuple[Range, ...]:
@@ -197,19 +259,11 @@ def _shown_ranges(result: Study, target: float) -> tuple[Range, ...]:
     return tuple(item for level in sorted({1e-2, 1e-3, 1e-6, target}, reverse=True) for item in ranges(result, level))
 
 
-def _lead(case: Setting) -> str:
-    o = case.oscillator
-    values = ", ".join(f"{symbol(name)} = {float(v):.6g}" for name, v in o.parameters.items() if v is not None)
-    given = f" with {values}" if values else ""
-    reference = f"  {o.reference}." if o.reference else ""
-    return f"{o.title}{given}.{reference}".replace("..", ".")
-
-
-def _system_csv(result: Study, decay: DecayComparison) -> dict[str, str]:
+def _csv(result: Study, decay: DecayComparison, found: Benchmark) -> dict[str, str]:
     return {
+        "contenders.csv": tables.contenders_table(found),
         "study.csv": tables.study_table(result),
         "decay.csv": tables.decay_table(decay),
-        "scores.csv": tables.scores_table(decay.scores),
         "budget.csv": tables.budget_table(decay.budget),
         "harmonics.csv": tables.harmonics_table(decay),
     }

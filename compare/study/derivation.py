@@ -6,13 +6,13 @@ exact rationals they are, whatever decimal k was given.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import sympy
 
 from ridgeback.compare.study.derived import Derived
-from ridgeback.compare.study.results import Checked, Derivation, Formula
+from ridgeback.compare.study.results import Checked, Derivation, Formula, HarmonicRow, HarmonicTable
 from ridgeback.symbolic.certificates.certificate import Check, certify
 from ridgeback.symbolic.codegen import generate
 from ridgeback.symbolic.expansion.expansion import Expansion
@@ -20,8 +20,10 @@ from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.flow.term import Term
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
-MAX_HARMONICS = 3
-"""Harmonics of u that are printed; all of them are in the expansion itself."""
+SHOWN = 8
+"""Order to which formulas are printed; the code holds them all."""
+COLUMNS = 5
+"""Powers of the variable in the table of harmonics."""
 _LATEX = {sympy.Symbol("eps", real=True): r"\varepsilon", sympy.Symbol("mu", real=True): r"\mu"}
 
 
@@ -40,15 +42,23 @@ def derivation(derived: Derived, *, order: int | None = None) -> Derivation:
     >>> from ridgeback.compare.study.derived import derive
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> sorted(derivation(derive(find("pendulum"), 6), order=2).code)
-    ['C', 'Python']
+    ['C', 'JavaScript', 'Python']
     """
     shown = derived if order is None else replace(derived, expansion=derived.expansion.truncated(order))
     return Derivation(
         system=shown.oscillator.name,
-        formulas=tuple(_formulas(shown)),
+        formulas=tuple(_formulas(_printed(shown))),
         certificate=certificate(shown),
         code=_code(shown),
+        harmonics=harmonic_table(_printed(shown).expansion),
+        order=shown.expansion.order,
     )
+
+
+def _printed(derived: Derived) -> Derived:
+    """The same to the order that is printed."""
+    expansion = derived.expansion
+    return replace(derived, expansion=expansion.truncated(SHOWN)) if expansion.order > SHOWN else derived
 
 
 def _formulas(derived: Derived) -> Iterator[Formula]:
@@ -58,7 +68,6 @@ def _formulas(derived: Derived) -> Iterator[Formula]:
         yield frequency_formula(expansion.convert("fundamental"))
     if expansion.amplitude_coefficients is not None:
         yield _amplitude_formula(expansion)
-    yield from _harmonic_formulas(expansion)
     if derived.flow is not None:
         yield from _flow_formulas(derived.flow)
 
@@ -118,28 +127,33 @@ def _amplitude_formula(expansion: Expansion) -> Formula:
     )
 
 
-def _harmonic_formulas(expansion: Expansion) -> Iterator[Formula]:
-    """Yield the leading harmonics of u, cosine and sine parts apart."""
-    x = sympy.Symbol(expansion.variable, real=True)
-    for harmonic in expansion.harmonics[:MAX_HARMONICS]:
-        for part, values in (("cos", harmonic.cosine), ("sin", harmonic.sine)):
-            terms = [c * x**n for n, c in enumerate(values) if c != 0]
-            if terms:
-                yield Formula(
-                    title=_harmonic_title(harmonic.multiple),
-                    left=_harmonic_name(harmonic.multiple, part),
-                    terms=latex_terms(terms),
-                )
+def harmonic_table(expansion: Expansion) -> HarmonicTable | None:
+    """The exact coefficients of the motion, by harmonic and by power of the variable; None where there are none.
+
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> table = harmonic_table(lindstedt(find("pendulum"), 4))
+    >>> table.powers, [(row.multiple, row.part) for row in table.rows]
+    ((1, 3, 5), [(1, 'cos'), (3, 'cos'), (5, 'cos')])
+    """
+    found = [
+        (h.multiple, part if h.multiple else "", values)
+        for h in expansion.harmonics
+        for part, values in (("cos", h.cosine), ("sin", h.sine))
+        if any(c != 0 for c in values)
+    ]
+    used = sorted({n for _, _, values in found for n, c in enumerate(values) if c != 0})[:COLUMNS]
+    rows = [
+        HarmonicRow(multiple, part, tuple(_coefficient(values, n) for n in used))
+        for multiple, part, values in sorted(found, key=lambda row: (row[0], row[1]))
+    ]
+    kept = tuple(row for row in rows if any(row.cells))
+    return HarmonicTable(_variable_latex(expansion), tuple(used), kept) if kept else None
 
 
-def _harmonic_title(multiple: int) -> str:
-    return f"Harmonic {multiple} of the motion" if multiple else "Mean offset of the motion"
-
-
-def _harmonic_name(multiple: int, part: str) -> str:
-    """Return the coefficient of cos or sin of the multiple of omega_0 t in u; the mean of u for multiple 0."""
-    number = "" if multiple == 1 else str(multiple)
-    return rf"[\{part} {number}\omega_0 t]\; u" if multiple else r"\bar{u}"
+def _coefficient(values: Sequence[sympy.Expr], power: int) -> str:
+    value = values[power] if power < len(values) else 0
+    return sympy.latex(value, symbol_names=_LATEX) if value != 0 else ""
 
 
 def _flow_formulas(flow: SlowFlow) -> Iterator[Formula]:
@@ -197,5 +211,5 @@ def _code(derived: Derived) -> dict[str, str]:
     equation = described(rest.oscillator)
     return {
         title: generate(derived.expansion, language, equation=equation, limit=rest.limit)
-        for title, language in (("Python", "python"), ("C", "c"))
+        for title, language in (("C", "c"), ("Python", "python"), ("JavaScript", "javascript"))
     }

@@ -66,6 +66,27 @@ class Formula:
     python: str = ""
 
 
+@dataclass(frozen=True)
+class HarmonicRow:
+    """The coefficient of one harmonic of u by powers of the variable, each as LaTeX, empty where it is zero."""
+
+    multiple: int
+    """0 for the mean of u."""
+    part: str
+    """``cos``, ``sin``, or empty for the mean."""
+    cells: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class HarmonicTable:
+    """The motion's exact coefficients: a row for each harmonic, a column for each power of the variable."""
+
+    variable: str
+    """As LaTeX."""
+    powers: tuple[int, ...]
+    rows: tuple[HarmonicRow, ...]
+
+
 @dataclass(frozen=True, repr=False)
 class Study(ShownStudy):
     """Error of truncated expansions over order and amplitude; grids are ``[order, amplitude]``.
@@ -217,3 +238,6 @@ class Derivation(Brief):
     certificate: tuple[Checked, ...]
     code: Mapping[str, str]
     """Language name to source text."""
+    harmonics: HarmonicTable | None = None
+    order: int = 0
+    """The order that certificate and code are about; formulas are printed to ``SHOWN`` at most."""

@@ -164,20 +164,39 @@ def ranges(result: Study, target: float) -> tuple[Range, ...]:
     if not target > 0:
         raise InputError(f"target {target} is not positive; give a relative error such as 0.001")
     rising = np.argsort(result.amplitudes)
-    grid, errors = result.amplitudes[rising], np.abs(result.relative_error[:, rising])
-    signs = np.sign(result.relative_error[:, rising])
+    grid, errors = result.amplitudes[rising], result.relative_error[:, rising]
     return tuple(
-        Range(order, target, _reach(grid, error, sign, target))
-        for order, error, sign in zip(result.orders, errors, signs, strict=True)
+        Range(order, target, first_violation(grid, error, target))
+        for order, error in zip(result.orders, errors, strict=True)
     )
 
 
-def _reach(grid: Array, error: Array, sign: Array, target: float) -> float | None:
+def first_violation(grid: Array, relative_error: Array, target: float) -> float | None:
     """The amplitude at which an error first passes the target; the last studied one when it never does.
 
     Between two studied amplitudes ln |error| is interpolated over ln A, in which a truncated series is nearly
     straight.  Where the error changes sign between them, the last amplitude at which the target holds is returned.
+
+    Parameters
+    ----------
+    grid
+        Rising amplitudes, shape (M,).
+    relative_error
+        Signed relative errors there, shape (M,).
+    target
+        Size of the error that must hold.
+
+    Returns
+    -------
+    float or None
+        None when the first amplitude violates the target already.
+
+    Examples
+    --------
+    >>> first_violation(np.array([1.0, 2.0, 3.0]), np.array([1e-5, 1e-4, 1e-2]), 1.0)
+    3.0
     """
+    error, sign = np.abs(relative_error), np.sign(relative_error)
     broken = np.flatnonzero(~(error <= target))
     if not broken.size:
         return float(grid[-1])

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from ridgeback.numeric.arrays import Array
 
 LEVELS = 48
+STEPS = 32
+"""Grey steps of a mask: finer ones are not seen and cost bytes."""
 MAX_ROWS, MAX_COLUMNS = 320, 480
 
 
@@ -65,3 +67,14 @@ def plane_uri(level_db: Array, floor_db: float) -> str:
     """
     small = shrink(np.asarray(level_db, dtype=np.float64), MAX_ROWS, MAX_COLUMNS)
     return "data:image/png;base64," + base64.b64encode(png(grey(small, floor_db)[::-1])).decode("ascii")
+
+
+def mask_uri(share: Array, *, rows: int = MAX_ROWS, columns: int = MAX_COLUMNS) -> str:
+    """Return the ``data:`` URI of shares 0 .. 1, ``[frequency, time]``, as a mask: white shows the ink.
+
+    >>> mask_uri(np.zeros((2, 2)))[:22]
+    'data:image/png;base64,'
+    """
+    small = shrink(np.nan_to_num(np.asarray(share, dtype=np.float64)), rows, columns)
+    pixels = np.rint(np.rint(np.clip(small, 0.0, 1.0) * (STEPS - 1)) * (255 / (STEPS - 1))).astype(np.uint8)
+    return "data:image/png;base64," + base64.b64encode(png(pixels[::-1])).decode("ascii")

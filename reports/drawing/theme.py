@@ -12,7 +12,8 @@ from contextvars import ContextVar
 from dataclasses import dataclass
 from types import MappingProxyType
 
-# token: (light, dark).  s1..s5 are series, b0..b5 are bands from good to bad: good recedes into the page.
+# token: (light, dark).  s1..s5 are series, b0..b5 bands from good to bad (good recedes into the page), E, S, T the
+# three ways (expansions, series model, estimates), pos and neg the signs of a plane, shade what an error leaves out.
 TOKENS: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
         "bg": ("#FFFFFF", "#14171A"),
@@ -32,6 +33,12 @@ TOKENS: Mapping[str, tuple[str, str]] = MappingProxyType(
         "b3": ("#4E95C3", "#3E8BC0"),
         "b4": ("#22639D", "#7DB7DD"),
         "b5": ("#10386B", "#CFE6F4"),
+        "E": ("#B5501A", "#E09A55"),
+        "S": ("#0F3C6E", "#6FA8E0"),
+        "T": ("#1D7B6D", "#7BE8CA"),
+        "pos": ("#10386B", "#8CC4F0"),
+        "neg": ("#B5501A", "#E09A55"),
+        "shade": ("#F1F3F5", "#1B1F23"),
     }
 )
 

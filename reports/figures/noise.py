@@ -1,169 +1,140 @@
-"""The figure and the table of a noise study: error of each estimator against noise, beside the Cramér-Rao bound."""
+"""The estimators in noise: one small panel each, the others in grey, its own Cramér-Rao bound dashed."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from ridgeback.common.numbers import NONE, number, relative, uncertain
-from ridgeback.compare.noise.results import OUTLIER, NoiseCell, NoiseStudy
+from ridgeback.common.numbers import NONE, number, per_cent
+from ridgeback.compare.noise.results import NoiseCell, NoiseStudy
+from ridgeback.compare.report.naming import capital, estimator
 from ridgeback.numeric.arrays import Array
-from ridgeback.reports.drawing.block import Block, Readout, block
-from ridgeback.reports.drawing.canvas import Canvas, Line, Trace, decades, draw, linear, titles
-from ridgeback.reports.drawing.labels import place
-from ridgeback.reports.drawing.theme import SERIES, sentinel
+from ridgeback.reports.drawing.figure import Figure
+from ridgeback.reports.drawing.marks import area, curve, dot, drawing, line, text
+from ridgeback.reports.drawing.panel import Panel
+from ridgeback.reports.drawing.scale import Scale
+from ridgeback.reports.figures.accuracy_cost import per_cent_tick
 from ridgeback.reports.text.tables import Row, Table
 
-EFFICIENT = 1.2
-"""Ratio to the bound that an efficient estimator keeps."""
-MOST = len(SERIES)
+AT_BOUND = 1.5
+"""Ratio to the bound within which an estimator is said to reach it."""
+LOST = 0.1
 
 
-def noise_blocks(study: NoiseStudy) -> tuple[Block, ...]:
-    """Return the figures of a noise study: error against noise, and its ratio to the bound."""
-    return error_figure(study), ratio_figure(study)
+def values(cells: Sequence[NoiseCell], name: str) -> Array:
+    """One number of each cell, NaN where there is none."""
+    return np.array([np.nan if getattr(cell, name) is None else float(getattr(cell, name)) for cell in cells])
 
 
-def _values(cells: tuple[NoiseCell, ...], name: str) -> Array:
-    return np.array([np.nan if (value := getattr(cell, name)) is None else float(value) for cell in cells])
-
-
-def _drawn(study: NoiseStudy) -> tuple[str, ...]:
-    """The methods that are drawn: the first few, as the colours go."""
-    return study.methods[:MOST]
-
-
-def _lines(study: NoiseStudy, name: str) -> list[Line]:
+def noise_figure(study: NoiseStudy) -> Figure:
+    """Small multiples that share their axes."""
     snr = np.array(study.snr_db)
-    return [
-        Line(snr, _values(study.of(method), name), method, token)
-        for method, token in zip(_drawn(study), SERIES, strict=False)
-    ]
-
-
-def _bands(axes_fill: Canvas, lines: list[Line], deviations: list[Array]) -> None:
-    (axes,) = axes_fill.panels
-    for line, sd in zip(lines, deviations, strict=True):
-        low = np.maximum(line.y - 2 * sd, line.y * 1e-3)
-        axes.fill_between(line.x, low, line.y + 2 * sd, color=sentinel(line.token), alpha=0.15, linewidth=0.0)
-
-
-def _span(study: NoiseStudy) -> tuple[float, float]:
-    low, high = min(study.snr_db), max(study.snr_db)
-    return (low, high) if high > low else (low - 1.0, high + 1.0)
-
-
-def _limits(values: list[Array]) -> tuple[float, float]:
-    """Whole decades around all positive values."""
-    joined = np.concatenate([np.ravel(v) for v in values])
+    rms = {method: values(study.of(method), "rms") for method in study.methods}
+    bounds = [values(study.of(method), "bound") for method in study.methods]
+    joined = np.concatenate([*(v for v in rms.values()), *bounds])
     kept = joined[np.isfinite(joined) & (joined > 0)]
-    if kept.size == 0:
-        return 1e-4, 1.0
-    return 10.0 ** np.floor(np.log10(kept.min())), 10.0 ** np.ceil(np.log10(kept.max()) + 1e-9)
-
-
-def _shared(study: NoiseStudy) -> str:
-    left = len(study.methods) - len(_drawn(study))
-    more = f" The table holds {left} more." if left else ""
-    return (
-        f"{study.title}, {study.samples} samples at {number(study.rate)} per time unit, {study.trials} seeded trials "
-        f"a point; bands: two standard deviations of the Monte-Carlo mean.{more}"
+    low, high = (float(kept.min()), float(kept.max())) if kept.size else (1e-4, 1.0)
+    scale = (0.6 * low, min(max(1.6 * high, 10 * low), 0.4))
+    small = [_small(study, method, snr, rms, scale) for method in study.methods]
+    return Figure(
+        key="noise",
+        wide="".join(small),
+        narrow="",
+        caption=f"Rms error against signal-to-noise ratio, {study.trials} seeded trials a point, band one standard "
+        f"deviation; dashed, the Cramér-Rao bound of the method’s own window; grey, the other methods. "
+        f"True ω₀(t): {study.truth}.",
+        many="five",
+        label="Error of each estimator against noise",
     )
 
 
-def error_figure(study: NoiseStudy) -> Block:
-    """Relative rms error of omega0 against the signal-to-noise ratio, with the bound."""
-    lines = _lines(study, "rms")
-    deviations = [_values(study.of(method), "rms_sd") for method in _drawn(study)]
-    snr = np.array(study.snr_db)
-    bound = Line(snr, _values(study.of(study.methods[0]), "bound"), "Cramér-Rao bound", "fg", dash=(0, (4, 2)))
-
-    def drawing(canvas: Canvas) -> None:
-        (axes,) = canvas.stack()
-        linear(axes, "x", *_span(study), ticks=5)
-        decades(axes, "y", *_limits([bound.y, *(line.y for line in lines)]))
-        titles(axes, x="signal-to-noise ratio / dB", y="relative rms error of ω₀")
-        _bands(canvas, lines, deviations)
-        for line in (bound, *lines):
-            draw(axes, line)
-        place(axes, [bound, *lines])
-
-    caption = (
-        f"Relative rms error of ω₀(t) over the interior of the record against noise: {_shared(study)} "
-        f"The dashed line is the Cramér-Rao bound of the {study.bound}."
+def _small(study: NoiseStudy, method: str, snr: Array, rms: dict[str, Array], scale: tuple[float, float]) -> str:
+    wide = float(snr.max() - snr.min()) or 2.0
+    panel = Panel(
+        Scale(float(snr.min()) - 0.06 * wide, float(snr.max()) + 0.06 * wide, 50.0, 198.0),
+        Scale(*scale, 176.0, 30.0, log=True),
     )
-    return block(
-        "noise-error",
-        title="Error against noise",
-        description="; ".join(_said(line) for line in lines),
-        caption=caption,
-        draw=drawing,
-        readout=Readout("SNR", "dB", "", _traces([bound, *lines])),
-        heights=(3.8, 3.6),
-    )
+    marks = [text(0, 12, estimator(method), "fgt b")]
+    for value in panel.y.ticks(4):
+        marks += [
+            line(panel.left, panel.y(value), panel.right, panel.y(value)),
+            text(panel.left - 5, panel.y(value) + 4, per_cent_tick(value), "m sm", "end"),
+        ]
+    shown = snr[:: max(1, (snr.size + 2) // 3)]
+    marks += [text(panel.x(float(v)), 192, f"{v:g}", "m sm", "middle") for v in shown]
+    marks += [text(198, 206, "SNR, dB", "m sm", "end"), line(panel.left, panel.bottom, panel.right, panel.bottom, "ax")]
+    marks += [panel.curve(snr, other, "gh nf") for name, other in rms.items() if name != method]
+    cells = study.of(method)
+    marks.append(panel.curve(snr, values(cells, "bound"), "tg2 nf"))
+    own, sd = rms[method], values(cells, "rms_sd")
+    x = panel.x.of(snr)
+    low = panel.y.clipped(np.maximum(own - np.nan_to_num(sd), 0.3 * own))
+    marks.append(area(x, low, panel.y.clipped(own + np.nan_to_num(sd)), "tf"))
+    y = panel.y.clipped(own)
+    marks.append(curve(x, y, "tl2 nf"))
+    for i, (a, b) in enumerate(zip(x, y, strict=True)):
+        if np.isfinite(b):
+            marks.append(dot(float(a), float(b), 3.0, "t", f"{number(float(snr[i]))} dB: {per_cent(float(own[i]))}"))
+            if own[i] > scale[1]:
+                marks.append(text(float(a), panel.top + 16, "off scale", "t sm", "start"))
+    return drawing(204, 210, "one", f"{estimator(method)}: error against noise", marks)
 
 
-def _traces(lines: list[Line]) -> tuple[Trace, ...]:
-    return tuple(Trace(line.label, line.x, line.y, line.style, line.token) for line in lines)
+def noise_heading(study: NoiseStudy) -> str:
+    """Who stays at its bound, from the cells' ratios; none is an answer too."""
+    at_bound = [m for m in study.methods if _holds(study.of(m))]
+    if at_bound:
+        names = " and ".join(estimator(m) for m in at_bound)
+        return f"In noise, {names} stay{'s' if len(at_bound) == 1 else ''} within {AT_BOUND:g} times its bound"
+    nearest = min(study.methods, key=lambda m: float(np.nanmedian(values(study.of(m), "ratio"))))
+    ratio = float(np.nanmedian(values(study.of(nearest), "ratio")))
+    return f"In noise, {estimator(nearest)} comes nearest to its bound, {number(ratio, 2)} times it in the median"
 
 
-def _said(line: Line) -> str:
-    known = line.y[np.isfinite(line.y)]
-    if known.size == 0:
-        return f"{line.label} gave nothing"
-    return f"{line.label}: {relative(float(known[0]))} to {relative(float(known[-1]))}"
+def _holds(cells: Sequence[NoiseCell]) -> bool:
+    ratios, sd = values(cells, "ratio"), values(cells, "ratio_sd")
+    return bool(np.isfinite(ratios).all() and (ratios - np.nan_to_num(sd) <= AT_BOUND).all())
 
 
-def ratio_figure(study: NoiseStudy) -> Block:
-    """Ratio of the rms error to the bound of each method's own window."""
-    lines = _lines(study, "ratio")
-    deviations = [_values(study.of(method), "ratio_sd") for method in _drawn(study)]
-
-    def drawing(canvas: Canvas) -> None:
-        (axes,) = canvas.stack()
-        low, high = _span(study)
-        linear(axes, "x", low, high, ticks=5)
-        bottom, top = _limits([*(line.y for line in lines), np.array([1.0])])
-        decades(axes, "y", min(bottom, 0.5) if bottom >= 0.1 else bottom, max(top, 10.0))
-        titles(axes, x="signal-to-noise ratio / dB", y="rms error over the bound")
-        axes.axhline(EFFICIENT, color=sentinel("fg"), linewidth=0.9, linestyle=(0, (4, 2)), zorder=2.0)
-        _bands(canvas, lines, deviations)
-        for line in lines:
-            draw(axes, line)
-        place(axes, lines)
-
-    return block(
-        "noise-ratio",
-        title="Efficiency",
-        description=f"Ratio of the error to the Cramér-Rao bound; {EFFICIENT:g} is dashed.",
-        caption=f"Rms error divided by the Cramér-Rao bound of the method's own window; dashed: {EFFICIENT:g}. A curve "
-        "that rises to the right is ruled by bias, not by noise; one that rises to the left has lost the ridge; one "
-        "below 1 answers to fewer parameters than the model of the bound, and pays in bias.",
-        draw=drawing,
-        readout=Readout("SNR", "dB", "", _traces(lines)),
-        heights=(3.4, 3.2),
-    )
+def noise_sentence(study: NoiseStudy) -> str:
+    """Which methods stop at their bias at the best ratio of all."""
+    best = max(study.snr_db)
+    stopped = []
+    for method in study.methods:
+        cell = study.cell(method, best)
+        if cell.rms and cell.bias is not None and abs(cell.bias) > 0.5 * cell.rms:
+            stopped.append(f"{estimator(method)} ({per_cent(cell.rms)})")
+    lost = [
+        f"{estimator(c.method)} at {number(c.snr_db)} dB" for c in study.cells if c.rms is not None and c.rms > LOST
+    ]
+    parts = [f"At {number(best)} dB bias rules {', '.join(stopped)}." if stopped else ""]
+    parts.append(f"Lost: {', '.join(lost)}." if lost else "")
+    return " ".join(part for part in parts if part)
 
 
 def noise_table(study: NoiseStudy) -> Table:
-    """Return one row per method and ratio, each figure with the uncertainty of the Monte-Carlo mean."""
-    covered = any(cell.coverage is not None for cell in study.cells)
-    said = " Coverage is of the 95 % interval; a dash: none claimed." if covered else ""
-    head = ("method", "SNR", "rms", "mean error", "over bound", "coverage", "lost", "refused")
+    """Error of every method at every ratio, with its ratio to the bound."""
     return Table(
-        "noise",
-        f"Estimators in white noise: {study.truth}. Seed {study.seed}, {study.trials} trials a row; ± is one standard "
-        f"deviation of the Monte-Carlo mean; lost: trials more than {100 * OUTLIER:.0f} % off.{said}",
-        tuple(name for name in head if covered or name != "coverage"),
-        tuple(_row(cell, covered=covered) for cell in study.cells),
+        "noise-table",
+        f"Rms error of ω₀ in white noise, {study.trials} seeded trials a cell; in brackets its ratio to the Cramér-Rao "
+        f"bound. {'' if study.complete else 'Interrupted: not all trials were run.'}".strip(),
+        ("method", *(f"{number(snr)} dB" for snr in study.snr_db)),
+        tuple(
+            Row((capital(estimator(method)), *(_cell(cell) for cell in study.of(method))), _reason(study.of(method)))
+            for method in study.methods
+        ),
     )
 
 
-def _row(cell: NoiseCell, *, covered: bool) -> Row:
-    coverage = NONE if cell.coverage is None else f"{100 * cell.coverage:.0f} %"
-    counts = (*((coverage,) if covered else ()), str(cell.outliers), str(cell.failures))
-    named = (cell.method, f"{number(cell.snr_db)} dB")
+def _cell(cell: NoiseCell) -> str:
     if cell.rms is None:
-        return Row((*named, *(NONE,) * (2 + len(counts)), str(cell.failures)), cell.reason, failed=True)
-    rms = uncertain(100 * cell.rms, None if cell.rms_sd is None else 100 * cell.rms_sd)
-    ratio = uncertain(cell.ratio, cell.ratio_sd)
-    return Row((*named, f"{rms} %", relative(cell.bias, signed=True), ratio, *counts))
+        return NONE
+    return per_cent(cell.rms) + ("" if cell.ratio is None else f" ({number(cell.ratio, 2)})")
+
+
+def _reason(cells: Sequence[NoiseCell]) -> str:
+    said = [
+        f"{number(c.snr_db)} dB: {c.failures} of {c.trials} trials refused: {c.reason}" for c in cells if c.failures
+    ]
+    return "; ".join(said[:2])

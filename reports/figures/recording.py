@@ -1,147 +1,245 @@
-"""The figures of a recording: signal, spectrogram with its ridge, tracks, backbone and growth rate with bands."""
+"""The figures of a recording: backbone and growth rate with bands and theory, signal, spectrogram, tracks."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
+
 import numpy as np
 
-from ridgeback.common.numbers import number
+from ridgeback.common.numbers import number, per_cent
+from ridgeback.compare.recording.recording import distance
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.numeric.arrays import Array
-from ridgeback.reports.drawing.block import Block, Readout, block
-from ridgeback.reports.drawing.canvas import Canvas, Line, Trace, draw, linear, padded, titles
-from ridgeback.reports.drawing.labels import place
-from ridgeback.reports.drawing.theme import sentinel
-from ridgeback.reports.figures.over_time import Clock, plane_block, traces_of, tracks_block
+from ridgeback.reports.drawing.apart import apart
+from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout
+from ridgeback.reports.drawing.marks import area, drawing, group, line, places, text
+from ridgeback.reports.drawing.panel import Panel
+from ridgeback.reports.drawing.scale import Scale, padded
+from ridgeback.reports.figures.clock import Clock, shown
+from ridgeback.reports.figures.planes import level_plane
 
 CLOCK = Clock("s")
+STYLES = ("tl nf", "tl d1 nf", "tl d2 nf", "tl d3 nf", "el nf", "sl nf")
 
 
-def recording_blocks(recording: RecordingComparison) -> tuple[Block, ...]:
-    """Return all figures of a recording, in reading order."""
-    return (
-        backbone_figure(recording),
-        growth_figure(recording),
-        signal_figure(recording),
-        spectrogram_figure(recording),
-        tracks_figure(recording),
-    )
+@dataclass(frozen=True)
+class Band:
+    """A curve over amplitude with one standard deviation either side, and others drawn over it."""
+
+    title: str
+    x: Array
+    y: Array
+    sd: Array
+    over: tuple[tuple[str, Array, str], ...] = ()
+    """Name, values and style of each."""
 
 
-def signal_figure(recording: RecordingComparison) -> Block:
-    """The recording itself with its amplitude."""
-    lines = [
-        Line(recording.time, recording.signal, recording.column, "s1", width=1.1),
-        Line(recording.amplitude_time, recording.amplitude, "amplitude", "s2"),
-    ]
+def side_by_side(key: str, bands: Sequence[Band], *, x_title: str, caption: str, label: str, unit: str = "") -> Figure:
+    """Two curves over the same amplitude beside each other, below each other on a phone.
 
-    def drawing(canvas: Canvas) -> None:
-        (axes,) = canvas.stack()
-        linear(axes, "x", float(recording.time[0]), float(recording.time[-1]), ticks=5 if canvas.narrow else 9)
-        linear(axes, "y", *padded([line.y for line in lines], share=0.14))
-        titles(axes, x=CLOCK.x_title, y=recording.column)
-        for line in lines:
-            draw(axes, line)
-        place(axes, lines[1:])
-
-    return block(
-        "recording-signal",
-        title="Recording",
-        description=f"{recording.column} over time with its amplitude.",
-        caption=f"{recording.column}, {recording.time.size} samples at {number(recording.rate)} Hz, with the "
-        "amplitude of its fundamental.",
-        draw=drawing,
-        readout=Readout("t", "s", "", traces_of(lines), "time"),
-        heights=(3.2, 3.0),
-    )
-
-
-def spectrogram_figure(recording: RecordingComparison) -> Block:
-    """The plane with the ridge that the track follows."""
-    image = recording.spectrogram
-    return plane_block(
-        "recording-plane",
-        image,
-        CLOCK,
-        title="Spectrogram and ridge",
-        caption=f"{image.name}, level in dB re its maximum. {image.note}".strip(),
-    )
-
-
-def tracks_figure(recording: RecordingComparison) -> Block:
-    """All tracks over time."""
-    chosen = [curve for curve in recording.curves if curve.name == recording.chosen]
-    others = [curve for curve in recording.curves if curve.name != recording.chosen]
-    name = chosen[0].label if chosen else recording.chosen
-    return tracks_block(
-        "recording-tracks",
-        [*chosen, *others, *recording.theory],
-        CLOCK,
-        title="Frequency along the recording",
-        caption=f"Estimates of the fundamental frequency over time; the backbone is made from {name}.",
-    )
-
-
-def _band_block(
-    key: str,
-    recording: RecordingComparison,
-    x: Array,
-    y: Array,
-    sd: Array,
-    *,
-    texts: tuple[str, str, str, str],
-    unit: str,
-) -> Block:
-    title, y_title, caption, name = texts
-    order = np.argsort(x, kind="stable")
-    x, y, sd = x[order], y[order], np.nan_to_num(sd[order])
-    line = Line(x, y, name, "s1")
-
-    def drawing(canvas: Canvas) -> None:
-        (axes,) = canvas.stack()
-        linear(axes, "x", 0.0, float(x[-1]) * 1.03 if x.size else 1.0, ticks=5 if canvas.narrow else 8)
-        linear(axes, "y", *padded([y - 2 * sd, y + 2 * sd], share=0.1))
-        titles(axes, x=f"amplitude of {recording.column}", y=y_title)
-        axes.fill_between(x, y - 2 * sd, y + 2 * sd, color=sentinel("s1"), alpha=0.18, linewidth=0.0)
-        draw(axes, line)
-
-    trace = Trace(name, x, y, "", "s1")
-    return block(
-        key,
-        title=title,
-        description=caption,
+    Parameters
+    ----------
+    key
+        Id of the figure.
+    bands
+        What is drawn, one panel each.
+    x_title, caption, label
+        Words of the figure.
+    unit
+        Of the readout's amplitude.
+    """
+    wide = [_band_panel(band, i, len(bands), narrow=False) for i, band in enumerate(bands)]
+    narrow = [_band_panel(band, i, len(bands), narrow=True) for i, band in enumerate(bands)]
+    height = (356.0, 300.0 * len(bands))
+    series = [Series(band.title, band.x, band.y) for band in bands]
+    series += [Series(name, band.x, y) for band in bands for name, y, _ in band.over]
+    return Figure(
+        key=key,
+        wide=drawing(WIDE, height[0], "wide", label, _bands(bands, wide, x_title)),
+        narrow=drawing(NARROW, height[1], "narrow", label, _bands(bands, narrow, x_title)),
         caption=caption,
-        draw=drawing,
-        readout=Readout("amplitude", "", unit, (trace,), "amplitude"),
-        heights=(3.6, 3.2),
+        data=readout((wide, narrow), series, name="amplitude", unit=unit, link="amplitude"),
+        label=label,
     )
 
 
-def backbone_figure(recording: RecordingComparison) -> Block:
-    """Frequency against amplitude with its band."""
-    x, y = recording.backbone_amplitude, recording.backbone_omega * CLOCK.factor
-    ends = ""
-    if x.size:
-        small, large = int(np.argmin(x)), int(np.argmax(x))
-        ends = (
-            f"{number(float(y[large]))} Hz at amplitude {number(float(x[large]), 3)}, "
-            f"{number(float(y[small]))} Hz at {number(float(x[small]), 3)}. "
-        )
-    caption = f"Backbone: fundamental frequency against amplitude, {ends}Band: two standard deviations either side."
-    texts = ("Backbone of the recording", CLOCK.y_title("ω₀"), caption, "backbone")
-    sd = recording.backbone_omega_sd * CLOCK.factor
-    return _band_block("recording-backbone", recording, x, y, sd, texts=texts, unit="Hz")
+def _bands(bands: Sequence[Band], panels: Sequence[Panel], x_title: str) -> list[str]:
+    """All panels; the names of the curves stand in the first."""
+    drawn = [_band(band, panel, x_title) for band, panel in zip(bands, panels, strict=True)]
+    return [*drawn, _key(bands[0], panels[0])]
 
 
-def growth_figure(recording: RecordingComparison) -> Block:
-    """Growth rate a'/a against amplitude with its band."""
-    caption = "Growth rate a′/a of the amplitude, negative in a decay. Band: two standard deviations either side."
-    texts = ("Growth rate of the recording", "a′/a / (1/s)", caption, "growth rate")
-    return _band_block(
-        "recording-growth",
-        recording,
-        recording.backbone_amplitude,
-        recording.growth_rate,
-        recording.growth_rate_sd,
-        texts=texts,
-        unit="1/s",
+def _band_panel(band: Band, i: int, count: int, *, narrow: bool) -> Panel:
+    width = WIDE / count
+    left, right = (56.0, 360.0) if narrow else (i * width + 64.0, (i + 1) * width - 16.0)
+    top = 300.0 * i + 34.0 if narrow else 34.0
+    kept = np.isfinite(band.sd) & (band.sd <= 6.0 * np.nanmedian(band.sd))
+    others = [y[kept] for _, y, _ in band.over[:1] if np.isfinite(y[kept]).any()]
+    low, high = padded([band.y[kept] - band.sd[kept], band.y[kept] + band.sd[kept], *others], share=0.12)
+    end = float(np.nanmax(band.x)) * 1.03 if band.x.size else 1.0
+    return Panel(Scale(0.0, end, left, right), Scale(low, high, top + (196.0 if narrow else 280.0), top))
+
+
+def _band(band: Band, panel: Panel, x_title: str) -> str:
+    order = np.argsort(band.x, kind="stable")
+    x, y, sd = band.x[order], band.y[order], np.nan_to_num(band.sd[order])
+    marks = [
+        panel.rows(most=5),
+        panel.columns(most=5, unit=x_title),
+        text(panel.left - 56, panel.top - 16, band.title, "m"),
+    ]
+    marks.append(area(panel.x.of(x), panel.y.clipped(y - 1.96 * sd), panel.y.clipped(y + 1.96 * sd), "tf"))
+    marks.append(panel.curve(x, y, "tl nf"))
+    for _, values, style in band.over:
+        inside = np.where((values[order] >= panel.y.low) & (values[order] <= panel.y.high), values[order], np.nan)
+        marks.append(panel.curve(x, inside, style))
+    return "".join(marks)
+
+
+def _key(band: Band, panel: Panel) -> str:
+    """Names behind a piece of their line, in the emptier lower corner."""
+    names = [("measured, 95 %", "tl nf"), *((name, style) for name, _, style in band.over)]
+    if len(names) == 1:
+        return ""
+    rising = band.y[np.argmax(band.x)] > band.y[np.argmin(band.x)]
+    x = panel.left + 12
+    top = panel.top + 14 if rising else panel.bottom - 8 - 17 * (len(names) - 1)
+    marks = []
+    for i, (name, style) in enumerate(names):
+        y = top + 17 * i
+        marks.append(f'<path d="M{places(x)} {places(y - 4)}h22" class="{style}"/>' + text(x + 28, y, name, "sm"))
+    return group(marks, "halo")
+
+
+def backbone_figure(recording: RecordingComparison) -> Figure:
+    """Frequency and growth rate against amplitude with 95 % bands, the named oscillator's backbone over them."""
+    f = CLOCK.factor
+    x = recording.backbone_amplitude
+    theory = recording.over
+    over = () if theory is None else ((f"{theory.title}, exact", theory.omega * f, "el nf"),)
+    bands = (
+        Band(CLOCK.title(), x, recording.backbone_omega * f, recording.backbone_omega_sd * f, over),
+        Band("growth rate a′/a, 1/s", x, recording.growth_rate, recording.growth_rate_sd),
     )
+    caption = (
+        "Left: fundamental frequency against the amplitude of the fundamental; right: growth rate a′/a, negative in "
+    )
+    caption += "a decay. Bands: 95 %."
+    if theory is not None:
+        caption += f" {theory.sentence()}"
+    return side_by_side(
+        "recording-backbone",
+        bands,
+        x_title=f"amplitude of {recording.column}",
+        caption=caption,
+        label="Measured backbone and growth rate",
+    )
+
+
+def signal_figure(recording: RecordingComparison) -> Figure:
+    """The recording itself with its amplitude."""
+    label = f"{recording.column} over time with its amplitude"
+    wide, narrow = (
+        _time_panel(recording, [recording.signal, recording.amplitude], narrow=n, height=200.0) for n in (False, True)
+    )
+    series = [Series(recording.column, recording.time, recording.signal)]
+    series.append(Series("amplitude", recording.amplitude_time, recording.amplitude))
+
+    def marks(panel: Panel, narrow: bool) -> list[str]:
+        parts = [
+            panel.rows(most=4),
+            panel.columns(most=4 if narrow else 8, unit="t, s"),
+            text(0, 11, recording.column, "m"),
+        ]
+        parts.append(panel.curve(recording.time, recording.signal, "ul nf"))
+        return [*parts, panel.curve(recording.amplitude_time, recording.amplitude, "tl nf")]
+
+    return Figure(
+        key="recording-signal",
+        wide=drawing(WIDE, 270, "wide", label, marks(wide, False)),
+        narrow=drawing(NARROW, 270, "narrow", label, marks(narrow, True)),
+        caption=f"{recording.column} at {number(recording.rate)} samples per s, with the amplitude of its fundamental.",
+        data=readout(((wide,), (narrow,)), series, name="t", unit="s", link="time"),
+        label=label,
+    )
+
+
+def _time_panel(recording: RecordingComparison, values: Sequence[Array], *, narrow: bool, height: float) -> Panel:
+    span = float(recording.time[0]), float(recording.time[-1])
+    x = Scale(*span, 52.0, 360.0) if narrow else Scale(*span, 64.0, 990.0)
+    return Panel(x, Scale(*padded(values, share=0.08), 24.0 + height, 24.0))
+
+
+def plane_figure(recording: RecordingComparison) -> Figure:
+    """The spectrogram with the ridge that the chosen track follows."""
+    image = recording.spectrogram
+    chosen = next((curve for curve in recording.curves if curve.name == recording.chosen), None)
+    span = float(recording.time[0]), float(recording.time[-1])
+    return Figure(
+        key="recording-plane",
+        wide=level_plane("recording-plane-p", image, CLOCK, span, chosen),
+        narrow="",
+        caption=f"{image.name}, level in decibels of its maximum, with the track. {image.note}".strip(),
+        many="single",
+        label=image.name,
+    )
+
+
+def tracks_figure(recording: RecordingComparison) -> Figure:
+    """All tracks over time, the chosen one thick, named at the right edge with their distance from it."""
+    f = CLOCK.factor
+    chosen = next((c for c in recording.curves if c.name == recording.chosen), recording.curves[0])
+    others = [c for c in recording.curves if c is not chosen]
+    drawn = [chosen, *others, *recording.theory]
+    styles = dict(zip([c.name for c in drawn], ("rf nf", *STYLES), strict=False))
+    label = "Fundamental frequency over time by every estimator"
+    values = [np.asarray(shown(c)) * f for c in drawn]
+    spread = [np.quantile(v[np.isfinite(v)], [0.01, 0.99]) for v in values if np.isfinite(v).any()]
+    panels = tuple(_time_panel(recording, spread, narrow=n, height=230.0) for n in (False, True))
+    wide = Panel(Scale(panels[0].x.low, panels[0].x.high, 64.0, 730.0), panels[0].y)
+    series = [Series(c.label, c.time, v, CLOCK.unit) for c, v in zip(drawn, values, strict=True)]
+
+    def marks(panel: Panel, narrow: bool) -> list[str]:
+        parts = [
+            panel.rows(most=5),
+            panel.columns(most=4 if narrow else 8, unit="t, s"),
+            text(0, 11, CLOCK.title(), "m"),
+        ]
+        for c, v in zip(drawn, values, strict=True):
+            inside = np.where((v >= panel.y.low) & (v <= panel.y.high), v, np.nan)
+            parts.append(panel.curve(c.time, inside, styles[c.name]))
+        return parts
+
+    names = [
+        (c.label, styles[c.name], None if c is chosen else distance(chosen, c), v)
+        for c, v in zip(drawn, values, strict=True)
+    ]
+    beside = _names(names, wide)
+    below = [
+        f'<path d="M4 {300 + 17 * i}h22" class="{style}"/>' + text(32, 304 + 17 * i, name, "sm")
+        for i, (name, style, _, _) in enumerate(names)
+    ]
+    return Figure(
+        key="recording-tracks",
+        wide=drawing(WIDE, 300, "wide", label, [*marks(wide, False), *beside]),
+        narrow=drawing(NARROW, 300 + 17 * len(names), "narrow", label, [*marks(panels[1], True), *below]),
+        caption=f"Thick: {chosen.label}, from which the backbone is made; beside the others, their rms distance.",
+        data=readout(((wide,), (panels[1],)), series, name="t", unit="s", link="time"),
+        label=label,
+    )
+
+
+def _names(names: Sequence[tuple[str, str, float | None, Array]], panel: Panel) -> list[str]:
+    ends = []
+    for _, _, _, values in names:
+        kept = values[np.isfinite(values)]
+        ends.append(float(panel.y.clipped(np.array([kept[-1]]))[0]) if kept.size else panel.bottom)
+    heights = apart(ends, 17.0, panel.top, panel.bottom)
+    marks = []
+    for (name, style, away, _), height in zip(names, heights, strict=True):
+        marks.append(line(panel.right + 6, height, panel.right + 24, height, style))
+        marks.append(text(panel.right + 30, height + 4, name))
+        if away is not None:
+            marks.append(text(WIDE, height + 4, per_cent(away), "", "end"))
+    return marks

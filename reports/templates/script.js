@@ -1,103 +1,163 @@
 (() => {
-"use strict";
-const NS = "http://www.w3.org/2000/svg", groups = {};
-const short = v => v == null ? "–" : Number(v.toPrecision(5)).toString().replace("-", "−");
-const fraction = (v, [a, b], log) => log ? Math.log(v / a) / Math.log(b / a) : (v - a) / (b - a);
-
-function at(x, xs, ys) {
-  let lo = 0, hi = xs.length - 1;
-  if (hi < 0 || x < xs[0] || x > xs[hi]) return null;
-  while (hi - lo > 1) { const m = (lo + hi) >> 1; if (xs[m] <= x) lo = m; else hi = m; }
-  if (lo === hi) return ys[lo];
-  const p = ys[lo], q = ys[hi], s = (x - xs[lo]) / (xs[hi] - xs[lo] || 1);
-  return p == null || q == null ? null : p + (q - p) * s;
-}
-
-function setUp(figure) {
-  const data = JSON.parse(figure.querySelector("script[type='application/json']").textContent);
-  const drawing = figure.querySelector(".drawing"), out = figure.querySelector(".readout");
-  const longest = data.xs.reduce((a, b) => b.length > a.length ? b : a, []);
-  let now = null;
-  const visible = () => {
-    const svg = [...drawing.querySelectorAll("svg.wide,svg.narrow")].find(s => s.getBoundingClientRect().width > 0);
-    return [svg, data.axes[svg.classList.contains("wide") ? "wide" : "narrow"]];
+  "use strict";
+  const $ = (s, r = document) => r.querySelector(s), $$ = (s, r = document) => [...r.querySelectorAll(s)];
+  const NS = "http://www.w3.org/2000/svg";
+  const data = figure => JSON.parse($("script[type='application/json']", figure).textContent);
+  const visible = figure => $$("svg.wide,svg.narrow", figure).find(s => s.getBoundingClientRect().width);
+  const sup = n => String(n).replace("-", "⁻").replace(/\d/g, c => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]);
+  const percent = v => {
+    if (v === 0) return "0";
+    const [m, e] = Math.abs(v).toExponential(1).split("e");
+    if (Math.abs(v) < 1e-6) return m + " × 10" + sup(+e);
+    return (100 * m * 10 ** e).toFixed(Math.max(0, -1 - e)) + " %";
   };
-  const shown = s => { const box = s.c && figure.querySelector("input." + s.c); return !box || box.checked; };
-  function clear() {
-    now = null;
-    drawing.querySelectorAll(".cross,.dot").forEach(e => e.remove());
-    out.textContent = "";
-  }
-  function add(svg, name, attributes, style) {
-    const e = document.createElementNS(NS, name);
-    for (const k in attributes) e.setAttribute(k, attributes[k]);
-    if (style) e.style.fill = style;
-    svg.append(e);
-  }
-  function show(x) {
-    clear();
-    const [svg, axes] = visible();
-    const [low, high] = axes[0].x;
-    now = Math.min(Math.max(x, low), high);
-    for (const a of axes) {
-      const [x0, y0, x1, y1] = a.box, px = x0 + (x1 - x0) * fraction(now, a.x, a.lx);
-      add(svg, "line", {class: "cross", x1: px, x2: px, y1: y0, y2: y1});
-    }
-    const parts = [data.xn + " = " + short(now) + (data.xu ? " " + data.xu : "")];
-    for (const s of data.series) {
-      if (!shown(s)) continue;
-      const v = at(now, data.xs[s.x], s.y), a = axes[s.p];
-      parts.push(s.n + " " + short(v) + (v != null && data.yu ? " " + data.yu : ""));
-      if (v == null) continue;
-      const [x0, y0, x1, y1] = a.box, f = fraction(v, a.y, a.ly);
-      if (f >= 0 && f <= 1) add(svg, "circle", {class: "dot", r: 3.2, cx: x0 + (x1 - x0) * fraction(now, a.x, a.lx), cy: y1 - (y1 - y0) * f}, "var(--" + s.t + ")");
-    }
-    out.textContent = parts.join("   ");
-  }
-  const peers = data.link ? (groups[data.link] ??= []) : [];
-  peers.push({show, clear, data});
-  const everywhere = x => data.link ? peers.forEach(p => p.show(x)) : show(x);
-  const nowhere = () => data.link ? peers.forEach(p => p.clear()) : clear();
-  drawing.addEventListener("pointermove", event => {
-    const [svg, axes] = visible(), point = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
-    const a = axes.find(b => point.x >= b.box[0] && point.x <= b.box[2] && point.y >= b.box[1] && point.y <= b.box[3]);
-    if (!a) return;
-    const f = (point.x - a.box[0]) / (a.box[2] - a.box[0]), [low, high] = a.x;
-    everywhere(a.lx ? low * (high / low) ** f : low + (high - low) * f);
-  });
-  drawing.addEventListener("pointerleave", nowhere);
-  drawing.addEventListener("keydown", event => {
-    const step = {ArrowLeft: -1, ArrowRight: 1, PageUp: -10, PageDown: 10}[event.key];
-    if (event.key === "Escape") return nowhere();
-    if (event.key === "Home") everywhere(longest[0]);
-    else if (event.key === "End") everywhere(longest[longest.length - 1]);
-    else if (step) {
-      let i = longest.findIndex(v => v >= now - 1e-12 * Math.abs(now));
-      i = now == null ? 0 : Math.min(Math.max((i < 0 ? longest.length - 1 : i) + step, 0), longest.length - 1);
-      everywhere(longest[i]);
-    } else return;
-    event.preventDefault();
-  });
-  figure.addEventListener("change", () => now != null && show(now));
-}
+  // a size of an error, never rounded below what is certain
+  const atMost = v => {
+    if (v === 0) return "0";
+    const e = Math.floor(Math.log10(v)), up = Math.ceil(v / 10 ** (e - 1) * (1 - 1e-9)) * 10 ** (e - 1);
+    return percent(up);
+  };
+  const short = v => { const t = v.toPrecision(5); return t.includes("e") ? v.toExponential(3) : String(+t); };
 
-function copying(button) {
-  const text = button.parentElement.querySelector("pre").textContent, name = button.textContent;
-  button.hidden = false;
-  button.addEventListener("click", async () => {
-    try { await navigator.clipboard.writeText(text); }
-    catch {
-      const area = document.createElement("textarea");
-      area.value = text; document.body.append(area); area.select();
-      document.execCommand("copy"); area.remove();
-    }
-    button.textContent = "Copied";
-    setTimeout(() => { button.textContent = name; }, 1500);
-  });
-}
+  // contents: mark the section whose heading was passed last
+  const links = $$(".toc a"), parts = links.map(a => $(a.hash));
+  let busy = 0;
+  const mark = () => {
+    busy = 0;
+    let now = 0;
+    parts.forEach((s, i) => { if (s.getBoundingClientRect().top < innerHeight * .3) now = i; });
+    if (innerHeight + scrollY > document.documentElement.scrollHeight - 4) now = parts.length - 1;
+    links.forEach((a, i) => {
+      if (i !== now) { a.removeAttribute("aria-current"); return; }
+      if (a.hasAttribute("aria-current")) return;
+      a.setAttribute("aria-current", "true");
+      const strip = $(".toc");
+      if (strip.scrollWidth > strip.clientWidth) strip.scrollLeft = a.offsetLeft - 60;
+    });
+  };
+  if (links.length) {
+    addEventListener("scroll", () => busy || (busy = requestAnimationFrame(mark)), {passive: true});
+    mark();
+  }
 
-document.querySelectorAll("figure[data-readout]").forEach(setUp);
-document.querySelectorAll(".copy button").forEach(copying);
-addEventListener("beforeprint", () => document.querySelectorAll("details:not([open])").forEach(d => { d.open = true; d.dataset.printed = ""; }));
-addEventListener("afterprint", () => document.querySelectorAll("details[data-printed]").forEach(d => { d.open = false; delete d.dataset.printed; }));
+  // crosshair and readout; figures with the same link move together
+  const readers = $$("figure.reads").map(figure => ({figure, d: data(figure)})).filter(r => r.d.at);
+  const at = r => { const s = visible(r.figure); return s ? [s, r.d.boxes[s.classList.contains("wide") ? 0 : 1]] : [null, []]; };
+  const show = (r, x) => {
+    const [svg, boxes] = at(r), out = $(".out", r.figure);
+    $$(".xh", r.figure).forEach(e => e.remove());
+    r.now = x;
+    if (x === null || !svg) { out.textContent = ""; return; }
+    for (const [x0, y0, x1, y1, low, high] of boxes) {
+      const line = document.createElementNS(NS, "line"), p = x0 + (x1 - x0) * (x - low) / (high - low);
+      for (const [k, v] of [["x1", p], ["x2", p], ["y1", y0], ["y2", y1], ["class", "xh"]]) line.setAttribute(k, v);
+      svg.append(line);
+    }
+    const grid = r.d.at, i = Math.round((x - grid[0]) / (grid[grid.length - 1] - grid[0]) * (grid.length - 1));
+    const said = r.d.series.map(([name, unit, v]) => v[i] === null || v[i] === undefined ? "" :
+      name + " " + (unit === "%" ? percent(v[i]) : short(v[i]) + (unit ? " " + unit : "")));
+    out.textContent = (r.d.name + " = " + short(grid[i]) + " " + r.d.unit).trim() + "   " + said.filter(Boolean).join("   ");
+  };
+  const move = (r, x) => {
+    const grid = r.d.at, held = x === null ? null : Math.min(grid[grid.length - 1], Math.max(grid[0], x));
+    readers.filter(o => o === r || (r.d.link && o.d.link === r.d.link)).forEach(o => show(o, held));
+  };
+  readers.forEach(r => {
+    const box = $(".drawing", r.figure);
+    box.addEventListener("pointermove", e => {
+      const [svg, boxes] = at(r);
+      if (!svg) return;
+      const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM().inverse()), b = boxes[0];
+      if (p.x < b[0] - 8 || p.x > b[2] + 8) { move(r, null); return; }
+      move(r, b[4] + (p.x - b[0]) / (b[2] - b[0]) * (b[5] - b[4]));
+    });
+    box.addEventListener("pointerleave", () => move(r, null));
+    box.addEventListener("keydown", e => {
+      const grid = r.d.at, n = grid.length, step = grid[1] - grid[0];
+      const now = r.now === undefined || r.now === null ? null : r.now;
+      const to = {ArrowLeft: (now ?? grid[n >> 1]) - step, ArrowRight: (now ?? grid[n >> 1]) + step, Home: grid[0],
+        End: grid[n - 1], PageDown: (now ?? grid[0]) + 16 * step, PageUp: (now ?? grid[n - 1]) - 16 * step}[e.key];
+      if (e.key === "Escape") move(r, null);
+      else if (to !== undefined) { e.preventDefault(); move(r, to); }
+    });
+  });
+
+  // order and amplitude: the generated code of each order, its error as it was enclosed for that very value
+  const figure = $("#order-map"), code = {/*CODE*/};
+  if (figure && Object.keys(code).length) {
+    const d = data(figure), so = $(".so", figure), sa = $(".sa", figure);
+    const unit = v => short(v) + (d.unit ? " " + d.unit : "");
+    const set = () => {
+      const i = +so.value, j = +sa.value, order = d.orders[i], A = d.amplitudes[j];
+      const value = code[order](A, d.k), bound = d.bounds[i][j];
+      $(".oo", figure).textContent = order;
+      $(".oa", figure).textContent = d.letter + " = " + unit(A);
+      $(".rv", figure).textContent = short(value * d.factor) + (d.frequency_unit ? " " + d.frequency_unit : "");
+      const sign = d.signs[i][j] === "+" ? "+" : "−";
+      $(".re", figure).textContent = bound === null ? "–" : "≤ " + atMost(bound) + (sign === "+" ? ", high" : ", low");
+      $$("svg", figure).forEach((svg, n) => {
+        const mk = $(".mk", svg);
+        if (!mk) return;
+        const [up, low] = d.boxes[svg.classList.contains("wide") ? 0 : 1];
+        const x = v => low[0] + (low[2] - low[0]) * (v - low[4]) / (low[5] - low[4]);
+        const y = low[3] - (low[3] - low[1]) * (i + .5) / d.orders.length;
+        mk.firstElementChild.setAttribute("d", `M${low[0]} ${y}H${low[2]}M${x(A)} ${up[1]}V${low[3]}`);
+        mk.lastElementChild.setAttribute("cx", x(A));
+        mk.lastElementChild.setAttribute("cy", y);
+        const line = d.amplitudes.map(a => [x(a), code[order](a, d.k) / d.scale])
+          .filter(([, v]) => v >= up[6] && v <= up[7])
+          .map(([px, v]) => px.toFixed(1) + " " + (up[3] - (up[3] - up[1]) * (v - up[6]) / (up[7] - up[6])).toFixed(1));
+        $(".moving path", svg).setAttribute("d", line.length ? "M" + line.join("L") : "");
+      });
+    };
+    [so, sa].forEach(e => e.addEventListener("input", set));
+    $(".drawing", figure).addEventListener("pointerdown", e => {
+      const svg = visible(figure), low = d.boxes[svg.classList.contains("wide") ? 0 : 1][1];
+      const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM().inverse());
+      if (p.x < low[0] || p.x > low[2] || p.y < low[1] || p.y > low[3]) return;
+      const a = low[4] + (p.x - low[0]) / (low[2] - low[0]) * (low[5] - low[4]);
+      sa.value = d.amplitudes.reduce((best, v, k) => Math.abs(v - a) < Math.abs(d.amplitudes[best] - a) ? k : best, 0);
+      so.value = Math.min(d.orders.length - 1, Math.floor((low[3] - p.y) / (low[3] - low[1]) * d.orders.length));
+      set();
+    });
+    $(".slid", figure).hidden = false;
+    $(".read", figure).hidden = false;
+    set();
+  }
+
+  // copying, and sorting of tables by their columns
+  $$("button[data-copy],.tab button").forEach(b => {
+    b.hidden = false;
+    b.addEventListener("click", () => {
+      const text = b.dataset.copy ?? $("code", b.parentElement).textContent, name = b.textContent;
+      const done = said => { b.textContent = said; setTimeout(() => { b.textContent = name; }, 1500); };
+      (navigator.clipboard ? navigator.clipboard.writeText(text) : Promise.reject()).then(() => done("Copied"), () => done("Not allowed"));
+    });
+  });
+  const sizes = {ns: 1e-9, "µs": 1e-6, ms: 1e-3};
+  const worth = cell => {
+    const t = cell.textContent.replace(/[\u2007\u2008]/g, "").replace("−", "-").trim(), v = parseFloat(t);
+    if (Number.isNaN(v)) return Infinity;
+    const power = t.match(/10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)/), unit = t.match(/ (ns|µs|ms)/);
+    const raised = power ? [...power[1]].map(c => c === "⁻" ? "-" : "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).join("") : 0;
+    return Math.abs(v) * (t.includes("%") ? .01 : 1) * 10 ** +raised * (unit ? sizes[unit[1]] : 1);
+  };
+  $$("table[id] thead th").forEach((head, i, all) => {
+    const table = head.closest("table"), body = $("tbody", table), column = [...head.parentElement.children].indexOf(head);
+    if (column === 0 || body.rows.length < 5) return;
+    const button = document.createElement("button");
+    button.type = "button";
+    button.append(...head.childNodes);
+    head.append(button);
+    button.addEventListener("click", () => {
+      const down = head.getAttribute("aria-sort") === "ascending";
+      $$("th", table).forEach(th => th.removeAttribute("aria-sort"));
+      head.setAttribute("aria-sort", down ? "descending" : "ascending");
+      const groups = [];
+      for (const row of [...body.rows]) row.className === "remark" ? groups[groups.length - 1].push(row) : groups.push([row]);
+      const key = g => worth(g[0].cells[column]);
+      groups.sort((a, b) => down ? key(b) - key(a) : key(a) - key(b));
+      body.append(...groups.flat());
+    });
+  });
 })();

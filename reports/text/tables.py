@@ -1,14 +1,19 @@
-"""The tables of a page: scores, budget, ranges of use, timings, as text cells ready to be set."""
+"""The tables of a page as text cells ready to be set: contenders, budget, ranges of use, certified errors."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from ridgeback.common.numbers import NONE, number, relative, rounded_down, threshold
-from ridgeback.compare.motion.results import BudgetRow, Score
-from ridgeback.compare.report.results import EstimatorScore
-from ridgeback.compare.study.results import Certified, Range, Timing
+from ridgeback.common.numbers import NONE, number, per_cent, rounded_down, threshold
+from ridgeback.common.quantities import symbol
+from ridgeback.compare.benchmark.contenders import Row as Contender
+from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.motion.results import BudgetRow
+from ridgeback.compare.report.cards import duration
+from ridgeback.compare.report.naming import capital, short_name
+from ridgeback.compare.study.results import Certified, Range
+from ridgeback.reports.text.align import aligned
 
 
 @dataclass(frozen=True)
@@ -22,86 +27,96 @@ class Row:
 
 @dataclass(frozen=True)
 class Table:
-    """A table; the first column is text, the others are numbers."""
+    """A table; the first column is text, the others are numbers, aligned at the decimal point."""
 
     key: str
     caption: str
     head: tuple[str, ...]
     rows: tuple[Row, ...]
 
+    def __post_init__(self) -> None:
+        """Pad the numbers of each column."""
+        columns = list(zip(*(row.cells for row in self.rows), strict=True))
+        padded = [columns[0], *(aligned(column) for column in columns[1:])] if columns else []
+        cells = list(zip(*padded, strict=True))
+        object.__setattr__(
+            self, "rows", tuple(replace(row, cells=new) for row, new in zip(self.rows, cells, strict=True))
+        )
 
-def score_table(scores: Sequence[Score], reference: str) -> Table:
-    """Return one row per method, failures kept."""
+
+def contender_table(found: Benchmark) -> Table:
+    """Every contender, best first, one row for its amplitudes and languages; refused ones last with the reason."""
+    groups: dict[str, list[Contender]] = {}
+    for row in found.contenders:
+        groups.setdefault(short_name(row), []).append(row)
+    ranked = {name: rows for name, rows in groups.items() if any(r.relative_rms_error is not None for r in rows)}
+    refused = {name: rows for name, rows in groups.items() if name not in ranked}
+    sources = [s for s in ("action", "energy", "fit") if any(r.amplitude_from == s for r in found.contenders)]
+    both = len(sources) > 1
+    named = {"action": "averaged action", "energy": "energy (21)", "fit": "turning points"}
+    heads = [f"rms, A(t) by {named[s]}" for s in sources] if both else ["rms error"]
+    timed = any(r.time_ns_per_value is not None for r in found.contenders)
+    ordered = sorted(ranked.items(), key=lambda item: min(_error(r) for r in item[1]))
+    low, high = (number(x, 3) for x in found.support)
+    span = f"{low} to {high} {found.case.time_unit}".strip()
+    caption = f"Relative error of ω₀(t), t = {span}; mean is signed, negative means low."
+    caption += (
+        " Cost: median of this run, C where it was compiled; a value of an estimate is its track’s share." * timed
+    )
+    caption += " An error without A(t) stands in the first column." * both
     return Table(
-        "methods",
-        f"Relative error of ω₀(t) against {reference}. Mean is signed: negative means low. "
-        "Start and end are the border zones hatched above.",
-        ("method", "kind", "rms, interior", "largest, interior", "mean, interior", "rms, start", "rms, end"),
-        tuple(_score_row(score) for score in scores),
+        "contenders",
+        caption,
+        ("contender", *heads, "largest", "mean", *(("a value", "a track") if timed else ())),
+        (
+            *(_contender(name, rows, sources if both else [], timed=timed) for name, rows in ordered),
+            *(
+                Row(
+                    (capital(name), *(NONE,) * (len(heads) + 2 + 2 * timed)),
+                    f"Refused: {rows[0].refused}.",
+                    failed=True,
+                )
+                for name, rows in refused.items()
+            ),
+        ),
     )
 
 
-def _score_row(score: Score) -> Row:
-    if score.failed:
-        return Row((score.label, score.kind, *(NONE,) * 5), f"Failed: {score.failed}", failed=True)
-    cells = (
-        score.label,
-        score.kind,
-        relative(score.rms_interior),
-        relative(score.max_interior),
-        relative(score.mean_interior, signed=True),
-        relative(score.rms_start),
-        relative(score.rms_end),
-    )
-    return Row(cells, score.note)
+def _error(row: Contender) -> float:
+    return float("inf") if row.relative_rms_error is None else row.relative_rms_error
 
 
-def estimator_table(scores: Sequence[EstimatorScore], reference: str) -> Table:
-    """Return every estimator on the same samples, failures kept."""
-    return Table(
-        "estimators",
-        f"Every estimator with its own defaults on the samples of u: relative rms error of ω₀(t) against {reference} "
-        "as the method gives it, then with its own estimate of its bias removed; the half width of its 95 % interval "
-        "(median over the interior), the share of the interior where that interval holds the reference, and CPU time, "
-        "bias and interval included. A dash: nothing valid there, or no interval claimed.",
-        ("method", "raw, interior", "interior", "start", "end", "half width", "coverage", "CPU"),
-        tuple(_estimator_row(score) for score in scores),
-    )
-
-
-def _estimator_row(score: EstimatorScore) -> Row:
-    if score.failed:
-        return Row((score.method, *(NONE,) * 7), f"Failed: {score.failed}", failed=True)
-    cells = (
-        score.method,
-        relative(score.rms_raw),
-        relative(score.rms_interior),
-        relative(score.rms_start),
-        relative(score.rms_end),
-        relative(score.half_width),
-        NONE if score.coverage is None else f"{100 * score.coverage:.0f} %",
-        f"{number(score.seconds, 2)} s",
-    )
-    return Row(cells, score.note)
+def _contender(name: str, rows: Sequence[Contender], sources: Sequence[str], *, timed: bool) -> Row:
+    best = min(rows, key=_error)
+    by_source = {r.amplitude_from: r for r in reversed(rows)}
+    errors = [by_source.get(s) for s in sources] or [best]  # type: ignore[call-overload]
+    if sources and None in by_source and all(e is None for e in errors):
+        errors = [best, *errors[1:]]
+    costs = [r for r in rows if r.time_ns_per_value is not None]
+    cheapest = min(costs, key=lambda r: r.time_ns_per_value or 0.0, default=None)
+    cost: tuple[str, ...] = ()
+    if timed:
+        value = None if cheapest is None else 1e-9 * float(cheapest.time_ns_per_value or 0.0)
+        cost = (duration(value), duration(None if cheapest is None else cheapest.time_s_per_track))
+    remark = "" if best.ranked else f"Not ranked: covers {100 * best.coverage:.0f} % of the interior."
+    texts = [per_cent(None if e is None else e.relative_rms_error, missing="") for e in errors]
+    return Row((capital(name), *texts, per_cent(best.largest), per_cent(best.mean, signed=True), *cost), remark)
 
 
 def budget_table(rows: Sequence[BudgetRow]) -> Table:
-    """Return where each curve's distance from the reference comes from."""
+    """Where each curve's distance from the reference comes from."""
     return Table(
         "budget-table",
         "Parts of the relative error, rms over the interior. Closure is the rms of what the named parts leave "
-        "unexplained; a dash means that the part does not apply.",
-        ("method", "truncation", "averaging", "estimator", "reference", "total", "closure"),
+        "unexplained; blank: does not apply.",
+        ("method", "truncation", "averaging", "estimator", "total", "closure"),
         tuple(
             Row(
                 (
-                    row.label,
-                    relative(row.truncation),
-                    relative(row.averaging),
-                    relative(row.estimator),
-                    relative(row.reference),
-                    relative(row.total),
-                    relative(row.closure),
+                    capital(row.label),
+                    *(per_cent(v, missing="") for v in (row.truncation, row.averaging, row.estimator)),
+                    per_cent(row.total),
+                    per_cent(row.closure),
                 ),
                 row.note,
             )
@@ -111,14 +126,14 @@ def budget_table(rows: Sequence[BudgetRow]) -> Table:
 
 
 def range_table(ranges: Sequence[Range], letter: str, unit: str) -> Table:
-    """Return how far each order may be used, one column per target."""
+    """How far each order may be used, one column per target."""
     targets = sorted({r.target for r in ranges}, reverse=True)
     reach = {(r.order, r.target): r.up_to for r in ranges}
     orders = sorted({r.order for r in ranges})
     return Table(
         "ranges",
         f"Range of use: largest {letter} studied below which the target holds everywhere"
-        + (f" ({unit})." if unit else "."),
+        + (f", in {unit}." if unit else "."),
         ("order", *(f"within {threshold(target)}" for target in targets)),
         tuple(Row((str(order), *(_reach(reach, order, target) for target in targets))) for order in orders),
     )
@@ -128,33 +143,19 @@ def _reach(reach: dict[tuple[int, float], float | None], order: int, target: flo
     if (order, target) not in reach:
         return NONE
     up_to = reach[order, target]
-    return "nowhere" if up_to is None else number(rounded_down(up_to, 4))
+    return "nowhere" if up_to is None else f"{rounded_down(up_to, 4):.3f}"
 
 
 def certified_table(found: Certified, unit: str) -> Table:
-    """Return the series beside its resummations, one column per amplitude."""
+    """The series beside its resummations, one column per amplitude."""
     largest = max((row.radius for row in found.rows), default=0.0)
-    where = "peak amplitudes" if found.variable == "A" else f"values of {found.variable}"
+    where = "peak amplitudes" if found.variable == "A" else f"values of {symbol(found.variable)}"
     return Table(
         "certified",
         f"Relative error of ω₀ by each formula of order {found.order} at {where}"
         + (f" in {unit}" if unit else "")
-        + f", enclosed against the exact frequency in ball arithmetic: proved to within {relative(largest)}. "
+        + f", enclosed against the exact frequency in ball arithmetic: proved to within {per_cent(largest)}. "
         "A dash means that the formula does not hold there.",
-        ("formula", *(f"{found.variable} = {number(a)}" for a in found.amplitudes)),
-        tuple(Row((row.method, *(relative(e, signed=True) for e in row.errors))) for row in found.rows),
-    )
-
-
-def timing_table(timings: Sequence[Timing]) -> Table:
-    """Return what one evaluation costs."""
-    return Table(
-        "timings",
-        "Median time of one evaluation over an array, per value, with the fastest and slowest repeat. "
-        "Measured on the machine that made this page.",
-        ("evaluation", "ns per value", "fastest", "slowest", "values"),
-        tuple(
-            Row((t.name, number(t.nanoseconds, 3), number(t.low, 3), number(t.high, 3), str(t.values)), t.note)
-            for t in timings
-        ),
+        ("formula", *(f"{symbol(found.variable)} = {number(a)}" for a in found.amplitudes)),
+        tuple(Row((capital(row.method), *(per_cent(e, signed=True) for e in row.errors))) for row in found.rows),
     )

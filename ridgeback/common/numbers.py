@@ -12,6 +12,7 @@ from fractions import Fraction
 NONE = "–"
 """What stands for a missing number."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_LEAST_PER_CENT = 1e-6
 _PER_CENT = 1e-4
 """Relative errors from here on are written in per cent, smaller ones as powers of ten."""
 
@@ -108,6 +109,18 @@ def relative(value: float | None, *, signed: bool = False, missing: str = NONE) 
     if value == 0 or math.isinf(value):
         return sign + number(value)
     return sign + (f"{two_digits(100 * value)} %" if abs(value) >= _PER_CENT else scientific(value))
+
+
+def per_cent(value: float | None, *, signed: bool = False, missing: str = NONE) -> str:
+    """A relative error on a page: two digits in per cent down to 0.0001 %, a power of ten only below that.
+
+    >>> per_cent(0.0019), per_cent(-0.0102, signed=True), per_cent(1.7e-5), per_cent(2.3e-8), per_cent(None)
+    ('0.19 %', '−1.0 %', '0.0017 %', '2.3 × 10⁻⁸', '–')
+    """
+    if value is None or not math.isfinite(value) or value == 0 or abs(value) >= _PER_CENT:
+        return relative(value, signed=signed, missing=missing)
+    sign = "+" if signed and value > 0 else ""
+    return sign + (f"{two_digits(100 * value)} %" if abs(value) >= _LEAST_PER_CENT else scientific(value))
 
 
 def offset(value: float | None) -> str:

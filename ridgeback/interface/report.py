@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from ridgeback.common.errors import InputError
@@ -92,6 +93,8 @@ def report(
     target: float | None = None,
     predict_from: float | None = None,
     trials: int = TRIALS,
+    title: str | None = None,
+    timed: bool = True,
     progress: Wanted = None,
 ) -> Report:
     """Compare expansions, models and estimated frequencies of an oscillator, or of a recording.
@@ -116,7 +119,7 @@ def report(
     duration : float, optional
         Time to simulate.
     order : int, optional
-        The expansion that the page is about (8 by default).
+        The expansion that formulas and code are about (20 by default).
     orders, amplitudes : optional
         The grid of the accuracy study.
     target : float, optional
@@ -125,6 +128,10 @@ def report(
         Number of first cycles of a recording from which the rest is predicted.
     trials : int
         Noisy records a point of the noise study; 0 leaves it out.
+    title : str, optional
+        What the oscillator is called on the page.
+    timed : bool
+        Whether measured times are kept; without them the same request gives the same page, byte for byte.
     progress : bool or callable, optional
         ``True`` shows a bar; a function is told the share done and the step.
 
@@ -142,7 +149,7 @@ def report(
     --------
     >>> made = report("linear", duration=60.0, rate=4.0, orders=(2,), amplitudes=[0.5, 1.0], trials=0)
     >>> made.study.orders
-    (2, 8)
+    (2, 20)
     """
     with showing(progress) as told:
         if recording is not None:
@@ -152,15 +159,24 @@ def report(
             refuse("the study of a system", order=order, orders=orders, amplitudes=amplitudes, target=target)
             theory = None if oscillator is None else as_oscillator(oscillator, parameters=parameters, about=about)
             used = as_recording(recording, rate, time=time, column=column)
-            return recording_report(used, oscillator=theory, cycles=predict_from, trials=trials, progress=told)
+            return recording_report(
+                used,
+                oscillator=theory if theory is None or title is None else replace(theory, title=title),
+                cycles=predict_from,
+                trials=trials,
+                timed=timed,
+                progress=told,
+            )
         refuse("a recording", time=time, column=column, predict_from=predict_from)
+        case = simulated(oscillator, parameters, about, initial, duration, rate)
         return system_report(
-            simulated(oscillator, parameters, about, initial, duration, rate),
+            case if title is None else replace(case, oscillator=replace(case.oscillator, title=title)),
             order=ORDER if order is None else order,
             orders=orders,
             amplitudes=amplitudes,
             target=TARGET if target is None else target,
             trials=trials,
+            timed=timed,
             progress=told,
         )
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from ridgeback.compare.motion.motion import Setting
     from ridgeback.compare.motion.results import Statement
     from ridgeback.compare.report.results import Report
+    from ridgeback.symbolic.systems.oscillator import Oscillator
 
 DEFAULT_NAME = "ridgeback-report.html"
 
@@ -35,6 +37,7 @@ class Motion:
     initial: tuple[float, float] | None
     duration: float | None
     rate: float | None
+    title: str | None = None
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,7 @@ class Scope:
     amplitudes: tuple[float, ...] | None
     target: float | None
     trials: int
+    timed: bool = True
 
 
 @dataclass(frozen=True)
@@ -65,7 +69,11 @@ class Source:
 @click.option("--duration", type=POSITIVE, default=None, metavar="T", help="Time to integrate over.")
 @click.option("--rate", type=POSITIVE, default=None, metavar="R", help="Samples per time unit, also of a recording.")
 @click.option(
-    "--order", type=ORDER, default=None, metavar="N", help="The expansion that the page is about.  Default: 8."
+    "--order",
+    type=ORDER,
+    default=None,
+    metavar="N",
+    help="The expansion that code and formulas are about.  Default: 20.",
 )
 @click.option("--orders", type=ORDERS, default=None, metavar="N,N,...", help="Orders of the accuracy study.")
 @click.option("--amplitudes", type=GRID, default=None, metavar="START:STOP:COUNT", help="Amplitudes of the study.")
@@ -96,6 +104,10 @@ class Source:
     metavar="FILE",
     help="Where to write the page; - is standard output.",
 )
+@click.option("--title", default=None, metavar="TEXT", help="What the system is called on the page.")
+@click.option("--no-timings", is_flag=True, help="Leave out measured times: the same request gives the same bytes.")
+@click.option("--pdf", type=output_path, default=None, metavar="FILE", help="Print the page to a PDF too, by Chromium.")
+@click.option("--open", "opened", is_flag=True, help="Show the page in the browser when it is written.")
 @format_option("text", "json", default="text")
 @click.pass_context
 def command(
@@ -115,6 +127,10 @@ def command(
     predict_from: float | None,
     treatment: Treatment,
     trials: int,
+    title: str | None,
+    no_timings: bool,
+    pdf: str | None,
+    opened: bool,
     style: str,
     output: str,
 ) -> None:
@@ -132,11 +148,11 @@ def command(
     if trials == 1:
         raise click.UsageError("--trials 1 shows no spread; use at least 2, or 0 for no noise study")
     if output == STDOUT:
-        refuse_unused("-o -, which prints the page itself,", "style")
+        refuse_unused("-o -, which prints the page itself,", "style", "pdf", "opened")
     if not choice.made:
         refuse_unused("a report without a SYSTEM", "about", "potential")
-    motion = Motion(choice, initial, duration, rate)
-    scope = Scope(order, orders, amplitudes, target, trials)
+    motion = Motion(choice, initial, duration, rate, title)
+    scope = Scope(order, orders, amplitudes, target, trials, not no_timings)
     shown = as_typed(context.find_root().obj or ("report",))
     with showing(True) as progress:
         if recording is None:
@@ -147,7 +163,10 @@ def command(
         else:
             source = Source(recording, column, time_column, predict_from, treatment)
             report = of_recording(source, motion, scope, shown, progress)
-    publish(report, output, style)
+    try:
+        publish(report, output, style)
+    finally:
+        show(output, pdf, opened=opened)
 
 
 def refuse(given: Mapping[str, object], why: str) -> None:
@@ -169,6 +188,7 @@ def of_motion(motion: Motion, scope: Scope, shown: str, progress: Progress) -> R
         amplitudes=scope.amplitudes,
         target=TARGET if scope.target is None else scope.target,
         trials=scope.trials,
+        timed=scope.timed,
         command=shown,
         progress=progress,
     )
@@ -180,15 +200,21 @@ def setting_of(motion: Motion) -> Setting:
     from ridgeback.compare.motion.paper_case import paper_case
 
     if motion.choice.made:
-        return setting(motion.choice.oscillator(), initial=motion.initial, duration=motion.duration, rate=motion.rate)
+        chosen = entitled(motion.choice.oscillator(), motion.title)
+        return setting(chosen, initial=motion.initial, duration=motion.duration, rate=motion.rate)
     paper = paper_case()
     return setting(
-        paper.oscillator.with_parameters(unique(motion.choice.assignments)),
+        entitled(paper.oscillator.with_parameters(unique(motion.choice.assignments)), motion.title),
         initial=motion.initial or paper.initial,
         duration=motion.duration or paper.duration,
         rate=motion.rate or paper.rate,
         time_unit=paper.time_unit,
     )
+
+
+def entitled(oscillator: Oscillator, title: str | None) -> Oscillator:
+    """The oscillator under the title that was given."""
+    return oscillator if title is None else replace(oscillator, title=title)
 
 
 def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progress: Progress) -> Report:
@@ -203,9 +229,10 @@ def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progr
     reading = Reading(source.column, source.time_column, motion.rate, treatment=source.treatment)
     return recording_report(
         reading.one(source.file),
-        oscillator=motion.choice.oscillator() if motion.choice.made else None,
+        oscillator=entitled(motion.choice.oscillator(), motion.title) if motion.choice.made else None,
         cycles=source.cycles,
         trials=scope.trials,
+        timed=scope.timed,
         command=shown,
         progress=progress,
     )
@@ -220,9 +247,9 @@ def as_typed(arguments: Sequence[str]) -> str:
     kept: list[str] = []
     rest = iter(arguments)
     for word in rest:
-        if word in ("-o", "--output"):
+        if word in ("-o", "--output", "--pdf"):
             next(rest, None)
-        elif not word.startswith(("--output=", "-o")):
+        elif word != "--open" and not word.startswith(("--output=", "-o", "--pdf=")):
             kept.append(word)
     return shlex.join(["ridgeback", *kept])
 
@@ -241,13 +268,28 @@ def publish(report: Report, output: str, style: str) -> None:
     refuse_incomplete(report)
 
 
+def show(output: str, pdf: str | None, *, opened: bool) -> None:
+    """Print the page to a PDF, and open it, where that was asked for."""
+    if pdf is not None:
+        from ridgeback.console.browser import print_to_pdf
+
+        print_to_pdf(output, pdf)
+        say(f"printed {pdf}")
+    if opened:
+        import webbrowser
+
+        if not webbrowser.open(Path(output).resolve().as_uri()):
+            say(f"no browser could be opened; the page is {output}")
+
+
 def refuse_incomplete(report: Report) -> None:
     """Raise PartialError for a failed certificate, and for methods that gave no result."""
     checks = report.derivation.certificate if report.derivation else ()
     wrong = [check.name for check in checks if check.passed is False]
     if wrong:
         raise PartialError(f"the page is written, but its certificate fails: {', '.join(wrong)}; it says how")
-    missing = [score.label for score in report.decay.scores if score.failed] if report.decay else []
+    rows = report.benchmark.contenders if report.benchmark else ()
+    missing = list(dict.fromkeys(row.label for row in rows if row.refused and row.kind == "estimate"))
     if missing:
         raise PartialError(f"the page is written, but gave no result: {', '.join(missing)}; it says why")
 
@@ -264,9 +306,10 @@ def printed(report: Report, output: str, size: int, style: str) -> str:
             "title": report.title,
             "cards": [asdict(card) for card in report.cards],
             "summary": list(report.summary),
+            "contenders": [row.to_dict() for row in report.benchmark.contenders] if report.benchmark else [],
             "scores": [asdict(score) for score in decay.scores] if decay else [],
             "budget": [asdict(row) for row in decay.budget] if decay else [],
-            "statements": [statement_row(said) for said in decay.statements] if decay else [],
+            "statements": [statement_row(said) for said in decay.statements] if decay and report.paper else [],
         }
     )
 
@@ -279,7 +322,7 @@ def statement_row(said: Statement) -> dict[str, object]:
 
 def findings(report: Report, output: str, size: int) -> str:
     """Where the page is, its title, its three figures and its summary."""
-    lines = [f"wrote {output} ({size / 1000:.0f} kB)", "", report.title, ""]
-    lines += [f"  {card.heading}: {card.value}" for card in report.cards]
+    lines = [f"wrote {output} ({size / 1000:.0f} kB)", "", report.title, *([report.lead] if report.lead else []), ""]
+    lines += [f"  {card.heading}: {card.value} ({card.text})" for card in report.cards]
     lines += ["", *(f"  {sentence}" for sentence in report.summary)]
     return "\n".join(lines) + "\n"

@@ -1,0 +1,121 @@
+"""What the page calls contenders, amplitudes and starts: short names made from typed rows."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from ridgeback.common.quantities import symbol
+from ridgeback.compare.benchmark.contenders import Row, Source
+from ridgeback.compare.motion.results import Case
+
+ESTIMATORS: Mapping[str, str] = {
+    "wigner": "Wigner peak",
+    "pseudo-wigner": "pseudo-Wigner",
+    "smoothed-pseudo-wigner": "smoothed pseudo-Wigner",
+    "polynomial-wigner": "polynomial Wigner",
+    "spectrogram": "spectrogram",
+    "zero-crossing": "zero crossings",
+    "harmonic-least-squares": "harmonic least squares",
+    "hilbert": "Hilbert phase",
+}
+SOURCES: Mapping[Source, str] = {
+    "energy": "A(t) from the energy",
+    "action": "A(t) from the averaged action",
+    "fit": "A(t) from the turning points",
+}
+REMOVED = "own bias removed"
+
+
+def estimator(method: str) -> str:
+    """An estimator as it is called in a sentence.
+
+    >>> estimator("wigner"), estimator("my-own"), estimator("harmonic-least-squares/local")
+    ('Wigner peak', 'my own', 'harmonic least squares (local)')
+    """
+    name, _, scope = method.partition("/")
+    return ESTIMATORS.get(name, name.replace("-", " ")) + (f" ({scope})" if scope else "")
+
+
+def short_name(row: Row) -> str:
+    """A contender without its amplitude and language.
+
+    >>> short_name(Row("lindstedt-20-action-c", "", "expansion", order=20))
+    'order 20'
+    >>> short_name(Row("wigner-corrected", "", "estimate", corrected_by="its own track"))
+    'Wigner peak, own bias removed'
+    """
+    match row.kind:
+        case "expansion" if row.order is not None:
+            return f"order {row.order}"
+        case "slow-flow":
+            return f"multiple scales, order {row.order}"
+        case "series-model":
+            return f"{row.order} terms of (14)"
+        case "estimate":
+            plain = estimator(row.method.removesuffix("-corrected"))
+            return f"{plain}, {REMOVED}" if row.corrected_by else plain
+        case "closed-form":
+            return "exact ω₀"
+        case "averaged":
+            return "exact ω₀ less μ²" if row.method == "averaged-damped" else "exact ω₀"
+        case "linear":
+            return "linear oscillator (3)"
+    name, _, _ = row.label.partition(", A(t)")
+    return f"{name[0].lower() if name[1:2].islower() and not name.startswith('Pad') else name[0]}{name[1:]}"
+
+
+def full_name(row: Row) -> str:
+    """A contender with whose amplitude it takes and the language it was timed in."""
+    parts = [short_name(row)]
+    if row.kind == "expansion" and row.order is not None:
+        parts = [f"expansion, order {row.order}"]
+    if row.amplitude_from is not None:
+        parts.append(SOURCES[row.amplitude_from])
+    if row.language is not None:
+        parts.append({"c": "C", "python": "Python", "numpy": "NumPy"}.get(row.language, row.language))
+    return ", ".join(parts)
+
+
+def capital(text: str) -> str:
+    """Text with a capital first letter, unless it starts with a symbol of one letter.
+
+    >>> capital("order 20"), capital("")
+    ('Order 20', '')
+    """
+    return text[:1].upper() + text[1:]
+
+
+def multiple_of_pi(value: float, digits: int = 4) -> str:
+    """A number, as a multiple of pi where it is a short one.
+
+    >>> multiple_of_pi(0.95 * math.pi), multiple_of_pi(4 * math.pi), multiple_of_pi(0.01), multiple_of_pi(0.0)
+    ('0.95 π', '4 π', '0.01', '0')
+    """
+    share = value / math.pi
+    if share and abs(share - round(share, 3)) < 1e-9 * abs(share):
+        return "π" if round(share, 3) == 1 else f"{round(share, 3):g} π".replace("-", "−")
+    return f"{value:.{digits}g}".replace("-", "−")
+
+
+def parameters_line(case: Case) -> str:
+    """Parameters, start, duration and rate in one line."""
+    values = ", ".join(f"{symbol(name)} = {multiple_of_pi(v)}" for name, v in case.parameters.items())
+    return "; ".join(part for part in (values, start_line(case), sampled_line(case)) if part)
+
+
+def start_line(case: Case) -> str:
+    """How the motion starts."""
+    u, v = case.initial
+    unit = f" {case.unit}" if case.unit and "π" not in multiple_of_pi(u) else ""
+    place = f"{multiple_of_pi(u)}{unit}"
+    return f"released at rest from {place}" if v == 0 else f"from {case.symbol} = {place}, {case.symbol}′ = {v:.4g}"
+
+
+def sampled_line(case: Case) -> str:
+    """How long and how finely it is sampled."""
+    unit = case.time_unit
+    count = round(case.duration * case.rate) + 1
+    if unit:
+        return f"{case.duration:.6g} {unit} at {case.rate:.4g} samples per {unit}"
+    return f"{count} samples over a time of {case.duration:.4g}"

@@ -1,0 +1,94 @@
+"""A figure as the page takes it: a wide and a narrow drawing, what can be switched, and what a pointer reads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ridgeback.numeric.arrays import Array
+from ridgeback.reports.drawing.panel import Panel
+
+WIDE, NARROW = 1000.0, 368.0
+"""Widths of the two drawings, in pixels of the page at its widest and on a phone."""
+READ = 161
+"""Places at which a curve is read, at most."""
+WAYS: Mapping[str, str] = {"E": "expansions", "S": "series model", "T": "estimates"}
+
+
+@dataclass(frozen=True)
+class Series:
+    """One curve as the readout knows it; ``per_cent`` writes its values as relative errors."""
+
+    name: str
+    x: Array
+    y: Array
+    unit: str = ""
+    per_cent: bool = False
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Drawings, caption and data of one figure."""
+
+    key: str
+    wide: str
+    narrow: str
+    caption: str
+    toggles: tuple[tuple[str, str], ...] = ()
+    """Letter of a family and its label."""
+    keys: tuple[tuple[str, str], ...] = ()
+    """Colour token and its meaning, below the drawing."""
+    data: Mapping[str, object] = field(default_factory=dict)
+    """For the readout; empty without one."""
+    label: str = ""
+    many: str = ""
+    """Class of a row of small drawings: ``two``, ``five``; they stand in ``wide``."""
+
+
+def readout(
+    panels: tuple[Sequence[Panel], Sequence[Panel]], series: Sequence[Series], *, name: str, unit: str, link: str
+) -> dict[str, object]:
+    """What the page's script needs to read curves at a common x: places of the panels, and the curves' values.
+
+    Parameters
+    ----------
+    panels
+        Those of the wide drawing and those of the narrow one, which share the x axis.
+    series
+        Curves; each is read by interpolation at common places, and not where it is not finite.
+    name, unit
+        Of the x axis.
+    link
+        Figures with the same word move together.
+    """
+    x = panels[0][0].x
+    places = np.linspace(x.low, x.high, READ)
+    return {
+        "name": name,
+        "unit": unit,
+        "link": link,
+        "at": [float(f"{v:.5g}") for v in places],
+        "boxes": [[panel.box() for panel in group] for group in panels],
+        "series": [[s.name, "%" if s.per_cent else s.unit, _read(s, places)] for s in series],
+    }
+
+
+def _read(series: Series, places: Array) -> list[float | None]:
+    good = np.isfinite(series.x) & np.isfinite(series.y)
+    if good.sum() < 2:
+        return [None] * places.size
+    x, y = series.x[good], series.y[good]
+    reach = 2.0 * float(np.median(np.diff(x))) + (places[1] - places[0])
+    near = np.abs(x[np.clip(np.searchsorted(x, places), 0, x.size - 1)] - places)
+    before = np.abs(x[np.clip(np.searchsorted(x, places) - 1, 0, x.size - 1)] - places)
+    inside = (np.minimum(near, before) <= reach) & (places >= x[0] - reach) & (places <= x[-1] + reach)
+    values = np.interp(places, x, y)
+    digits = 3 if series.per_cent else 6
+    return [float(f"{v:.{digits}g}") if keep else None for v, keep in zip(values, inside, strict=True)]
+
+
+def toggles(*letters: str) -> tuple[tuple[str, str], ...]:
+    """Check boxes for some of the three ways."""
+    return tuple((letter, WAYS[letter]) for letter in letters)

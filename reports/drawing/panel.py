@@ -1,0 +1,88 @@
+"""A panel: two scales with their grid, ticks and titles, and curves drawn in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+
+from ridgeback.numeric.arrays import Array
+from ridgeback.reports.drawing.marks import curve, line, rect, text
+from ridgeback.reports.drawing.scale import Scale, tick_labels
+
+Labelled = Callable[[float], str]
+
+
+@dataclass(frozen=True)
+class Panel:
+    """A rectangle of a drawing with a scale in each direction."""
+
+    x: Scale
+    y: Scale
+
+    @property
+    def left(self) -> float:
+        """Left edge."""
+        return self.x.start
+
+    @property
+    def right(self) -> float:
+        """Right edge."""
+        return self.x.end
+
+    @property
+    def top(self) -> float:
+        """Upper edge."""
+        return self.y.end
+
+    @property
+    def bottom(self) -> float:
+        """Lower edge."""
+        return self.y.start
+
+    def rows(self, ticks: Sequence[float] | None = None, *, label: Labelled | None = None, most: int = 5) -> str:
+        """Horizontal grid lines with their values at the left."""
+        values = self.y.ticks(most) if ticks is None else ticks
+        names = tick_labels(values) if label is None else [label(v) for v in values]
+        return "".join(
+            line(self.left, self.y(v), self.right, self.y(v)) + text(self.left - 7, self.y(v) + 4, name, "m", "end")
+            for v, name in zip(values, names, strict=True)
+        )
+
+    def columns(
+        self, ticks: Sequence[float] | None = None, *, label: Labelled | None = None, most: int = 6, unit: str = ""
+    ) -> str:
+        """Ticks below with their values, the last with a unit."""
+        values = self.x.ticks(most) if ticks is None else ticks
+        names = tick_labels(values) if label is None else [label(v) for v in values]
+        base = line(self.left, self.bottom, self.right, self.bottom, "ax")
+        marks = (
+            line(self.x(v), self.bottom, self.x(v), self.bottom + 5, "ax")
+            + text(self.x(v), self.bottom + 19, name, "m", "middle")
+            for v, name in zip(values, names, strict=True)
+        )
+        title = text((self.left + self.right) / 2, self.bottom + 36, unit, "m", "middle") if unit else ""
+        return base + "".join(marks) + title
+
+    def title(self, words: str, kind: str = "m") -> str:
+        """What is shown upwards, above the axis at the left."""
+        return text(max(0.0, self.left - 70), self.top - 12, words, kind)
+
+    def curve(self, x: Array, y: Array, kind: str) -> str:
+        """A curve; what lies outside is drawn at the edge."""
+        return curve(self.x.of(x), self.y.clipped(y), kind)
+
+    def shaded(self, low: float, high: float, kind: str = "band") -> str:
+        """A vertical band."""
+        a, b = sorted((self.x(low), self.x(high)))
+        a, b = max(a, self.left), min(b, self.right)
+        return rect(a, self.top, b - a, self.bottom - self.top, kind) if b > a else ""
+
+    def box(self) -> list[float]:
+        """Place and ranges, as the page's script takes them."""
+        x, y = self.x, self.y
+        return [*(round(v, 1) for v in (self.left, self.top, self.right, self.bottom)), x.low, x.high, y.low, y.high]
+
+
+def joined(parts: Iterable[str]) -> str:
+    """Marks one after the other."""
+    return "".join(parts)

@@ -1,0 +1,322 @@
+"""Accuracy against cost: every contender on one motion, the page's first figure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ridgeback.common.numbers import number, per_cent, threshold
+from ridgeback.compare.benchmark.contenders import WAYS, Row
+from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.report.naming import capital, short_name
+from ridgeback.reports.drawing.apart import apart, text_width
+from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, toggles
+from ridgeback.reports.drawing.marks import curve, dot, drawing, group, line, rect, text, trace
+from ridgeback.reports.drawing.panel import Panel
+from ridgeback.reports.drawing.scale import Scale
+
+LETTERS = {"expansions": "E", "series model": "S", "estimates": "T", None: "S"}
+STYLE = {"E": "e", "S": "s", "T": "t"}
+HEIGHT = 430.0
+NUMBERED = (2, 4, 8, 12, 20, 30, 40)
+LEAST = 1e-17
+RANKED = 26
+"""Rows of the narrow drawing, at most."""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """The contenders that are drawn, by family, and their common scales."""
+
+    found: Benchmark
+    expansions: tuple[Row, ...]
+    in_python: tuple[Row, ...]
+    flows: tuple[Row, ...]
+    terms: tuple[Row, ...]
+    exact: tuple[Row, ...]
+    estimates: tuple[Row, ...]
+    corrected: tuple[Row, ...]
+
+    @property
+    def all(self) -> tuple[Row, ...]:
+        """All of them."""
+        parts = (self.expansions, self.in_python, self.flows, self.terms, self.exact, self.estimates, self.corrected)
+        return tuple(row for part in parts for row in part)
+
+    def cost(self, row: Row) -> float:
+        """What a track costs, s."""
+        if row.time_s_per_track is not None:
+            return row.time_s_per_track
+        return float(row.time_ns_per_value or math.nan) * 1e-9 * self.found.time.size
+
+
+def error(row: Row) -> float:
+    """Its relative rms error, never 0 on a logarithmic axis."""
+    return max(float(row.relative_rms_error or 0.0), LEAST)
+
+
+def shown(found: Benchmark) -> Shown:
+    """Choose one amplitude for the formulas: the averaged action's where there is one, so that no floor hides them."""
+    ranked = [row for row in found.contenders if row.ranked and row.relative_rms_error is not None]
+    sources = {row.amplitude_from for row in ranked if row.kind in ("expansion", "series-model")}
+    source = "action" if "action" in sources else next(iter(sorted(sources, key=str)), None)
+
+    def of(kind: str, language: str | None = None) -> tuple[Row, ...]:
+        rows = [r for r in ranked if r.kind == kind and (kind == "slow-flow" or r.amplitude_from == source)]
+        return tuple(sorted((r for r in rows if language in (None, r.language)), key=lambda r: r.order or 0))
+
+    native, python = of("expansion", "c"), of("expansion", "python")
+    raw = [row for row in ranked if row.kind == "estimate" and row.corrected_by is None]
+    return Shown(
+        found=found,
+        expansions=native or python,
+        in_python=python if native else (),
+        flows=of("slow-flow"),
+        terms=of("series-model"),
+        exact=tuple(row for row in ranked if row.kind == "closed-form"),
+        estimates=tuple(sorted(raw, key=error)),
+        corrected=tuple(row for row in ranked if row.corrected_by is not None),
+    )
+
+
+def accuracy_cost(found: Benchmark, target: float) -> Figure:
+    """The figure; without measured times it ranks the errors alone."""
+    which = shown(found)
+    timed = any(math.isfinite(which.cost(row)) for row in which.all)
+    label = "Relative rms error of every contender" + (" against the cost of one track" if timed else "")
+    letters = [letter for letter in "EST" if any(LETTERS[WAYS[row.kind]] == letter for row in which.all)]
+    wide = _wide(which, target, label) if timed else _ranked(which, target, label, WIDE, timed=False)
+    return Figure(
+        key="accuracy-cost",
+        wide=wide,
+        narrow=_ranked(which, target, label, NARROW, timed=timed),
+        caption=_caption(which, timed=timed),
+        toggles=toggles(*letters),
+        label=label,
+    )
+
+
+def _caption(which: Shown, *, timed: bool) -> str:
+    found = which.found
+    low, high = (number(x, 3) for x in found.support)
+    parts = ["Further down is closer, further left is cheaper." if timed else "Left is closer."]
+    span = f"{low} to {high} {found.case.time_unit}".strip()
+    parts.append(f"Rms error relative to the {found.reference.label}, t = {span}.")
+    if which.expansions and which.expansions[0].amplitude_from == "action":
+        parts.append("Expansions and series take A(t) from the averaged action, whose own cost is not counted.")
+    if which.corrected:
+        parts.append("Open: an estimate with the bias of its own track removed.")
+    missing = [row for row in found.contenders if row.refused]
+    if missing:
+        parts.append(f"No result: {', '.join(dict.fromkeys(short_name(row) for row in missing))}.")
+    return " ".join(parts)
+
+
+# --- the wide drawing
+
+
+def _wide(which: Shown, target: float, label: str) -> str:
+    panel = _panel(which)
+    marks = [*_frame(which, panel, target), *_families(which, panel), *_estimates(which, panel)]
+    return drawing(WIDE, HEIGHT, "wide", label, marks)
+
+
+def _panel(which: Shown) -> Panel:
+    rows = [row for row in which.all if math.isfinite(which.cost(row))]
+    costs, errors = [which.cost(row) for row in rows], [error(row) for row in rows]
+    floor = which.found.reference.floor
+    low = min(*errors, max(floor, LEAST)) * 0.45
+    high = min(max(errors), 30.0) * 2.2
+    x = Scale(0.4 * min(costs), 4.0 * max(costs), 70.0, 968.0, log=True)
+    return Panel(x, Scale(low, high, 384.0, 48.0, log=True))
+
+
+def _frame(which: Shown, panel: Panel, target: float) -> Iterable[str]:
+    found, count = which.found, which.found.time.size
+    floor = found.reference.floor
+    if floor > panel.y.low:
+        top = panel.y(min(floor, panel.y.high))
+        yield rect(panel.left, top, panel.right - panel.left, panel.bottom - top)
+    yield panel.rows(label=per_cent_tick, most=9)
+    for value in panel.x.ticks(9):
+        yield line(panel.x(value), panel.bottom, panel.x(value), panel.bottom + 5, "ax")
+        yield text(panel.x(value), panel.bottom + 19, round_duration(value), "m", "middle")
+    above = Scale(panel.x.low / count, panel.x.high / count, panel.left, panel.right, log=True)
+    for value in above.ticks(9):
+        yield line(above(value), 44, above(value), 39, "ax")
+        yield text(above(value), 34, round_duration(value), "m", "middle")
+    yield line(panel.left, panel.bottom, panel.right, panel.bottom, "ax") + line(panel.left, 44, panel.right, 44, "ax")
+    yield text(0, 12, "relative rms error of ω₀(t)", "m") + text(panel.right, 12, "cost per value", "m", "end")
+    yield text(panel.right, HEIGHT - 10, f"cost of one track of {count} values", "m", "end")
+    if panel.y.low < target < panel.y.high:
+        yield line(panel.left, panel.y(target), panel.right, panel.y(target), "tg")
+        yield group([text(panel.right, panel.y(target) - 5, f"target {threshold(target)}", "m sm", "end")], "halo")
+    if floor > panel.y.low:
+        words = f"below {per_cent(floor)} two readings of ω₀(t) disagree"
+        yield group([text(panel.left + 8, panel.bottom - 8, words, "m sm")], "halo")
+
+
+def per_cent_tick(value: float) -> str:
+    """A decade of a relative error.
+
+    >>> per_cent_tick(1e-4), per_cent_tick(1.0), per_cent_tick(1e-9)
+    ('0.01 %', '100 %', '10⁻⁹')
+    """
+    return f"{100 * value:.10g} %" if value > 0.9e-6 else threshold(value)
+
+
+def round_duration(seconds: float) -> str:
+    """A round time on an axis.
+
+    >>> round_duration(1e-6), round_duration(0.1), round_duration(1e-10)
+    ('1 µs', '0.1 s', '0.1 ns')
+    """
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)):
+        if seconds > 0.09 * size if unit in ("s", "ns") else seconds > 0.9 * size:
+            return f"{number(seconds / size, 2)} {unit}"
+    return f"{number(seconds / 1e-9, 2)} ns"
+
+
+def _places(which: Shown, panel: Panel, rows: Sequence[Row]) -> list[tuple[float, float, Row]]:
+    return [(panel.x(which.cost(r)), float(panel.y.clipped(np.array([error(r)]))[0]), r) for r in rows]
+
+
+def _title(row: Row) -> str:
+    return f"{capital(short_name(row))}: {per_cent(row.relative_rms_error)}"
+
+
+def _chain(which: Shown, panel: Panel, rows: Sequence[Row], style: str, *, dashed: bool = False) -> str:
+    at = _places(which, panel, rows)
+    if not at:
+        return ""
+    x, y = (np.array([p[i] for p in at]) for i in (0, 1))
+    stroke = curve(x, y, f"{style}d nf" if dashed else f"{style}l th")
+    filled = style if not dashed else f"{style}o"
+    return stroke + "".join(dot(a, b, 3.0 if dashed else 4.0, filled, _title(row)) for a, b, row in at)
+
+
+def _numbers(which: Shown, panel: Panel, rows: Sequence[Row], style: str, *, left: bool = False) -> str:
+    wanted = [row for row in rows if row.order in NUMBERED or len(rows) < 7]
+    taken: list[tuple[float, float]] = []
+    parts = []
+    for x, y, row in _places(which, panel, wanted):
+        if all(abs(x - a) > 20 or abs(y - b) > 12 for a, b in taken):
+            taken.append((x, y))
+            parts.append(text(x + (-9 if left else 9), y + 4, str(row.order), style, "end" if left else "start"))
+    return "".join(parts)
+
+
+def _families(which: Shown, panel: Panel) -> Iterable[str]:
+    e = [_chain(which, panel, which.in_python, "e", dashed=True), _chain(which, panel, which.expansions, "e")]
+    e += [_chain(which, panel, which.flows, "e", dashed=True)]
+    words = [_numbers(which, panel, which.expansions, "e", left=True)]
+    native = any(row.language == "c" for row in which.expansions)
+    name = f"expansions{', generated C' if native else ''}"
+    words += _named(which, panel, which.expansions, "e b", name, last=True)
+    words += _named(which, panel, which.in_python, "e sm", "in Python")
+    words += _named(which, panel, which.flows, "e sm", "multiple scales")
+    yield group([*e, group(words, "halo")], "fE")
+    s = [_chain(which, panel, which.terms, "s")]
+    s += [
+        "".join(
+            dot(x, y, 4.5, "s", _title(row)) for x, y, row in _places(which, panel, which.exact) if math.isfinite(x)
+        )
+    ]
+    words = [_numbers(which, panel, which.terms, "s")]
+    words += _named(which, panel, which.terms, "s b", "series (14), by terms")
+    at = [(x, y) for x, y, _ in _places(which, panel, which.exact) if math.isfinite(x)]
+    words += [text(x + 9, y + 4, "exact ω₀ at A(t) of (21)", "s") for x, y in at]
+    yield group([*s, group(words, "halo")], "fS")
+
+
+def _named(which: Shown, panel: Panel, rows: Sequence[Row], style: str, name: str, *, last: bool = False) -> list[str]:
+    """The name of a family beside its first point, or below its last."""
+    at = [p for p in _places(which, panel, rows) if math.isfinite(p[0])]
+    if not at:
+        return []
+    if last:
+        x, y, _ = max(at, key=lambda p: p[1])
+        return [text(max(x - 60, panel.left + 4), min(y + 20, panel.bottom - 22), name, style)]
+    x, y, _ = min(at, key=lambda p: p[1])
+    return [text(x + 9, max(y - 9, panel.top + 10), name, style)]
+
+
+def _estimates(which: Shown, panel: Panel) -> Iterable[str]:
+    at = [p for p in _places(which, panel, which.estimates) if math.isfinite(p[0])]
+    if not at:
+        return
+    own = {row.method.removesuffix("-corrected"): (x, y) for x, y, row in _places(which, panel, which.corrected)}
+    left = min(x for x, _, _ in at)
+    edge = left - 26
+    heights = apart([y for _, y, _ in at], 16.0, panel.top + 34, panel.bottom - 14)
+    best = which.estimates[0].method
+    parts, words = [], []
+    for (x, y, row), height in zip(at, heights, strict=True):
+        name = short_name(row)
+        parts.append(trace("tk nf", "M", edge + 4, height, "H", edge + 14, "L", x, y))
+        if row.method in own and math.isfinite(own[row.method][0]):
+            a, b = own[row.method]
+            parts.append(trace("tt nf", "M", x, y, "L", a, b))
+            parts.append(dot(a, b, 3.6, "to", f"{capital(name)}, own bias removed"))
+        parts.append(dot(x, y, 4.5, "t", _title(row)))
+        words.append(text(edge, height + 4, name, "t b" if row.method == best else "t", "end"))
+    head = text(panel.right, panel.top + 16, f"estimates from {which.found.time.size} samples", "t b", "end")
+    yield group([*parts, group([head, *words], "halo")], "fT")
+
+
+# --- the narrow drawing: names legible on a phone, errors and costs as ranked dots
+
+
+def _ranked(which: Shown, target: float, label: str, width: float, *, timed: bool) -> str:
+    rows = _chosen(which)
+    step = 18.0 if width < WIDE else 20.0
+    height = 44 + step * len(rows) + 8
+    names = max((text_width(_row_name(row), 11.5 if width < WIDE else 13.5) for row in rows), default=60.0)
+    names = min(names, 0.46 * width)
+    errors = [error(row) for row in rows]
+    split = names + 14 + (width - names) * (0.52 if timed else 0.94)
+    x = Scale(0.5 * min(*errors, target), 2.0 * min(max(errors), 30.0), names + 14, split, log=True)
+    marks = [text((x.start + x.end) / 2, 11, "rms error", "m sm", "middle")]
+    for value in x.ticks(3 if width < WIDE else 8):
+        marks += [line(x(value), 32, x(value), height, "g"), text(x(value), 26, per_cent_tick(value), "m sm", "middle")]
+    marks.append(line(x(target), 32, x(target), height, "tg"))
+    cost = None
+    if timed:
+        known = [which.cost(row) for row in rows if math.isfinite(which.cost(row))]
+        cost = Scale(0.7 * min(known), 1.6 * max(known), split + 16, width - 6, log=True)
+        marks.append(text((cost.start + cost.end) / 2, 11, "cost of a track", "m sm", "middle"))
+        for value in cost.ticks(3):
+            marks += [
+                line(cost(value), 32, cost(value), height, "g"),
+                text(cost(value), 26, round_duration(value), "m sm", "middle"),
+            ]
+    for i, row in enumerate(rows):
+        marks.append(_ranked_row(which, row, 42 + step * (i + 0.5), names, x, cost))
+    return drawing(width, height, "narrow" if width < WIDE else "wide", label, marks)
+
+
+def _ranked_row(which: Shown, row: Row, y: float, names: float, x: Scale, cost: Scale | None) -> str:
+    letter = LETTERS[WAYS[row.kind]]
+    style = STYLE[letter]
+    marks = [
+        text(names, y + 4, _row_name(row), style, "end"),
+        dot(float(x.clipped(np.array([error(row)]))[0]), y, 3.4, style),
+    ]
+    if cost is not None and math.isfinite(which.cost(row)):
+        marks.append(dot(cost(which.cost(row)), y, 3.4, style))
+    return group(marks, f"f{letter}")
+
+
+def _row_name(row: Row) -> str:
+    return short_name(row).replace("own bias removed", "corrected")
+
+
+def _chosen(which: Shown) -> list[Row]:
+    """One row for each contender: some orders, all terms, all estimates and the best corrected one."""
+    orders = [row for row in which.expansions if row.order in NUMBERED] or list(which.expansions[:8])
+    rows = [*orders, *which.flows[-1:], *which.terms, *which.exact[:1], *which.estimates]
+    rows += sorted(which.corrected, key=error)[:2]
+    return sorted(rows, key=error)[:RANKED]

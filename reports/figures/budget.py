@@ -1,0 +1,109 @@
+"""Where the errors come from: a bar for each method's total, marks for its parts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ridgeback.common.numbers import per_cent
+from ridgeback.compare.motion.estimate_curves import RECIPES
+from ridgeback.compare.motion.results import BudgetRow
+from ridgeback.reports.drawing.apart import text_width
+from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, toggles
+from ridgeback.reports.drawing.marks import dot, drawing, group, line, places, rect, text
+from ridgeback.reports.drawing.scale import Scale
+from ridgeback.reports.figures.accuracy_cost import per_cent_tick
+
+ESTIMATES = frozenset(recipe.name for recipe in RECIPES)
+LEAST = 1e-7
+
+
+def letter(row: BudgetRow) -> str:
+    """The way that a row belongs to."""
+    if row.method in ESTIMATES or row.estimator is not None:
+        return "T"
+    return "E" if row.method.startswith(("lindstedt", "multiple-scales")) else "S"
+
+
+def ordered(rows: Sequence[BudgetRow]) -> list[BudgetRow]:
+    """By way, worst first within each."""
+    return sorted(rows, key=lambda row: ("EST".index(letter(row)), -row.total))
+
+
+def budget_figure(rows: Sequence[BudgetRow]) -> Figure:
+    """The figure."""
+    shown = ordered(rows)
+    label = "Total error of each method and its parts"
+    return Figure(
+        key="budget",
+        wide=_draw(shown, label, narrow=False),
+        narrow=_draw(shown, label, narrow=True),
+        caption="Bar: total rms error, printed at the right. Marks: its parts, measured apart; rms values do not add "
+        f"up, and the table says what they leave unexplained.{_explained(rows)}",
+        toggles=toggles(*(letter_ for letter_ in "EST" if any(letter(row) == letter_ for row in shown))),
+        label=label,
+    )
+
+
+def _explained(rows: Sequence[BudgetRow]) -> str:
+    """What the paper's equation numbers stand for, where a label has them."""
+    named = any("(14)+(21)" in row.label for row in rows)
+    return " (14)+(21): the paper’s series (14) at the amplitude A(t) of the energy (21)." if named else ""
+
+
+def _draw(rows: Sequence[BudgetRow], label: str, *, narrow: bool) -> str:
+    width, step = (NARROW, 20.0) if narrow else (WIDE, 21.0)
+    size = 11.5 if narrow else 13.5
+    left = min(max(text_width(row.label, size) for row in rows) + 12, (0.44 if narrow else 0.3) * width)
+    right = width - (56 if narrow else 74)
+    parts = [p for row in rows for p in (row.total, row.truncation, row.averaging, row.estimator) if p]
+    x = Scale(max(0.5 * min(parts), LEAST), min(2.0 * max(parts), 30.0), left, right, log=True)
+    gaps = [0.0, *(8.0 * (letter(a) != letter(b)) for a, b in zip(rows[1:], rows, strict=False))]
+    tops = 28 + np.cumsum(gaps) + step * np.arange(len(rows))
+    height = float(tops[-1]) + step + 4 if rows else 40.0
+    marks = []
+    for value in x.ticks(3 if narrow else 7):
+        marks += [line(x(value), 20, x(value), height, "g"), text(x(value), 13, per_cent_tick(value), "m sm", "middle")]
+    marks += [_row(row, float(top), x, width) for row, top in zip(rows, tops, strict=True)]
+    return drawing(width, height, "narrow" if narrow else "wide", label, marks)
+
+
+def _row(row: BudgetRow, top: float, x: Scale, width: float) -> str:
+    style = {"E": "e", "S": "s", "T": "t"}[letter(row)]
+    y = top + 8
+    end = float(x.clipped(np.array([row.total]))[0])
+    marks = [text(x.start - 8, y + 4, row.label, style, "end"), rect(x.start, y - 4, end - x.start, 8, f"{style}f")]
+    marks.append(text(width, y + 4, per_cent(row.total), style, "end"))
+    if row.truncation:
+        marks.append(
+            f'<path d="M{places(float(x.clipped(np.array([row.truncation]))[0]))} {places(y - 8)}v16" class="mk1"/>'
+        )
+    if row.averaging:
+        marks.append(dot(float(x.clipped(np.array([row.averaging]))[0]), y, 4.2, "mk2"))
+    if row.estimator:
+        at = float(x.clipped(np.array([row.estimator]))[0])
+        marks.append(f'<path d="M{places(at)} {places(y - 6)}l6 6-6 6-6-6z" class="mk3"/>')
+    return group(marks, f"f{letter(row)}")
+
+
+def budget_heading(rows: Sequence[BudgetRow]) -> str:
+    """What rules each way, from the largest part of its rows."""
+    said = []
+    for letter_, name in (("E", "the expansions"), ("S", "the models"), ("T", "the estimates")):
+        own = [row for row in rows if letter(row) == letter_]
+        ruling = {_ruling(row) for row in own} - {""}
+        if own and len(ruling) == 1:
+            said.append(f"{ruling.pop()} rules {name}")
+    text_ = ", ".join(said)
+    return text_[:1].upper() + text_[1:] if text_ else "Where the errors come from"
+
+
+def _ruling(row: BudgetRow) -> str:
+    """The part that is most of a row's total; empty where none is."""
+    parts = {"truncation": row.truncation, "averaging": row.averaging, "the estimator’s own bias": row.estimator}
+    known = {name: value for name, value in parts.items() if value}
+    if not known:
+        return ""
+    name = max(known, key=lambda n: known[n])
+    return name if known[name] > 0.7 * row.total else ""

@@ -1,0 +1,262 @@
+"""Time-frequency planes: a spectrogram's level, and the Wigner distribution with its sign and its ridge."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ridgeback.common.numbers import decibels, minus, number
+from ridgeback.compare.motion.results import Curve, DecayComparison, Image, SignedPlane
+from ridgeback.numeric.arrays import Array
+from ridgeback.reports.drawing.figure import Figure
+from ridgeback.reports.drawing.marks import curve, drawing, group, line, places, rect, text, trace
+from ridgeback.reports.drawing.panel import Panel
+from ridgeback.reports.drawing.raster import mask_uri
+from ridgeback.reports.drawing.scale import Scale
+from ridgeback.reports.figures.clock import Clock, shown
+
+SIZE = (500.0, 372.0)
+MOST = 7
+"""Highest multiple of the fundamental that is marked."""
+
+
+def planes(decay: DecayComparison) -> Figure:
+    """Spectrogram and Wigner distribution of the motion, side by side."""
+    clock = Clock(decay.case.time_unit)
+    span = (float(decay.time[0]), float(decay.time[-1]))
+    strong = _strong(decay)
+    left = level_plane("spectrogram", decay.spectrogram_u, clock, span, decay.reference, strong)
+    right = signed_plane("wigner", decay.wigner_u, clock, span)
+    return Figure(
+        key="planes",
+        wide=left + right,
+        narrow="",
+        caption=_caption(decay, strong),
+        many="two",
+        label="Spectrogram and Wigner distribution",
+    )
+
+
+def _strong(decay: DecayComparison) -> list[int]:
+    """Multiples of the fundamental that stand in the spectrogram: within 50 dB of its maximum on their ridge."""
+    image = decay.spectrogram_u
+    known = decay.reference.valid & np.isfinite(decay.reference.omega)
+    omega = np.interp(image.time, decay.reference.time[known], decay.reference.omega[known])
+    found = []
+    for multiple in range(1, MOST + 1):
+        if multiple * float(omega.max()) < float(image.omega[-1]):
+            rows = np.abs(image.omega[:, None] - multiple * omega[None, :]).argmin(axis=0)
+            here = image.level_db[rows, np.arange(image.time.size)]
+            between = np.abs(image.omega[:, None] - (multiple + 0.5) * omega[None, :]).argmin(axis=0)
+            beside = image.level_db[between, np.arange(image.time.size)]
+            if float(np.median(here)) > image.floor_db + 8 and (multiple == 1 or float(np.median(here - beside)) > 4):
+                found.append(multiple)
+    return found
+
+
+def _caption(decay: DecayComparison, strong: Sequence[int]) -> str:
+    listed = ", ".join(f"{m} ω₀" for m in strong if m > 1)
+    first = f"Left: {decay.spectrogram_u.note.split('.  ')[0]}; thin lines are multiples of the reference"
+    first += f", {listed} standing out." if listed else "; no harmonic stands out."
+    bias = _bias(decay)
+    return (
+        f"{first} Shaded: the window would leave the record. Right: blue positive, orange negative, fringes are cross "
+        f"terms; dashed the reference, thick the ridge{bias}."
+    )
+
+
+def _bias(decay: DecayComparison) -> str:
+    bias = decay.wigner_bias
+    if bias is None or bias.measured is None or abs(bias.measured) < 1e-4:
+        return ""
+    return f", on average {100 * abs(bias.measured):.2f} % {'below' if bias.measured < 0 else 'above'} it"
+
+
+def _frame(span: tuple[float, float], omega: Array, clock: Clock) -> Panel:
+    x = Scale(*span, 44.0, 492.0)
+    return Panel(x, Scale(0.0, float(omega[-1]) * clock.factor, 286.0, 28.0))
+
+
+def _axes(panel: Panel, clock: Clock, title: str) -> list[str]:
+    marks = [text(0, 12, clock.unit or "ω", "m"), text(44, 12, title, "fgt b")]
+    marks.append(trace("ax nf", "M", panel.left, panel.top, "V", panel.bottom, "H", panel.right))
+    for value in panel.y.ticks(5):
+        marks += [
+            line(panel.left - 4, panel.y(value), panel.left, panel.y(value), "ax"),
+            text(panel.left - 7, panel.y(value) + 4, f"{value:g}", "m", "end"),
+        ]
+    for value in panel.x.ticks(5):
+        marks += [
+            line(panel.x(value), panel.bottom, panel.x(value), panel.bottom + 4, "ax"),
+            text(panel.x(value), panel.bottom + 18, f"{value:g}", "m", "middle"),
+        ]
+    marks.append(text(panel.right, panel.bottom + 33, clock.time_title, "m", "end"))
+    return marks
+
+
+def _edges(values: Array) -> tuple[float, float]:
+    half = 0.5 * float(values[1] - values[0]) if values.size > 1 else 0.5
+    return float(values[0]) - half, float(values[-1]) + half
+
+
+def _box(panel: Panel, time: Array, omega: Array, clock: Clock) -> tuple[float, float, float, float]:
+    (t0, t1), (w0, w1) = _edges(time), _edges(omega * clock.factor)
+    x0, x1 = max(panel.x(t0), panel.left), min(panel.x(t1), panel.right)
+    return x0, panel.y(w1), x1 - x0, panel.y(w0) - panel.y(w1)
+
+
+def _image(mask: str, uri: str, box: tuple[float, float, float, float]) -> str:
+    x, y, width, height = (places(v) for v in box)
+    place = f'x="{x}" y="{y}" width="{width}" height="{height}"'
+    return f'<mask id="{mask}"><image href="{uri}" {place} preserveAspectRatio="none"/></mask>'
+
+
+def _masked(key: str) -> str:
+    return f'mask="url(#{key})"'
+
+
+def level_plane(
+    key: str,
+    image: Image,
+    clock: Clock,
+    span: tuple[float, float],
+    reference: Curve | None,
+    multiples: Sequence[int] = (1,),
+) -> str:
+    """One plane in decibels, with multiples of a curve over it and a bar of its colours."""
+    panel = _frame(span, image.omega, clock)
+    box = _box(panel, image.time, image.omega, clock)
+    share = np.clip((image.level_db - image.floor_db) / -image.floor_db, 0.0, 1.0)
+    marks = [f"<defs>{_image(f'{key}-m', mask_uri(share), box)}{_ramp(f'{key}-g', ('bg', 'b5'))}</defs>"]
+    frame = (panel.left, panel.top, panel.right - panel.left, panel.bottom - panel.top)
+    clip = f'<clipPath id="{key}-c">{rect(*frame, "")}</clipPath>'
+    marks.append(
+        f"<defs>{clip}</defs>" + rect(panel.left, panel.top, panel.right - panel.left, panel.bottom - panel.top, "hat")
+    )
+    plane = rect(*box, "bgf") + rect(*box, "b5 img", _masked(f"{key}-m"))
+    marks.append(f'<g clip-path="url(#{key}-c)">{plane}</g>')
+    if reference is not None:
+        x = panel.x.of(reference.time)
+        inside = (reference.time >= image.time[0]) & (reference.time <= image.time[-1])
+        names = []
+        for m in multiples:
+            y = np.where(inside, panel.y.of(m * shown(reference) * clock.factor), np.nan)
+            y = np.where(y >= panel.top, y, np.nan)
+            if np.isfinite(y).any():
+                marks.append(curve(x, y, "rd nf"))
+                last = int(np.flatnonzero(np.isfinite(y))[-1])
+                names.append(text(float(x[last]) + 3, float(y[last]) + 4, f"{m} ω₀" if m > 1 else "ω₀", "e b sm"))
+        marks.append(group(names, "halo"))
+    marks += _axes(panel, clock, image.name) + _bar(
+        f"{key}-g", [(v, decibels(v)) for v in np.linspace(image.floor_db, 0, 5)], image.floor_db, 0.0, "of the maximum"
+    )
+    return drawing(*SIZE, "one", f"{image.name}, level in decibels of its maximum", marks)
+
+
+def signed_plane(key: str, plane: SignedPlane, clock: Clock, span: tuple[float, float]) -> str:
+    """One plane in two hues that meet in the background, its ridge and the reference over it, a part of it enlarged."""
+    panel = _frame(span, plane.omega, clock)
+    box = _box(panel, plane.time, plane.omega, clock)
+    positive, negative = (mask_uri(np.clip(sign * plane.values, 0.0, 1.0)) for sign in (1.0, -1.0))
+    defs = (
+        _image(f"{key}-p", positive, box) + _image(f"{key}-n", negative, box) + _ramp(f"{key}-g", ("neg", "bg", "pos"))
+    )
+    marks = [f"<defs>{defs}</defs>"]
+    pair = rect(*box, "posf img", _masked(f"{key}-p")) + rect(*box, "negf img", _masked(f"{key}-n"))
+    lines = _ridge(plane, panel, clock)
+    marks += [pair, lines, *_enlarged(plane, panel, clock, pair + lines), *_axes(panel, clock, plane.name)]
+    marks += _bar(f"{key}-g", _signed_ticks(plane.knee), -1.0, 1.0, "of the maximum (arcsinh)")
+    return drawing(*SIZE, "one", f"{plane.name}, signed, with its ridge and the reference", marks)
+
+
+def _signed_ticks(knee: float) -> list[tuple[float, str]]:
+    """Shares of the maximum through the plane's own scale."""
+    return [(float(np.arcsinh(v / knee) / np.arcsinh(1 / knee)), minus(f"{v:g}")) for v in (-1.0, -0.1, 0.0, 0.1, 1.0)]
+
+
+def _ridge(plane: SignedPlane, panel: Panel, clock: Clock) -> str:
+    parts = []
+    for overlay in plane.overlays:
+        x, y = panel.x.of(overlay.time), panel.y.of(shown(overlay) * clock.factor)
+        kinds = ("rfc nf", "rf2 nf") if overlay.kind == "reference" else ("rdTc nf", "rdT nf")
+        parts += [curve(x, y, kind) for kind in kinds]
+    ridges = [o for o in plane.overlays if o.kind != "reference"]
+    order = parts if not ridges else [*parts[2:], *parts[:2]]
+    return "".join(order)
+
+
+def _enlarged(plane: SignedPlane, panel: Panel, clock: Clock, content: str) -> list[str]:
+    """The region where ridge and reference part most, twice and a half as large, where the plane leaves room."""
+    ridge = next((o for o in plane.overlays if o.kind != "reference"), None)
+    reference = next((o for o in plane.overlays if o.kind == "reference"), None)
+    if ridge is None or reference is None or not ridge.valid.any():
+        return []
+    known = reference.valid & np.isfinite(reference.omega)
+    apart = shown(ridge) / np.interp(ridge.time, reference.time[known], reference.omega[known]) - 1
+    if not np.isfinite(apart).any():
+        return []
+    at = int(np.nanargmax(np.abs(apart)))
+    x, y = panel.x(float(ridge.time[at])), panel.y(float(ridge.omega[at]) * clock.factor)
+    width, height = 160.0, 52.0
+    x0 = min(max(x - width / 2, panel.left), panel.right - width)
+    y0 = min(max(y - height / 2, panel.top), panel.bottom - height)
+    big = (panel.left + 100, panel.top + 8, 200.0, 100.0)
+    if y0 < big[1] + big[3] + 12:
+        big = (panel.left + 100, panel.bottom - 108, 200.0, 100.0)
+        if y0 + height > big[1] - 12:
+            return []
+    source = (x0, y0, width, height)
+    percent = f"{100 * abs(float(apart[at])):.1f} % {'low' if apart[at] < 0 else 'high'}"
+    words = [
+        text(big[0] + big[2] - 6, big[1] + big[3] - 8, f"ridge, {percent}", "t b sm", "end"),
+        text(big[0] + 6, big[1] + 14, "reference", "fgt b sm"),
+    ]
+    return [
+        rect(*source, "zb"),
+        _leads(source, big),
+        _lens(source, big, rect(*source, "bgf") + content),
+        rect(*big, "zb"),
+        group(words, "halo"),
+    ]
+
+
+Rectangle = tuple[float, float, float, float]
+"""Left, top, width and height."""
+
+
+def _lens(source: Rectangle, big: Rectangle, content: str) -> str:
+    """The content of one rectangle in a larger one; its own size keeps the page's rule for drawings off it."""
+    x, y, width, height = (places(v) for v in big)
+    view = " ".join(places(v) for v in source)
+    place = f'x="{x}" y="{y}" width="{width}" height="{height}" style="width:{width}px;height:{height}px"'
+    return f'<svg class="in" {place} viewBox="{view}" preserveAspectRatio="none">{content}</svg>'
+
+
+def _leads(source: Rectangle, big: Rectangle) -> str:
+    """Lines from the corners of a rectangle to those of its enlargement."""
+    below = big[1] > source[1]
+    a, b = (source[1] + source[3], big[1]) if below else (source[1], big[1] + big[3])
+    ends = ((source[0], big[0]), (source[0] + source[2], big[0] + big[2]))
+    d = "".join(f"M{places(x)} {places(a)}L{places(x_big)} {places(b)}" for x, x_big in ends)
+    return f'<path d="{d}" class="zl"/>'
+
+
+def _ramp(key: str, tokens: Sequence[str]) -> str:
+    stops = "".join(
+        f'<stop offset="{i / (len(tokens) - 1):g}" style="stop-color:var(--{token})"/>'
+        for i, token in enumerate(tokens)
+    )
+    return f'<linearGradient id="{key}">{stops}</linearGradient>'
+
+
+def _bar(ramp: str, ticks: Sequence[tuple[float, str]], low: float, high: float, words: str) -> list[str]:
+    scale = Scale(low, high, 44.0, 284.0)
+    marks = [f'<rect x="44" y="340" width="240" height="10" fill="url(#{ramp})" class="bar"/>']
+    marks += [text(scale(v), 365, name, "m sm", "middle") for v, name in ticks]
+    return [*marks, text(294, 350, words, "m sm")]
+
+
+def ratio_line(low: float, high: float, unit: str) -> str:
+    """Two ends of a range in words."""
+    return f"{number(low)} to {number(high)} {unit}".strip()

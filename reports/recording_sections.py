@@ -1,0 +1,81 @@
+"""The sections of a recording: backbone, what made it, its forecast, the record and its plane."""
+
+from __future__ import annotations
+
+from ridgeback.compare.report.recording_summary import held
+from ridgeback.compare.report.results import Report
+from ridgeback.compare.study.results import Trend, trend_of
+from ridgeback.reports.figures.identification import (
+    candidates_figure,
+    forecast_figure,
+    parameter_table,
+    ranking_table,
+)
+from ridgeback.reports.figures.recording import backbone_figure, plane_figure, signal_figure, tracks_figure
+from ridgeback.reports.parts import Part, Section, fold, set_formula
+
+
+def recording_sections(report: Report) -> tuple[Section, ...]:
+    """Sections of a report on a recording; none of another report."""
+    found = (_backbone(report), _made(report), _forecast(report), _record(report), _tracks(report))
+    return tuple(section for section in found if section is not None)
+
+
+def _backbone(report: Report) -> Section | None:
+    found = report.recording
+    if found is None:
+        return None
+    parts = [Part("figure", backbone_figure(found))]
+    if found.fit:
+        parts.append(Part("formula", set_formula(found.fit)))
+    if found.notes:
+        parts.append(fold("Notes on the measurement", Part("lines", found.notes)))
+    return Section("recording", "Backbone", "Frequency and growth rate against amplitude", tuple(parts))
+
+
+def _made(report: Report) -> Section | None:
+    found = report.identification
+    if found is None:
+        return None
+    parts = [
+        Part("text", found.verdict),
+        Part("figure", candidates_figure(found)),
+        Part("table", parameter_table(found.best)),
+        fold("All classes, ranked", Part("table", ranking_table(found))),
+    ]
+    if found.notes:
+        parts.append(fold("Notes on the ranking", Part("lines", found.notes)))
+    title = f"Nearest class: {found.best.title}" if found.described else "No class describes this recording"
+    return Section("identification", "What made it", title, tuple(parts))
+
+
+def _forecast(report: Report) -> Section | None:
+    found = report.identification
+    if found is None or found.prediction is None:
+        return None
+    title = f"The forecast of the later cycles {'held' if held(found) else 'did not hold'}"
+    return Section("forecast", "Forecast", title, (Part("figure", forecast_figure(found.prediction, found)),))
+
+
+def _record(report: Report) -> Section | None:
+    found = report.recording
+    if found is None:
+        return None
+    text = f"{found.source}, column {found.column}."
+    parts = (Part("text", text), Part("figure", signal_figure(found)), Part("figure", plane_figure(found)))
+    return Section("record", "The record", "The record and its time-frequency plane", parts)
+
+
+def _tracks(report: Report) -> Section | None:
+    found = report.recording
+    if found is None:
+        return None
+    return Section("tracks", "Frequency in time", _tracks_title(report), (Part("figure", tracks_figure(found)),))
+
+
+def _tracks_title(report: Report) -> str:
+    found = report.recording
+    if found is None:
+        return ""
+    way = trend_of(found.backbone_omega, found.backbone_omega_sd)
+    return "Frequency in time by every estimator" + (", no change beyond noise" if way is Trend.CONSTANT else "")
