@@ -25,7 +25,7 @@ def _backbone(report: Report) -> Section | None:
     found = report.recording
     if found is None:
         return None
-    parts = [Part("figure", backbone_figure(found))]
+    parts = [Part("figure", backbone_figure(found))] if found.backbone_amplitude.size else []
     if found.fit:
         parts.append(Part("formula", set_formula(found.fit)))
     if found.notes:
@@ -77,5 +77,7 @@ def _tracks_title(report: Report) -> str:
     found = report.recording
     if found is None:
         return ""
+    if not found.backbone_omega.size:
+        return "Frequency in time by every estimator"
     way = trend_of(found.backbone_omega, found.backbone_omega_sd)
     return "Frequency in time by every estimator" + (", no change beyond noise" if way is Trend.CONSTANT else "")

@@ -100,7 +100,7 @@ def _order(report: Report) -> Section | None:
     study, grid, finding = report.study, report.grid, report.finding
     if study is None or grid is None or finding is None:
         return None
-    parts = [Part("figure", order_map(study, grid, finding.order, report.decay))]
+    parts = [Part("figure", order_map(study, grid, finding, report.decay))]
     tables = [Part("table", range_table(report.ranges, letter(study), study.amplitude_unit))]
     if report.certified:
         tables.append(Part("table", certified_table(report.certified, study.amplitude_unit)))

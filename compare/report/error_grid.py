@@ -8,25 +8,20 @@ nothing is called certified.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
-from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.generated_code import python_module
 from ridgeback.compare.study.derived import Derived
 from ridgeback.compare.study.results import Study
 from ridgeback.numeric.arrays import Array, freeze
-from ridgeback.symbolic.certificates.accuracy import certified_error
+from ridgeback.symbolic.certificates.values import Errors, errors_of_values, growth_power
 from ridgeback.symbolic.codegen import generate
-from ridgeback.symbolic.enclosure.enclosure import enclose
 
-BITS = 128
-FINE_BITS = 512
-"""Of the errors at small amplitudes, which shrink like A^(n + 2)."""
 PAIRS = ((0.02, 0.04), (0.16, 0.32))
 """Pairs of amplitudes between which the power of the error is read, as shares of the radius or of the largest one."""
 
@@ -82,13 +77,12 @@ def error_grid(derived: Derived, study: Study) -> ErrorGrid:
     k = float(derived.expansion.scale)
     values = np.array([np.asarray(python_module(part).omega0(study.amplitudes), dtype=float) for part in parts])
     code = {order: function(generate(part, "javascript")) for order, part in zip(study.orders, parts, strict=True)}
-    balls = _balls(derived, study.amplitudes)
-    if balls is None:
+    enclosed = _enclosed(derived, study.amplitudes, values)
+    if enclosed is None:
         errors = values / study.reference - 1
         exact, bounds = study.reference, np.abs(errors) + study.reference_error
     else:
-        exact = np.array([float(ball.mid()) for ball in balls])
-        errors, bounds = _enclosed(values, balls)
+        exact, errors, bounds = (np.array(part) for part in (enclosed.exact, enclosed.signed, enclosed.bounds))
     return ErrorGrid(
         orders=study.orders,
         amplitudes=study.amplitudes,
@@ -96,10 +90,10 @@ def error_grid(derived: Derived, study: Study) -> ErrorGrid:
         values=values,
         errors=errors,
         bounds=bounds,
-        certified=balls is not None,
+        certified=enclosed is not None,
         code=code,
         scale=k,
-        observed=_observed(derived, study) if balls is not None else (),
+        observed=_observed(derived, study) if enclosed is not None else (),
     )
 
 
@@ -115,48 +109,27 @@ def function(text: str) -> str:
     return found[0].strip().replace("export function omega0_unchecked", "function omega0", 1)
 
 
-def _balls(derived: Derived, amplitudes: Array) -> list[arb] | None:
-    """Exact omega0 at each amplitude; None where there is no enclosure at one of them."""
+def _enclosed(derived: Derived, amplitudes: Array, values: Array) -> Errors | None:
+    """Errors of the values; None where omega0 has no enclosure at one of the amplitudes."""
     if derived.expansion.variable != "A":
         return None
     try:
-        return [enclose(derived.undamped.oscillator, Fraction(a), bits=BITS).omega for a in amplitudes.tolist()]
+        return errors_of_values(derived.undamped.oscillator, amplitudes.tolist(), values.tolist())
     except InputError:
         return None
-
-
-def _enclosed(values: Array, balls: Sequence[arb]) -> tuple[Array, Array]:
-    errors, bounds = np.full(values.shape, np.nan), np.full(values.shape, np.nan)
-    with ctx.workprec(BITS + 40):
-        for i, row in enumerate(values.tolist()):
-            for j, value in enumerate(row):
-                ball = arb(value) / balls[j] - 1
-                errors[i, j] = float(ball.mid())
-                bounds[i, j] = float(abs(ball).upper())
-    return errors, np.nextafter(bounds, np.inf)
 
 
 def _observed(derived: Derived, study: Study) -> tuple[tuple[float, float, Array], ...]:
     """The power of A with which each order's error grows between two amplitudes, from enclosed errors."""
     top = derived.limits.radius or float(study.amplitudes[-1])
     oscillator = derived.undamped.oscillator
+    parts = [derived.expansion.truncated(order) for order in study.orders]
     found = []
-    for low, high in PAIRS:
-        a, b = (Fraction(f"{share * top:.3g}") for share in (low, high))
-        powers = []
-        for order in study.orders:
-            part = derived.expansion.truncated(order)
-            try:
-                small, large = (certified_error(oscillator, part, x, bits=FINE_BITS) for x in (a, b))
-            except InputError:
-                return ()
-            powers.append(_power(small, large, float(b / a)))
-        found.append((float(a), float(b), np.array(powers)))
+    for shares in PAIRS:
+        small, large = (Fraction(f"{share * top:.3g}") for share in shares)
+        try:
+            powers = np.array([growth_power(oscillator, part, small, large) for part in parts])
+        except InputError:
+            return ()
+        found.append((float(small), float(large), powers))
     return tuple(found)
-
-
-def _power(small: arb, large: arb, ratio: float) -> float:
-    if small.contains(0) or large.contains(0):
-        return float("nan")
-    with ctx.workprec(FINE_BITS):
-        return float((abs(large / small).log() / arb(ratio).log()).mid())

@@ -50,6 +50,9 @@ def title_of(verdict: Verdict, reference: Reference) -> str:
     if verdict.rival is None or verdict.ratio is None:
         return f"{capital(named)} follows ω₀(t) within {error}"
     rival = short_name(verdict.rival)
+    if verdict.decided and float(verdict.best.relative_rms_error or 0.0) <= reference.floor:
+        within = f"as closely as it is defined ({per_cent(reference.floor)})"
+        return f"{capital(named)} follows ω₀(t) {within}, {two_digits(verdict.ratio)} times closer than {rival}"
     if verdict.decided:
         return f"{capital(named)} follows ω₀(t) within {error}, {two_digits(verdict.ratio)} times closer than {rival}"
     return f"{capital(named)} and {rival} both follow ω₀(t) as closely as it is defined, to {per_cent(reference.floor)}"

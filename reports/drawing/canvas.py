@@ -1,4 +1,4 @@
-"""Where a figure is drawn: panels at known places, axis titles, ticks, curves in sentinel colours.
+"""Where a figure is drawn: panels at known places, axis titles, ticks, curves in the light page's colours.
 
 matplotlib is used through its objects alone (no pyplot, no global state); one unit is one point of the SVG.
 """
@@ -15,7 +15,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocat
 
 from ridgeback.common.numbers import number, power_of_ten
 from ridgeback.numeric.arrays import Array
-from ridgeback.reports.drawing.theme import Variant, sentinel
+from ridgeback.reports.drawing.theme import Variant, colour_of
 
 TOP, BOTTOM, LEFT, RIGHT, GAP = 26.0, 34.0, 46.0, 18.0, 34.0
 
@@ -106,19 +106,19 @@ def dress(axes: Axes) -> Axes:
     """Give a panel the house style: grey frame left and below, horizontal grid, short ticks."""
     axes.patch.set_visible(False)
     for side in ("left", "bottom"):
-        axes.spines[side].set_color(sentinel("muted"))
-    axes.tick_params(color=sentinel("muted"), labelcolor=sentinel("fg"), width=0.8, length=3.5, pad=3)
-    axes.grid(visible=True, axis="y", color=sentinel("grid"))
+        axes.spines[side].set_color(colour_of("muted"))
+    axes.tick_params(color=colour_of("muted"), labelcolor=colour_of("fg"), width=0.8, length=3.5, pad=3)
+    axes.grid(visible=True, axis="y", color=colour_of("grid"))
     return axes
 
 
 def titles(axes: Axes, *, x: str = "", y: str = "") -> None:
     """Write the x title under the axis and the y title horizontally above it."""
     if x:
-        axes.set_xlabel(x, color=sentinel("fg"), labelpad=3)
+        axes.set_xlabel(x, color=colour_of("fg"), labelpad=3)
     if y:
         offset = axes.annotate(y, (0.0, 1.0), (-LEFT + 10.0, 9.0), xycoords="axes fraction", textcoords="offset points")
-        offset.set_color(sentinel("fg"))
+        offset.set_color(colour_of("fg"))
 
 
 def linear(axes: Axes, axis: str, low: float, high: float, *, ticks: int = 6) -> None:
@@ -158,7 +158,7 @@ def draw(axes: Axes, line: Line) -> None:
     (artist,) = axes.plot(
         line.x,
         line.y,
-        color=sentinel(line.token),
+        color=colour_of(line.token),
         linewidth=line.width if not line.marker else 0.0,
         linestyle=line.dash,
         marker=line.marker or None,
@@ -173,7 +173,7 @@ def draw(axes: Axes, line: Line) -> None:
 def limit_line(axes: Axes, x: float) -> None:
     """Mark the end of a range of use: a strong vertical line with a casing of the background."""
     for width, token in ((5.0, "bg"), (2.2, "fg")):
-        axes.axvline(x, color=sentinel(token), linewidth=width, zorder=2.5, solid_capstyle="butt")
+        axes.axvline(x, color=colour_of(token), linewidth=width, zorder=2.5, solid_capstyle="butt")
 
 
 def shade(axes: Axes, low: float, high: float, *, hatched: bool = False) -> None:
@@ -181,9 +181,9 @@ def shade(axes: Axes, low: float, high: float, *, hatched: bool = False) -> None
     if high <= low:
         return
     if hatched:
-        axes.axvspan(low, high, facecolor="none", edgecolor=sentinel("grid"), hatch="////", linewidth=0.0, zorder=0.4)
+        axes.axvspan(low, high, facecolor="none", edgecolor=colour_of("grid"), hatch="////", linewidth=0.0, zorder=0.4)
     else:
-        axes.axvspan(low, high, color=sentinel("grid"), alpha=0.45, linewidth=0.0, zorder=0.3)
+        axes.axvspan(low, high, color=colour_of("grid"), alpha=0.45, linewidth=0.0, zorder=0.3)
 
 
 def padded(values: Sequence[Array], *, share: float = 0.06) -> tuple[float, float]:

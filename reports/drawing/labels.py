@@ -15,7 +15,7 @@ from matplotlib.text import Text
 
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.canvas import Line
-from ridgeback.reports.drawing.theme import sentinel
+from ridgeback.reports.drawing.theme import colour_of
 
 Box = tuple[float, float, float, float]
 
@@ -129,7 +129,7 @@ def _write(axes: Axes, line: Line, box: Box, anchor: tuple[float, float], size: 
         x = min(max(anchor[0], box[0] + 2), box[2] - 2)
         ends = np.array([[x, edge], list(anchor)])
         inverse = axes.transAxes.inverted().transform(ends)
-        axes.plot(*inverse.T, transform=axes.transAxes, color=sentinel(line.token), linewidth=0.7, zorder=4.0)[
+        axes.plot(*inverse.T, transform=axes.transAxes, color=colour_of(line.token), linewidth=0.7, zorder=4.0)[
             0
         ].set_gid(f"class:{line.style or 'leader'}")
     text = axes.text(
@@ -140,7 +140,7 @@ def _write(axes: Axes, line: Line, box: Box, anchor: tuple[float, float], size: 
         ha="center",
         va="baseline",
         fontsize=size,
-        color=sentinel(line.token),
+        color=colour_of(line.token),
         zorder=6.0,
     )
     text.set_gid(f"class:{style}")
@@ -148,7 +148,7 @@ def _write(axes: Axes, line: Line, box: Box, anchor: tuple[float, float], size: 
 
 def note(axes: Axes, text: str, x: float, y: float, *, align: str = "left", token: str = "fg") -> Box:
     """Write a short text at axes fractions with a halo; returns its box in display units."""
-    written = axes.text(x, y, text, transform=axes.transAxes, ha=align, va="center", color=sentinel(token), zorder=6.0)
+    written = axes.text(x, y, text, transform=axes.transAxes, ha=align, va="center", color=colour_of(token), zorder=6.0)
     written.set_gid("class:halo")
     extent = written.get_window_extent(_renderer(axes))
     return float(extent.x0), float(extent.y0), float(extent.x1), float(extent.y1)

@@ -12,7 +12,7 @@ from matplotlib.text import Text
 
 from ridgeback.common.visible import visible
 from ridgeback.reports.drawing.canvas import Canvas
-from ridgeback.reports.drawing.theme import DRAWING, plain_colours, sentinel
+from ridgeback.reports.drawing.theme import DRAWING, colour_of
 
 RESOLUTION = 160.0
 NO_DATES = {
@@ -24,17 +24,13 @@ NO_DATES = {
 
 def picture(drawn: Callable[[], Canvas], kind: str) -> bytes:
     """Return what ``drawn`` draws as SVG, PNG or PDF, on a background of its own."""
-    with (
-        matplotlib.style.context(["default", dict(DRAWING)]),
-        warnings.catch_warnings(),
-        plain_colours(),
-    ):
+    with matplotlib.style.context(["default", dict(DRAWING)]), warnings.catch_warnings():
         # A unit may hold a letter that the font lacks: it is drawn as a box, which is no reason to fail.
         warnings.filterwarnings("ignore", message="Glyph .* missing from font", category=UserWarning)
         canvas = drawn()
         show_plainly(canvas)
         canvas.figure.patch.set_visible(True)
-        canvas.figure.patch.set_facecolor(sentinel("bg"))
+        canvas.figure.patch.set_facecolor(colour_of("bg"))
         stream = io.BytesIO()
         dpi = RESOLUTION if kind == "png" else 72.0
         canvas.figure.savefig(stream, format=kind, metadata=NO_DATES[kind], dpi=dpi)

@@ -1,14 +1,12 @@
 """Colours, sizes and fonts of a page: one table of tokens, used as CSS variables by text and figures alike.
 
-Figures are drawn in *sentinel* colours, one per token, that never occur otherwise; ``drawing.svg`` replaces
-each by ``var(--token)``, so that one drawing serves the light page, the dark page and the printer.
+The page's drawings name classes, which its style sheet colours by these variables, so that one drawing serves the light
+page, the dark page and the printer; pictures that stand by themselves are drawn in the light page's colours.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -94,36 +92,13 @@ WIDE = Variant(name="wide", width=7.6, height=4.2)
 NARROW = Variant(name="narrow", width=3.75, height=3.6)
 
 
-_PLAIN: ContextVar[bool] = ContextVar("plain", default=False)
+def colour_of(token: str) -> str:
+    """The light page's colour of a token, for pictures that stand by themselves.
 
-
-@contextmanager
-def plain_colours() -> Iterator[None]:
-    """Draw in the light page's own colours instead of sentinels: for a picture that stands by itself.
-
-    >>> with plain_colours():
-    ...     sentinel("bg")
+    >>> colour_of("bg")
     '#FFFFFF'
     """
-    token = _PLAIN.set(True)
-    try:
-        yield
-    finally:
-        _PLAIN.reset(token)
-
-
-def sentinel(token: str) -> str:
-    """Return the drawing colour that stands for a token.
-
-    >>> sentinel("bg"), sentinel("fg")
-    ('#01fe00', '#01fe01')
-    """
-    if _PLAIN.get():
-        return TOKENS[token][0]
-    return f"#01fe{list(TOKENS).index(token):02x}"
-
-
-SENTINELS: Mapping[str, str] = MappingProxyType({sentinel(token): f"var(--{token})" for token in TOKENS})
+    return TOKENS[token][0]
 
 
 def _declarations(theme: int) -> str:

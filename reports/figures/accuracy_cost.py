@@ -156,7 +156,7 @@ def _frame(which: Shown, panel: Panel, target: float) -> Iterable[str]:
         yield group([text(panel.right, panel.y(target) - 5, f"target {threshold(target)}", "m sm", "end")], "halo")
     if floor > panel.y.low:
         words = f"below {per_cent(floor)} two readings of ω₀(t) disagree"
-        yield group([text(panel.left + 8, panel.bottom - 8, words, "m sm")], "halo")
+        yield group([text((panel.left + panel.right) / 2, panel.bottom - 8, words, "m sm", "middle")], "halo")
 
 
 def per_cent_tick(value: float) -> str:
@@ -214,21 +214,17 @@ def _families(which: Shown, panel: Panel) -> Iterable[str]:
     e += [_chain(which, panel, which.flows, "e", dashed=True)]
     words = [_numbers(which, panel, which.expansions, "e", left=True)]
     native = any(row.language == "c" for row in which.expansions)
-    name = f"expansions{', generated C' if native else ''}"
-    words += _named(which, panel, which.expansions, "e b", name, last=True)
-    words += _named(which, panel, which.in_python, "e sm", "in Python")
+    name = f"expansions{' in C' if native else ''}"
+    words += _named(which, panel, which.expansions, "e b", name)
+    words += _named(which, panel, which.in_python, "e sm", "in Python", last=True)
     words += _named(which, panel, which.flows, "e sm", "multiple scales")
     yield group([*e, group(words, "halo")], "fE")
     s = [_chain(which, panel, which.terms, "s")]
-    s += [
-        "".join(
-            dot(x, y, 4.5, "s", _title(row)) for x, y, row in _places(which, panel, which.exact) if math.isfinite(x)
-        )
-    ]
+    exact = [place for place in _places(which, panel, which.exact) if math.isfinite(place[0])]
+    s += [dot(x, y, 4.5, "s", _title(row)) for x, y, row in exact]
     words = [_numbers(which, panel, which.terms, "s")]
     words += _named(which, panel, which.terms, "s b", "series (14), by terms")
-    at = [(x, y) for x, y, _ in _places(which, panel, which.exact) if math.isfinite(x)]
-    words += [text(x + 9, y + 4, "exact ω₀ at A(t) of (21)", "s") for x, y in at]
+    words += [text(x + 9, y + 4, "exact ω₀ at A(t) of (21)", "s") for x, y, _ in exact]
     yield group([*s, group(words, "halo")], "fS")
 
 
@@ -239,9 +235,9 @@ def _named(which: Shown, panel: Panel, rows: Sequence[Row], style: str, name: st
         return []
     if last:
         x, y, _ = max(at, key=lambda p: p[1])
-        return [text(max(x - 60, panel.left + 4), min(y + 20, panel.bottom - 22), name, style)]
+        return [text(x + 9, min(y + 4, panel.bottom - 22), name, style)]
     x, y, _ = min(at, key=lambda p: p[1])
-    return [text(x + 9, max(y - 9, panel.top + 10), name, style)]
+    return [text(max(x - 12, panel.left + 4), max(y - 10, panel.top + 12), name, style)]
 
 
 def _estimates(which: Shown, panel: Panel) -> Iterable[str]:

@@ -12,7 +12,7 @@ from ridgeback.compare.benchmark.contenders import WAYS, Row
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.reports.drawing.canvas import Canvas, Line, decades, draw, titles
 from ridgeback.reports.drawing.picture import picture
-from ridgeback.reports.drawing.theme import Variant, sentinel
+from ridgeback.reports.drawing.theme import Variant, colour_of
 
 PAGE = Variant("wide", 9.0, 5.4)
 TOKENS = {"expansions": "s2", "series model": "s1", "estimates": "s3", None: "fg"}
@@ -60,7 +60,7 @@ def seconds(row: Row, count: int) -> float | None:
 def floor(axes: Axes, found: Benchmark) -> None:
     """Shade the errors that the reference itself leaves open."""
     low = axes.get_ylim()[0]
-    axes.axhspan(low, found.reference.floor, color=sentinel("grid"), alpha=0.45, linewidth=0.0, zorder=0.3)
+    axes.axhspan(low, found.reference.floor, color=colour_of("grid"), alpha=0.45, linewidth=0.0, zorder=0.3)
     note = axes.annotate(
         "two readings of omega0(t) differ by this much",
         (0.22, found.reference.floor),
@@ -68,7 +68,7 @@ def floor(axes: Axes, found: Benchmark) -> None:
         xycoords=("axes fraction", "data"),
         textcoords="offset points",
     )
-    note.set_color(sentinel("muted"))
+    note.set_color(colour_of("muted"))
 
 
 FAMILIES = (
@@ -99,7 +99,7 @@ def title(axes: Axes, group: Sequence[Row], name: str, token: str, count: int) -
     top = max(group, key=lambda row: row.relative_rms_error or 0.0)
     at = (float(seconds(top, count) or 0.0), float(top.relative_rms_error or 0.0))
     text = axes.annotate(name, at, (10.0, 13.0), textcoords="offset points", ha="right", fontsize=10.0)
-    text.set_color(sentinel(token))
+    text.set_color(colour_of(token))
 
 
 def chain(axes: Axes, rows: Sequence[Row], token: str, count: int, *, dashed: bool, numbered: bool) -> None:
@@ -110,7 +110,7 @@ def chain(axes: Axes, rows: Sequence[Row], token: str, count: int, *, dashed: bo
     for row, at in zip(rows, zip(x, y, strict=True), strict=True):
         if numbered and (row.order in NUMBERED or len(rows) < 6):
             text = axes.annotate(str(row.order), at, (5.0, -3.0), textcoords="offset points", fontsize=9.0)
-            text.set_color(sentinel(token))
+            text.set_color(colour_of(token))
 
 
 def points(axes: Axes, rows: Sequence[Row], count: int) -> None:
@@ -145,12 +145,12 @@ def column(axes: Axes, named: Sequence[tuple[Row, float, float, str]]) -> None:
             (box.width + 8.0, height),
             textcoords="axes points",
             fontsize=9.0,
-            color=sentinel(token),
+            color=colour_of(token),
             va="center",
             annotation_clip=False,
             arrowprops={
                 "arrowstyle": "-",
-                "color": sentinel("grid"),
+                "color": colour_of("grid"),
                 "linewidth": 0.7,
                 "shrinkA": 1.0,
                 "shrinkB": 2.0,

@@ -109,7 +109,7 @@ def _caption(found: Benchmark, decay: DecayComparison) -> str:
 
 
 def _panels(decay: DecayComparison, drawn: Sequence[Drawn], clock: Clock, *, narrow: bool) -> tuple[Panel, Panel]:
-    left, right = (46.0, 360.0) if narrow else (70.0, 730.0)
+    left, right = (56.0, 360.0) if narrow else (70.0, 730.0)
     x = Scale(float(decay.time[0]), float(decay.time[-1]), left, right)
     reference = shown(decay.reference) * clock.factor
     near = [d.omega * clock.factor for d in drawn if (d.row.relative_rms_error or 1.0) < 0.3]

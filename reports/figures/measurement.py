@@ -14,8 +14,8 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.canvas import Canvas, Line, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.picture import picture
-from ridgeback.reports.drawing.theme import SERIES, Variant, sentinel
-from ridgeback.reports.figures.over_time import Clock
+from ridgeback.reports.drawing.theme import SERIES, Variant, colour_of
+from ridgeback.reports.figures.clock import Clock
 
 CLOCK = Clock("s")
 PAGE = Variant("wide", 9.6, 6.4)
@@ -120,7 +120,7 @@ def signal_panel(axes: Axes, shown: Sequence[Measurement], more: str) -> None:
             envelopes.append(Line(curve.time, height, label, "s2" if len(shown) == 1 else "fg", width=1.4))
     span(axes, lines)
     linear(axes, "y", *padded([line.y for line in lines], share=0.14))
-    titles(axes, x=CLOCK.x_title, y=channels(shown) + more)
+    titles(axes, x=CLOCK.time_title, y=channels(shown) + more)
     for line in [*lines, *envelopes]:
         draw(axes, line)
     place(axes, envelopes[:1] if len(shown) == 1 else [])
@@ -130,7 +130,7 @@ def frequency_panel(axes: Axes, shown: Sequence[Measurement]) -> None:
     """Frequency over time where it is valid, with its band."""
     bands = [track_band(one, label_of(one, shown), token) for one, token in zip(shown, SERIES, strict=False)]
     span(axes, [band.line for band in bands])
-    draw_bands(axes, bands, titled=(CLOCK.x_title, f"{CLOCK.y_title('ω₀')}, 95 % band"))
+    draw_bands(axes, bands, titled=(CLOCK.time_title, f"{CLOCK.title()}, 95 % band"))
 
 
 def track_band(one: Measurement, label: str, token: str) -> Band:
@@ -158,7 +158,7 @@ def curve_panel(axes: Axes, found: Measurements, what: str) -> None:
         bands.append(band_of(line, deviation * factor))
     top = max((float(band.line.x[-1]) for band in bands), default=1.0)
     linear(axes, "x", 0.0, 1.03 * top, ticks=6)
-    title = CLOCK.y_title("ω₀") if what == "omega" else "a′/a / (1/s)"
+    title = CLOCK.title() if what == "omega" else "a′/a / (1/s)"
     draw_bands(axes, bands, titled=(f"amplitude of {channels(shown)}", f"{title}, 95 % band"))
 
 
@@ -167,7 +167,7 @@ def draw_bands(axes: Axes, bands: Sequence[Band], *, titled: tuple[str, str]) ->
     linear(axes, "y", *padded([values for band in bands for values in (band.line.y, band.low, band.high)], share=0.12))
     titles(axes, x=titled[0], y=titled[1])
     for band in bands:
-        axes.fill_between(band.line.x, band.low, band.high, color=sentinel(band.line.token), alpha=0.18, linewidth=0.0)
+        axes.fill_between(band.line.x, band.low, band.high, color=colour_of(band.line.token), alpha=0.18, linewidth=0.0)
         draw(axes, band.line)
     place(axes, [band.line for band in bands if np.isfinite(band.line.y).any()])
 

@@ -58,7 +58,7 @@ def _powers(words: str) -> str:
 
 
 def _panel(decay: DecayComparison, *, narrow: bool, cycle: bool) -> Panel:
-    right = 360.0 if narrow else (700.0 if cycle else 996.0)
+    right = 360.0 if narrow else (700.0 if cycle else 988.0)
     x = Scale(float(decay.time[0]), float(decay.time[-1]), 44.0, right)
     low, high = padded([decay.u, decay.amplitudes.energy], share=0.06)
     return Panel(x, Scale(low, high, 160.0 if narrow else 210.0, 24.0))

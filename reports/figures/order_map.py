@@ -10,7 +10,7 @@ import numpy as np
 from ridgeback.common.numbers import number, per_cent, threshold
 from ridgeback.compare.motion.results import DecayComparison
 from ridgeback.compare.report.error_grid import ErrorGrid
-from ridgeback.compare.study.results import Study
+from ridgeback.compare.study.results import Range, Study
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing import cells
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure
@@ -28,12 +28,14 @@ def letter(study: Study) -> str:
     return "A" if study.variable == "A" else "ε"
 
 
-def order_map(study: Study, grid: ErrorGrid, order: int, decay: DecayComparison | None) -> Figure:
+def order_map(study: Study, grid: ErrorGrid, finding: Range, decay: DecayComparison | None) -> Figure:
     """The figure with the place of the sliders marked."""
     clock = Clock("" if decay is None else decay.case.time_unit)
     label = "Backbone above; relative error over order and amplitude in six bands below"
     observed = any(np.isfinite(powers).any() for _, _, powers in grid.observed)
-    start = grid.orders.index(order) if order in grid.orders else len(grid.orders) - 1
+    row = grid.orders.index(finding.order) if finding.order in grid.orders else len(grid.orders) - 1
+    inside = grid.amplitudes <= (finding.up_to or grid.amplitudes[0])
+    start = (row, max(int(np.count_nonzero(inside)) - 1, 0))
     spots = tuple(_layout(study, grid, narrow=narrow, observed=observed) for narrow in (False, True))
     return Figure(
         key="order-map",
@@ -95,7 +97,7 @@ def edges(grid: ErrorGrid) -> Array:
 def _draw(
     study: Study,
     grid: ErrorGrid,
-    start: int,
+    start: tuple[int, int],
     decay: DecayComparison | None,
     spots: tuple[Panel, Panel],
     label: str,
@@ -106,14 +108,13 @@ def _draw(
     marks = [text(0, 11, "ω₀ / k" if study.scale != 1 else "ω₀", "m"), upper.rows(most=4)]
     marks += [line(upper.left, upper.bottom, upper.right, upper.bottom, "ax")]
     marks += [upper.curve(grid.amplitudes, grid.exact / study.scale, "rf nf")]
-    held = np.where(_inside(upper, grid.values[start] / study.scale), grid.values[start] / study.scale, np.nan)
+    held = np.where(_inside(upper, grid.values[start[0]] / study.scale), grid.values[start[0]] / study.scale, np.nan)
     moving = upper.curve(grid.amplitudes, held, "el nf") or '<path d="" class="el nf"/>'
     marks += [group([moving], "moving"), *_names(study, grid, upper)]
     marks += [*_map(grid, lower), *_axes(study, grid, lower, narrow=narrow), *_motion(study, decay, lower)]
     if any(np.isfinite(powers).any() for _, _, powers in grid.observed):
         marks += _observed(grid, lower, narrow=narrow)
-    at = int(np.argmin(np.abs(grid.amplitudes - 0.85 * grid.amplitudes[-1])))
-    marks.append(_marker(upper, lower, start, float(grid.amplitudes[at])))
+    marks.append(_marker(upper, lower, start[0], float(grid.amplitudes[start[1]])))
     return drawing(NARROW if narrow else WIDE, 534, "narrow" if narrow else "wide", label, marks)
 
 
@@ -218,10 +219,11 @@ def _marker(upper: Panel, lower: Panel, row: int, amplitude: float) -> str:
     return group([cross, dot(x, y, 6.0, "")], "mk")
 
 
-def _data(study: Study, grid: ErrorGrid, start: int, spots: tuple[tuple[Panel, Panel], ...]) -> dict[str, object]:
+def _data(
+    study: Study, grid: ErrorGrid, start: tuple[int, int], spots: tuple[tuple[Panel, Panel], ...]
+) -> dict[str, object]:
     """What the sliders need: amplitudes to the bit, bounds as certain as printed, signs, and where the panels are."""
     scale = grid.scale
-    at = int(np.argmin(np.abs(grid.amplitudes - 0.85 * grid.amplitudes[-1])))
     return {
         "map": True,
         "orders": list(grid.orders),
@@ -233,7 +235,7 @@ def _data(study: Study, grid: ErrorGrid, start: int, spots: tuple[tuple[Panel, P
         "certified": grid.certified,
         "letter": letter(study),
         "unit": study.amplitude_unit,
-        "start": [start, at],
+        "start": list(start),
         "boxes": [[panel.box() for panel in group_] for group_ in spots],
     }
 

@@ -146,7 +146,10 @@ def level_plane(
             if np.isfinite(y).any():
                 marks.append(curve(x, y, "rd nf"))
                 last = int(np.flatnonzero(np.isfinite(y))[-1])
-                names.append(text(float(x[last]) + 3, float(y[last]) + 4, f"{m} ω₀" if m > 1 else "ω₀", "e b sm"))
+                beside = float(x[last]) < SIZE[0] - 40
+                at = (float(x[last]) + (3 if beside else -4), float(y[last]) + (4 if beside else -8))
+                words = f"{m} ω₀" if m > 1 else "ω₀"
+                names.append(text(*at, words, "e b sm", "start" if beside else "end"))
         marks.append(group(names, "halo"))
     marks += _axes(panel, clock, image.name) + _bar(
         f"{key}-g", [(v, decibels(v)) for v in np.linspace(image.floor_db, 0, 5)], image.floor_db, 0.0, "of the maximum"

@@ -7,6 +7,7 @@
   const sup = n => String(n).replace("-", "⁻").replace(/\d/g, c => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]);
   const percent = v => {
     if (v === 0) return "0";
+    if (Math.abs(v) > 10) return "over 1000 %";
     const [m, e] = Math.abs(v).toExponential(1).split("e");
     if (Math.abs(v) < 1e-6) return m + " × 10" + sup(+e);
     return (100 * m * 10 ** e).toFixed(Math.max(0, -1 - e)) + " %";
@@ -94,7 +95,7 @@
       $(".oa", figure).textContent = d.letter + " = " + unit(A);
       $(".rv", figure).textContent = short(value * d.factor) + (d.frequency_unit ? " " + d.frequency_unit : "");
       const sign = d.signs[i][j] === "+" ? "+" : "−";
-      $(".re", figure).textContent = bound === null ? "–" : "≤ " + atMost(bound) + (sign === "+" ? ", high" : ", low");
+      $(".re", figure).textContent = bound === null ? "–" : (bound > 10 ? "" : "≤ ") + atMost(bound) + (sign === "+" ? ", high" : ", low");
       $$("svg", figure).forEach((svg, n) => {
         const mk = $(".mk", svg);
         if (!mk) return;

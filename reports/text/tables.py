@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -143,7 +144,9 @@ def _reach(reach: dict[tuple[int, float], float | None], order: int, target: flo
     if (order, target) not in reach:
         return NONE
     up_to = reach[order, target]
-    return "nowhere" if up_to is None else f"{rounded_down(up_to, 4):.3f}"
+    if up_to is None:
+        return "nowhere"
+    return number(rounded_down(up_to, 3)) if up_to < 0.01 else f"{math.floor(1000 * up_to) / 1000:.3f}"
 
 
 def certified_table(found: Certified, unit: str) -> Table:

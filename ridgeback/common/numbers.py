@@ -13,6 +13,7 @@ NONE = "–"
 """What stands for a missing number."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _LEAST_PER_CENT = 1e-6
+_OFF_SCALE = 10.0
 _PER_CENT = 1e-4
 """Relative errors from here on are written in per cent, smaller ones as powers of ten."""
 
@@ -112,11 +113,13 @@ def relative(value: float | None, *, signed: bool = False, missing: str = NONE) 
 
 
 def per_cent(value: float | None, *, signed: bool = False, missing: str = NONE) -> str:
-    """A relative error on a page: two digits in per cent down to 0.0001 %, a power of ten only below that.
+    """A relative error on a page: two digits in per cent from 0.0001 % to 1000 %, a power of ten only below that.
 
-    >>> per_cent(0.0019), per_cent(-0.0102, signed=True), per_cent(1.7e-5), per_cent(2.3e-8), per_cent(None)
-    ('0.19 %', '−1.0 %', '0.0017 %', '2.3 × 10⁻⁸', '–')
+    >>> per_cent(0.0019), per_cent(-0.0102, signed=True), per_cent(1.7e-5), per_cent(2.3e-8), per_cent(66.0)
+    ('0.19 %', '−1.0 %', '0.0017 %', '2.3 × 10⁻⁸', 'over 1000 %')
     """
+    if value is not None and abs(value) > _OFF_SCALE:
+        return f"over {100 * _OFF_SCALE:.0f} %"
     if value is None or not math.isfinite(value) or value == 0 or abs(value) >= _PER_CENT:
         return relative(value, signed=signed, missing=missing)
     sign = "+" if signed and value > 0 else ""

@@ -15,6 +15,9 @@ from scipy.integrate import solve_ivp
 from scipy.signal import stft
 from scipy.special import ellipk
 
+from ridgeback.compare.benchmark.contenders import Crossings, Reference, Row
+from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.benchmark.verdict import judge
 from ridgeback.compare.identification.candidates import DampingLaw
 from ridgeback.compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
 from ridgeback.compare.motion.results import (
@@ -28,12 +31,24 @@ from ridgeback.compare.motion.results import (
     Kind,
     Reconstruction,
     Score,
+    SignedPlane,
     Statement,
 )
 from ridgeback.compare.noise.results import NoiseCell, NoiseStudy
 from ridgeback.compare.recording.results import RecordingComparison
-from ridgeback.compare.report.results import Card, EstimatorScore, Provenance, Report
-from ridgeback.compare.study.results import Certified, CertifiedRow, Checked, Derivation, Formula, Range, Study, Timing
+from ridgeback.compare.report.error_grid import ErrorGrid
+from ridgeback.compare.report.results import Card, Described, Provenance, Report
+from ridgeback.compare.study.results import (
+    Certified,
+    CertifiedRow,
+    Checked,
+    Derivation,
+    Formula,
+    HarmonicRow,
+    HarmonicTable,
+    Range,
+    Study,
+)
 
 Array = NDArray[np.float64]
 
@@ -110,6 +125,14 @@ def _image(name: str, signal: Array) -> Image:
     f, t, z = stft(signal, fs=RATE, nperseg=192, noverlap=168, nfft=512, boundary="even")
     level = 20 * np.log10(np.abs(z) / np.abs(z).max() + 1e-12)
     return Image(name, t, 2 * np.pi * f, np.maximum(level, -80.0), -60.0, note="Hann window of 3 s.")
+
+
+def _signed(name: str, signal: Array, overlays: tuple[Curve, ...]) -> SignedPlane:
+    image = _image(name, signal)
+    share = 10 ** (image.level_db / 10) * np.sign(np.sin(np.arange(image.time.size)))[None, :]
+    return SignedPlane(
+        name, image.time, image.omega, np.arcsinh(share / 0.035) / np.arcsinh(1 / 0.035), 0.035, overlays
+    )
 
 
 def _curve(name: str, label: str, kind: Kind, time: Array, omega: Array, **more: Any) -> Curve:
@@ -233,7 +256,7 @@ def make_decay() -> DecayComparison:
         reconstruction=Reconstruction(time, u, single, u * 0.99, 4, 0.12, 0.01, "Phase by (23)."),
         spectrogram_u=_image("Spectrogram of θ", u),
         spectrogram_velocity=_image("Spectrogram of θ′", velocity),
-        wigner_u=replace(_image("Wigner distribution of θ", u), overlays=(reference,)),
+        wigner_u=_signed("Wigner distribution of θ", u, (reference, curves[-1])),
         harmonics=harmonics,
         statements=_statements((*curves, *harmonics)),
     )
@@ -256,6 +279,10 @@ def make_derivation() -> Derivation:
             "Python": "def omega0(A):\n    return 1.0 - 0.0625 * A * A\n",
             "C": "double omega0(double A)\n{\n    return A < 1.0 && A > 0.0 ? 1.0 - 0.0625 * A * A : 1.0;\n}\n",
         },
+        harmonics=HarmonicTable(
+            "A", (1, 3), (HarmonicRow(1, "cos", ("1", r"\frac{1}{192}")), HarmonicRow(3, "cos", ("", "-1")))
+        ),
+        order=8,
     )
 
 
@@ -293,11 +320,67 @@ def make_recording() -> RecordingComparison:
     )
 
 
-def make_estimator_scores() -> tuple[EstimatorScore, ...]:
-    return (
-        EstimatorScore("pseudo-wigner", 4.6e-4, 1.3e-5, 3e-2, 2e-3, 1e-3, 0.95, 0.031),
-        EstimatorScore("wigner", 9.5e-3, 9.5e-3, 8e-2, 7e-3, None, None, 0.12, "Claims no interval."),
-        EstimatorScore("model-fit", None, None, None, None, None, None, 0.0, failed="no oscillator was named"),
+def make_benchmark(decay: DecayComparison) -> Benchmark:
+    """Expansions by order, a series by terms, estimates raw and corrected, and one that was refused."""
+    time, reference = decay.time, decay.reference.omega
+    made: list[tuple[Row, Array]] = []
+
+    def add(row: Row, size: float, **more: Any) -> None:
+        error = size * (0.2 + np.exp(-time / 5)) * np.sign(np.sin(1 + time))
+        made.append(
+            (replace(row, relative_rms_error=size, largest=2 * size, mean=-0.1 * size, ranked=True, **more), error)
+        )
+
+    for order in (2, 4, 8, 20, 40):
+        size = 0.03 * 0.87**order
+        for language, cost in (("c", 1.0), ("python", 4.0)):
+            name = f"lindstedt-{order}-action" + "-c" * (language == "c")
+            row = Row(
+                name, f"expansion, order {order}", "expansion", order=order, amplitude_from="action", language=language
+            )
+            add(row, size, time_ns_per_value=cost * (1 + order / 20), coverage=1.0)
+        row = Row(f"lindstedt-{order}-energy", "", "expansion", order=order, amplitude_from="energy", language="python")
+        add(row, float(np.hypot(size, 1.9e-3)), time_ns_per_value=4.0, coverage=1.0)
+    for terms in (3, 21):
+        row = Row(f"series-{terms}-action", "", "series-model", order=terms, amplitude_from="action", language="numpy")
+        add(row, 0.6 / terms, time_ns_per_value=10.0 + terms, coverage=1.0)
+    add(Row("closed-form", "exact omega0", "closed-form", amplitude_from="energy"), 1.9e-3, time_ns_per_value=900.0)
+    add(Row("averaged-action", "", "averaged", amplitude_from="action"), 1.3e-4)
+    for method, size in (("wigner", 9.4e-3), ("pseudo-wigner", 4.6e-4), ("harmonic-least-squares", 1.2e-5)):
+        add(Row(method, method, "estimate"), size, time_s_per_track=0.3, time_ns_per_value=2.5e5, coverage=1.0)
+    corrected = Row("wigner-corrected", "", "estimate", corrected_by="its own track")
+    add(corrected, 1.8e-3, time_s_per_track=0.9, time_ns_per_value=7e5, coverage=1.0)
+    made.append((Row("hilbert", "Hilbert phase", "estimate", refused=FAILURE), np.full(time.size, np.nan)))
+    rows = tuple(row for row, _ in made)
+    reference_of = Reference("cycle frequency of the integrated solution", 1e-9, 1.8e-4)
+    return Benchmark(
+        case=decay.case,
+        reference=reference_of,
+        support=(2.0, 18.0),
+        contenders=rows,
+        crossings=Crossings(),
+        verdict=judge(rows, reference_of),
+        time=time,
+        amplitude=_peak(time),
+        errors=np.array([np.where(np.isfinite(reference), error, np.nan) for _, error in made]),
+    )
+
+
+def make_grid(study: Study) -> ErrorGrid:
+    """The grid of the sliders: the study's own numbers, called certified, with code that is one of them."""
+    function = "function omega0(A, k = 1.0) {\n  return k*(1.0 - 0.0625*A*A);\n}"
+    powers = np.array([order + 2.0 for order in study.orders])
+    return ErrorGrid(
+        orders=study.orders,
+        amplitudes=study.amplitudes,
+        exact=study.reference,
+        values=study.omega,
+        errors=study.relative_error,
+        bounds=np.abs(study.relative_error) * 1.001,
+        certified=True,
+        code=dict.fromkeys(study.orders, function),
+        scale=1.0,
+        observed=((0.06, 0.12, powers), (0.5, 1.0, powers + 0.2)),
     )
 
 
@@ -403,39 +486,40 @@ def provenance() -> Provenance:
 
 
 def empty_report() -> Report:
-    return Report("Nothing was run", "An empty report.", (), (), None, None, (), None, None, (), provenance())
+    return Report("Nothing was run", "An empty report.", (), (), None, None, (), None, None, provenance())
 
 
 def full_report() -> Report:
-    study = make_study()
+    study, decay = make_study(), make_decay()
     ranges = make_ranges(study)
     finding = next(r for r in ranges if r.order == 6 and r.target == 1e-3)
     rows = [f"{r['order']},{r['amplitude']}" for r in study.rows()]
+    needs = ("needs", "the equation and a start")
     return Report(
-        title=f"Order 6 stays within 0.1 % up to A = {finding.up_to:.2f} rad",
-        lead="The damped pendulum of Galleani and Cohen: perturbation expansions, the paper's series model and "
-        "Wigner-estimated frequencies over one decay from 0.95 π.",
+        title="Harmonic least squares and order 40 both follow ω₀(t)",
+        lead="The paper's series (14), cut after 21 terms, is 2.9 % off.",
         summary=("The Wigner peak lies 0.95 % low over 2 to 18 s.", "Equation (21) ripples twice per cycle."),
         cards=(
-            Card("Range of use", "A ≤ 2.0 rad", "Order 6 within 0.1 % of the exact frequency."),
-            Card("Worst error", "2.1 % at A = 3.0", "Order 6 at the largest amplitude studied."),
-            Card("Cost", "6 ns per value", "Generated code; the closed form takes 45 ns."),
+            Card("Perturbation expansion", "0.011 %", "order 40", (("cost", "3 ns"), needs), "expansions"),
+            Card("The paper’s series model", "2.9 %", "21 terms", (("cost", "31 ns"), needs), "series model"),
+            Card("Estimate from samples", "0.0012 %", "least squares", (("cost", "0.3 s"), needs), "estimates"),
         ),
         derivation=make_derivation(),
         study=study,
         ranges=ranges,
-        decay=make_decay(),
+        decay=decay,
         recording=None,
-        timings=(
-            Timing("generated, order 6", 6.1, 5.9, 7.2, 100000),
-            Timing("closed form, agm", 45.0, 44, 51, 100000, "numpy, 6 iterations"),
-        ),
         provenance=provenance(),
         certified=make_certified(),
-        estimator_scores=make_estimator_scores(),
         noise=make_noise(),
         csv={"study.csv": "order,amplitude\n" + "\n".join(rows) + "\n"},
         finding=finding,
+        benchmark=make_benchmark(decay),
+        grid=make_grid(study),
+        described=Described(
+            "Pendulum", r"\ddot{\theta} + k^2 \sin\theta = 0", "k = 4 π; from 0.95 π", "Galleani, Cohen"
+        ),
+        paper=True,
     )
 
 
@@ -453,11 +537,14 @@ def recording_report() -> Report:
 def small_report() -> Report:
     """Everything a page can show, of little size."""
     study, decay = make_study(8, (2, 4, 8)), make_decay()
+    ranges = make_ranges(study)
     statements = tuple(s for s in decay.statements if s.figure in (2, 4, 9))
     return replace(
         full_report(),
         study=study,
-        ranges=make_ranges(study),
+        ranges=ranges,
+        finding=next(r for r in ranges if r.order == 8 and r.target == 1e-3),
+        grid=make_grid(study),
         decay=replace(decay, curves=decay.curves[::4], statements=statements),
         recording=make_recording(),
         identification=make_identification(),
@@ -465,11 +552,14 @@ def small_report() -> Report:
 
 
 # Strings that choose among meanings instead of being shown.
-FIXED = {"variable", "kind", "name", "chosen", "symbol", "curves", "time_unit", "csv"}
+FIXED = {"variable", "kind", "name", "chosen", "symbol", "curves", "time_unit", "csv", "way", "rival_way", "grid"}
+FIXED |= {"amplitude_from", "language", "corrected_by", "amplitude_unit", "method", "methods", "part"}
 
 
 def poisoned(value: Any, text: str, key: str = "") -> Any:
     """The same value with ``text`` appended to every string that is shown."""
+    if key == "grid":
+        return value
     if isinstance(value, str):
         return value if key in FIXED else value + text
     if is_dataclass(value) and not isinstance(value, type):

@@ -16,7 +16,8 @@ import numpy as np
 import pytest
 
 from ridgeback.compare.report.results import Report
-from ridgeback.compare.study.results import Formula
+from ridgeback.compare.study.results import Formula, Range
+from ridgeback.reports.figures.order_map import order_map
 from ridgeback.reports.page import WARN_BYTES, html_page, size_warning
 from tests.reports import synthetic
 from tests.reports.markup import Element, parse
@@ -85,8 +86,9 @@ def test_hostile_names_stay_text(small: Report, harmless: Element, text: str) ->
 def _shown_unchanged(small: Report, shown: Element, text: str) -> None:
     body = _plain(shown.text)
     labels = [_plain(label.text) for label in shown.all("text")]
-    assert any(_plain("reference" + text) == label or _plain("3 × ω₀" + text) == label for label in labels)
-    for phrase in (small.title, small.lead, small.summary[0], small.cards[0].value, synthetic.FAILURE):
+    assert _plain("closed form (agm)" + text) in labels or any(_plain(text) in label for label in labels)
+    assert small.described is not None
+    for phrase in (small.title, small.lead, small.summary[0], small.cards[0].value, small.described.given):
         assert _plain(phrase + text) in body
     assert small.derivation is not None
     assert _plain(small.derivation.code["C"] + text) in body
@@ -116,7 +118,8 @@ def test_hostile_formulas_stay_text(latex: str) -> None:
     assert not [e for e in root.all() for name in e.attributes if name.startswith("on")]
     assert not [e for e in root.all("math") for inner in e.all() if "href" in inner.attributes]
     assert not any("\\" in math.text for math in root.all("math"))
-    assert any(latex in code.text for code in root.all("code"))
+    copied = [button.attributes.get("data-copy", "") for button in root.all("button")]
+    assert any(latex in text for text in (*copied, *(code.text for code in root.all("code"))))
 
 
 # --- parts that are missing are left out; failures are not
@@ -129,28 +132,40 @@ def _keys(root: Element) -> list[str]:
 
 def test_every_part_has_its_section(tree: Element) -> None:
     assert _keys(tree) == [
-        *("backbone", "formula", "error", "map", "tracks", "paper"),
-        *("budget", "estimators", "timing", "code", "data", "provenance"),
+        *("time", "order", "expansion", "motion", "paper", "noise", "errors", "code", "data", "provenance"),
     ]
+    names = [link.attributes["href"] for link in tree.all("nav")[0].all("a")]
+    assert names == ["#top", *(f"#section-{key}" for key in _keys(tree))]
 
 
 @pytest.mark.parametrize(
     ("part", "wanted"),
     [
         ({}, []),
-        ({"study"}, ["backbone", "error", "map"]),
-        ({"decay"}, ["tracks", "paper", "budget"]),
-        ({"recording"}, ["recording"]),
-        ({"derivation"}, ["formula", "code"]),
-        ({"timings"}, ["timing"]),
-        ({"noise"}, ["estimators"]),
-        ({"identification"}, ["identification"]),
+        ({"study"}, []),
+        ({"study", "grid", "finding"}, ["order"]),
+        ({"decay"}, ["motion", "errors"]),
+        ({"decay", "benchmark"}, ["time", "motion", "errors"]),
+        ({"decay", "paper"}, ["motion", "paper", "errors"]),
+        ({"recording"}, ["recording", "record", "tracks"]),
+        ({"derivation"}, ["expansion", "code"]),
+        ({"noise"}, ["noise"]),
+        ({"identification"}, ["identification", "forecast"]),
         ({"csv"}, ["data"]),
     ],
 )
 def test_missing_parts_are_left_out(small: Report, part: set[str], wanted: list[str]) -> None:
     only = replace(synthetic.empty_report(), **{name: getattr(small, name) for name in part})
     assert _keys(parse(html_page(only))) == [*wanted, "provenance"]
+
+
+def test_the_papers_sentences_stand_only_in_the_papers_case(full: Report) -> None:
+    assert full.decay is not None
+    said = full.decay.statements[0].paper
+    assert said in parse(html_page(full)).text
+    other = parse(html_page(replace(full, paper=False))).text
+    assert said not in other
+    assert "The paper, claim by claim" not in other
 
 
 def test_a_decay_without_models_or_estimates_still_renders() -> None:
@@ -178,30 +193,56 @@ def test_tracks_that_are_nowhere_valid_still_render() -> None:
 @pytest.mark.parametrize(("count", "orders"), [(2, (2,)), (3, (2, 4)), (40, tuple(range(2, 62, 2)))])
 def test_studies_of_any_shape_render(count: int, orders: tuple[int, ...]) -> None:
     study = synthetic.make_study(count, orders)
-    for ranges in ((), synthetic.make_ranges(study)):
-        parse(html_page(replace(synthetic.empty_report(), study=study, ranges=ranges)))
+    ranges = synthetic.make_ranges(study)
+    for grid in (synthetic.make_grid(study), replace(synthetic.make_grid(study), observed=(), certified=False)):
+        shown = replace(synthetic.empty_report(), study=study, ranges=ranges, grid=grid, finding=ranges[0])
+        assert len(parse(html_page(shown)).all("figure")) == 1
 
 
 def test_an_order_without_values_is_kept_and_marked() -> None:
+    """Its row of cells is drawn in the colour of what is left out, and the sliders are told that nothing is known."""
     study = synthetic.make_study(8, (2, 4, 8))
     error, omega = np.array(study.relative_error), np.array(study.omega)
     error[1], omega[1] = np.nan, np.nan
     holed = replace(study, relative_error=error, omega=omega)
-    root = parse(html_page(replace(synthetic.empty_report(), study=holed)))
-    drawn = next(figure for figure in root.all("figure") if figure.attributes["id"] == "map")
-    assert "not available" in drawn.text
+    ranges = synthetic.make_ranges(study)
+    shown = replace(
+        synthetic.empty_report(), study=holed, ranges=ranges, grid=synthetic.make_grid(holed), finding=ranges[0]
+    )
+    (figure,) = parse(html_page(shown)).all("figure")
+    assert json.loads(figure.all("script")[0].text)["bounds"][1] == [None] * 8
+    assert [p for p in figure.all("path") if p.attributes.get("class") == "band"]
 
 
-def test_a_failed_method_keeps_its_row_and_says_why(tree: Element) -> None:
-    (table,) = (table for table in tree.all("table") if table.attributes["id"] == "methods")
+def test_a_bound_is_never_printed_smaller_than_it_is() -> None:
+    grid = synthetic.make_grid(synthetic.make_study(8, (2, 4, 8)))
+    drawn = order_map(synthetic.make_study(8, (2, 4, 8)), grid, Range(4, 1e-3, 1.0), None)
+    printed = np.array(drawn.data["bounds"], dtype=float)
+    assert (printed >= grid.bounds).all()
+    assert (printed <= 1.011 * grid.bounds).all()
+
+
+def test_a_refused_contender_keeps_its_row_and_says_why(tree: Element) -> None:
+    (table,) = (table for table in tree.all("table") if table.attributes.get("id") == "contenders")
     rows = table.all("tr")
     failed = next(i for i, row in enumerate(rows) if row.attributes.get("class") == "failed")
     assert "Hilbert phase" in rows[failed].text
-    assert f"Failed: {synthetic.FAILURE}" in rows[failed + 1].text
+    assert f"Refused: {synthetic.FAILURE}" in rows[failed + 1].text
+
+
+def test_a_page_without_times_shows_none(full: Report) -> None:
+    """The first figure then ranks errors alone, and the table has no column of costs."""
+    assert full.benchmark is not None
+    rows = tuple(replace(r, time_ns_per_value=None, time_s_per_track=None) for r in full.benchmark.contenders)
+    root = parse(html_page(replace(full, benchmark=replace(full.benchmark, contenders=rows))))
+    (drawn,) = (figure for figure in root.all("figure") if figure.attributes["id"] == "accuracy-cost")
+    assert "cost" not in drawn.text.replace(drawn.all("figcaption")[0].text, "")
+    (table,) = (table for table in root.all("table") if table.attributes.get("id") == "contenders")
+    assert "a track" not in table.text
 
 
 def test_every_number_of_a_table_stands_under_its_head(tree: Element) -> None:
-    for table in tree.all("table"):
+    for table in (table for table in tree.all("table") if "id" in table.attributes):
         head = [cell.text for cell in table.all("thead")[0].all("th")]
         for row in table.all("tbody")[0].all("tr"):
             if row.attributes.get("class") != "remark":
@@ -210,19 +251,19 @@ def test_every_number_of_a_table_stands_under_its_head(tree: Element) -> None:
 
 def test_a_recording_shows_tracks_backbone_damping_and_fit(recording_page: str) -> None:
     root = parse(recording_page)
-    assert _keys(root) == ["recording", "identification", "provenance"]
+    assert _keys(root) == ["recording", "identification", "forecast", "record", "tracks", "provenance"]
     for wanted in ("decay.csv", "displacement_percent", "pseudo-Wigner, 8 s", "The longest window"):
         assert wanted in root.text
     ids = [figure.attributes["id"] for figure in root.all("figure")]
     drawn = [name.removeprefix("recording-") for name in ids if name.startswith("recording-")]
-    assert drawn == ["backbone", "growth", "signal", "plane", "tracks"]
+    assert drawn == ["backbone", "signal", "plane", "tracks"]
     assert len(root.all("math")) == 3
 
 
 def _cells(root: Element, table: str) -> list[list[str]]:
-    (found,) = (t for t in root.all("table") if t.attributes["id"] == table)
+    (found,) = (t for t in root.all("table") if t.attributes.get("id") == table)
     rows = found.all("tbody")[0].all("tr")
-    return [[cell.text for cell in row.all("th") + row.all("td")] for row in rows]
+    return [[re.sub("[\u2007\u2008]", "", cell.text) for cell in row.all("th") + row.all("td")] for row in rows]
 
 
 def test_an_identification_shows_its_ranking_parameters_and_prediction(recording_page: str) -> None:
@@ -234,24 +275,29 @@ def test_an_identification_shows_its_ranking_parameters_and_prediction(recording
         "bilinear: no switch in reach",
     ]
     assert ranked[0][1:3] == ["0", "90.0 %"]
-    assert _cells(root, "parameters")[0][:3] == ["k, natural frequency, in rad/s", "7.85", "7.8461 to 7.8539"]
+    assert _cells(root, "parameters")[0][:3] == ["k, natural frequency, in rad/s", "7.8500", "7.8461 to 7.8539"]
     ids = {figure.attributes["id"] for figure in root.all("figure")}
-    assert ids >= {"identify-backbone", "identify-growth", "prediction-amplitude", "prediction-phase"}
+    assert ids >= {"identify-backbone", "forecast"}
 
 
 def test_an_identification_without_a_prediction_still_renders() -> None:
     found = replace(synthetic.make_identification(), prediction=None, failed=(), notes=())
     root = parse(html_page(replace(synthetic.empty_report(), identification=found)))
-    assert not [f for f in root.all("figure") if f.attributes["id"].startswith("prediction")]
+    assert not [f for f in root.all("figure") if f.attributes["id"] == "forecast"]
 
 
 def test_a_noise_study_shows_each_cell_with_its_uncertainty_and_the_refusals(tree: Element) -> None:
-    rows = _cells(tree, "noise")
+    rows = _cells(tree, "noise-table")
     assert rows[0] == [
-        *("harmonic-least-squares", "0 dB", "2.100 ± 0.084 %", "−2.0 × 10⁻⁵", "1.050 ± 0.050", "95 %", "0", "0")
+        "Harmonic least squares",
+        "2.1 % (1.1)",
+        "0.66 % (1.1)",
+        "0.21 % (1.1)",
+        "0.066 % (1.1)",
+        "0.021 % (1.1)",
     ]
-    assert rows[-1] == ["the record is too short"]
-    assert _cells(tree, "estimators")[1][5:7] == ["–", "–"]
+    assert rows[-2] == ["Wigner peak", *("–",) * 5]
+    assert "12 of 12 trials refused: the record is too short" in rows[-1][0]
 
 
 def test_a_recording_without_a_backbone_still_renders() -> None:

@@ -2,21 +2,27 @@
 
 import csv
 import io
+import json
+import shutil
+import subprocess
 from collections import Counter
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.numbers import relative, rounded_down
+from ridgeback.common.numbers import relative
 from ridgeback.common.progress import silent
-from ridgeback.common.quantities import amplitude
+from ridgeback.compare.benchmark.contenders import WAYS, Reference, Row
+from ridgeback.compare.benchmark.estimates import METHODS as ESTIMATES
+from ridgeback.compare.benchmark.verdict import judge
+from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion import motion
 from ridgeback.compare.motion.motion import setting
 from ridgeback.compare.motion.paper_case import paper_case
 from ridgeback.compare.noise import truth
 from ridgeback.compare.noise.monte_carlo import truth_of
+from ridgeback.compare.report.findings import title_of
 from ridgeback.compare.report.noise_part import NoisePart, noise_part
 from ridgeback.compare.report.provenance import settings_hash
 from ridgeback.compare.report.recording_report import recording_report
@@ -24,8 +30,9 @@ from ridgeback.compare.report.results import Report
 from ridgeback.compare.report.system_report import system_report
 from ridgeback.compare.study import derived, truncations
 from ridgeback.compare.study.study import ranges
-from ridgeback.numeric.estimators.estimate import METHODS
+from ridgeback.numeric.orbits.period import exact_frequency
 from ridgeback.numeric.recording.recording import Recording
+from ridgeback.reports.page import html_page
 from ridgeback.symbolic.systems.catalogue import find
 
 
@@ -60,7 +67,7 @@ def counted(function, calls, name):
 
 def test_nothing_is_derived_bound_or_integrated_twice(report, calls):
     assert report.noise is not None
-    # bound as it is for the motion, and without damping for the study, the code and the timings
+    # bound as it is for the motion, and without damping for the study and the code
     assert calls == {"bind": 2, "lindstedt": 1, "integrate": 1}
 
 
@@ -75,49 +82,86 @@ def test_a_noise_study_over_its_budget_is_refused_with_a_reason_for_motions_and_
         assert noise_part(source, 0, silent) == NoisePart(None)
 
 
-def test_the_title_is_the_range_of_the_chosen_order(report):
+def test_the_title_is_the_verdict_of_the_benchmark(report):
+    verdict, reference = report.benchmark.verdict, report.benchmark.reference
+    assert report.title == title_of(verdict, reference)
+    errors = [row.relative_rms_error for row in report.benchmark.contenders if row.ranked and WAYS[row.kind]]
+    assert verdict.best.relative_rms_error == min(errors)
     found = next(item for item in ranges(report.study, 1e-3) if item.order == 6)
     assert report.finding == found
-    assert report.title == f"Order 6 stays within 0.10 % up to A = {amplitude(rounded_down(found.up_to, 4), '')}"
     row = np.abs(report.study.relative_error[report.study.orders.index(6)])
     assert (row[report.study.amplitudes <= found.up_to] <= 1e-3).all()
-    assert row[report.study.amplitudes > found.up_to][0] > 1e-3
 
 
-def test_three_cards_and_every_part_is_there(report):
-    assert [card.heading for card in report.cards] == ["Range of use", "Worst error", "Cost per value"]
+def test_a_title_claims_nothing_below_what_is_defined():
+    """Two contenders below the floor are not told apart; one above it is behind by the ratio to the floor."""
+
+    def row(kind, error):
+        return Row(kind, kind, kind, order=8, relative_rms_error=error, ranked=True)
+
+    reference = Reference("cycle frequency", 1e-9, 1e-4)
+    close = judge([row("expansion", 2e-5), row("estimate", 9e-5)], reference)
+    assert (
+        title_of(close, reference) == "Order 8 and estimate both follow ω₀(t) as closely as it is defined, to 0.010 %"
+    )
+    apart = judge([row("expansion", 2e-5), row("estimate", 1e-3)], reference)
+    assert title_of(apart, reference) == (
+        "Order 8 follows ω₀(t) as closely as it is defined (0.010 %), 10 times closer than estimate"
+    )
+
+
+def test_three_cards_have_the_same_rows_and_every_part_is_there(report):
+    assert [card.way for card in report.cards] == ["expansions", "series model", "estimates"]
+    for card in report.cards:
+        assert [name for name, _ in card.rows[:3]] == ["cost", "holds", "needs"]
+    assert len(report.summary) <= 5
     assert report.derivation.formulas
     assert report.derivation.certificate
-    assert set(report.derivation.code) == {"Python", "C"}
-    assert report.decay.statements
-    assert report.timings
+    assert set(report.derivation.code) == {"C", "JavaScript", "Python"}
+    assert not report.paper
     assert report.recording is None
     assert report.provenance.command == "ridgeback report duffing"
 
 
-def test_every_estimator_stands_beside_the_others_and_in_noise(report):
-    assert {score.method for score in report.estimator_scores} == set(METHODS) - {
-        "auto",
-        "model-fit",
-    }
-    for score in report.estimator_scores:
-        assert score.failed or score.rms_interior < 0.05, score
-    best = next(s for s in report.estimator_scores if s.method == "harmonic-least-squares")
-    assert best.rms_interior < 1e-3
-    assert 0.0 < best.half_width < 0.01
+def test_estimators_stand_beside_each_other_and_in_noise(report):
+    rows = [row for row in report.benchmark.contenders if row.kind == "estimate"]
+    assert {row.method.removesuffix("-corrected") for row in rows} == set(ESTIMATES)
+    assert all(row.refused or row.relative_rms_error < 0.05 for row in rows)
     loud, quiet = (report.noise.cell("harmonic-least-squares", snr).rms for snr in (10.0, 40.0))
     assert quiet < 0.1 * loud
 
 
-def test_the_same_request_gives_the_same_report_apart_from_times(report):
-    def timeless(item):
-        still = tuple(replace(score, seconds=0.0) for score in item.estimator_scores)
-        made = replace(item.provenance, command="", seconds={})
-        return replace(item, provenance=made, timings=(), cards=item.cards[:2], estimator_scores=still)
+def test_without_times_the_same_request_gives_the_same_report_and_page(report):
+    first, second = small(timed=False), small(timed=False)
+    assert repr(first) == repr(second)
+    assert html_page(first) == html_page(second)
+    assert first.provenance.settings_hash == report.provenance.settings_hash
+    assert not first.provenance.seconds
+    assert all(row.time_ns_per_value is None for row in first.benchmark.contenders)
 
-    again = small()
-    assert repr(timeless(again)) == repr(timeless(report))
-    assert again.provenance.settings_hash == report.provenance.settings_hash
+
+def test_the_grid_is_enclosed_and_its_code_gives_its_values_to_the_bit(report):
+    """The errors against an independent exact frequency (agm), the JavaScript run by node where it is there."""
+    grid = report.grid
+    assert grid.certified
+    exact = np.array([float(exact_frequency(linearless(), np.array([a])).omega[0]) for a in grid.amplitudes])
+    np.testing.assert_allclose(grid.exact, exact, rtol=1e-10)
+    assert (np.abs(grid.errors) <= grid.bounds).all()
+    np.testing.assert_allclose(grid.errors, grid.values / grid.exact - 1, rtol=1e-6, atol=1e-15)
+    assert (np.abs(np.array([p - n - 2 for n, p in zip(grid.orders, grid.observed[0][2], strict=True)])) < 0.1).all()
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("node is not on the path, so the page's code was not run")
+    program = "\n".join(f"const f{order} = {text};" for order, text in grid.code.items())
+    calls = ",".join(f"A.map(a => f{order}(a, {grid.scale!r}))" for order in grid.orders)
+    program += f"\nconst A = {json.dumps(grid.amplitudes.tolist())};\nconsole.log(JSON.stringify([{calls}]));"
+    done = subprocess.run([node, "-e", program], capture_output=True, text=True, check=True, timeout=60)
+    np.testing.assert_array_equal(np.array(json.loads(done.stdout)), grid.values)
+
+
+def linearless():
+    """The undamped oscillator of the report above."""
+    return bind(find("duffing-hardening"))
 
 
 def test_another_setting_has_another_hash(report):
@@ -137,8 +181,8 @@ def test_csv_files_read_back_as_the_numbers_they_came_from(report):
     np.testing.assert_allclose([float(row["u"]) for row in decay], report.decay.u, rtol=1e-11)
     found = [float(row["omega_linear"]) for row in decay]
     np.testing.assert_allclose(found, report.decay.curves[2].omega, rtol=1e-6)
-    scores = list(csv.DictReader(io.StringIO(report.csv["scores.csv"])))
-    assert [row["method"] for row in scores] == [score.method for score in report.decay.scores]
+    rows = list(csv.DictReader(io.StringIO(report.csv["contenders.csv"])))
+    assert [row["method"] for row in rows] == [row.method for row in report.benchmark.contenders]
 
 
 def test_the_papers_case_is_the_papers():
@@ -153,7 +197,10 @@ def test_the_papers_case_is_the_papers():
 def test_a_limit_cycle_reports_in_eps():
     case = setting(find("van-der-pol").with_parameters({"eps": "0.4"}), initial=(1.0, 0.0), duration=40.0, rate=5.0)
     report = system_report(case, orders=(2, 4), amplitudes=[0.2, 0.5], order=4, trials=0)
-    assert "ε = 0.5" in report.title
+    assert report.cards[1].value == "–"
+    assert dict(report.cards[0].rows)["holds"] == "within 0.1 % up to ε = 0.5"
+    assert not any("decay" in text for text in (report.title, report.lead, *report.summary))
+    assert not report.grid.certified
     assert report.study.limit is None
     assert any("Amplitude of the limit cycle" in formula.title for formula in report.derivation.formulas)
 

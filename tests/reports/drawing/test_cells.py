@@ -14,7 +14,6 @@ from PIL import Image
 
 from ridgeback.reports.drawing import cells
 from ridgeback.reports.drawing.raster import grey, plane_uri, png, shrink
-from tests.reports.synthetic import make_ranges, make_study
 
 sizes = st.tuples(st.integers(1, 7), st.integers(1, 9))
 grids = sizes.flatmap(
@@ -118,22 +117,6 @@ def test_cell_edges_are_half_way_between_centres() -> None:
     assert np.allclose(found[1:-1], (centres[1:] + centres[:-1]) / 2, rtol=0, atol=1e-15)
     assert (found[:-1] < centres).all()
     assert (centres < found[1:]).all()
-
-
-def test_the_order_needed_is_the_smallest_that_holds() -> None:
-    """Against a search of the error grid itself, at every amplitude between the jumps of the stair."""
-    from ridgeback.reports.figures.study import _stairs
-
-    study = make_study()
-    error = np.abs(study.relative_error)
-    for target, x, y in _stairs(study, make_ranges(study)):
-        for j, amplitude in enumerate(study.amplitudes):
-            holds = [order for i, order in enumerate(study.orders) if (error[i, : j + 1] <= target).all()]
-            if not holds:
-                assert amplitude > x[-1]
-                continue
-            step = next(k for k in range(0, x.size, 2) if amplitude <= x[k + 1])
-            assert y[step] == y[step + 1] == min(holds)
 
 
 @given(size=sizes, seed=st.integers(0, 999))

@@ -8,9 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ridgeback.compare.study.results import Formula, Range, Timing
+from ridgeback.common.numbers import per_cent
+from ridgeback.compare.motion.results import BudgetRow
+from ridgeback.compare.study.results import Formula, Range
+from ridgeback.reports.text.align import DIGIT, POINT, aligned
 from ridgeback.reports.text.mathml import FormulaError, formula_latex, formula_mathml, mathml, term_parts
-from ridgeback.reports.text.tables import range_table, timing_table
+from ridgeback.reports.text.tables import budget_table, range_table
 
 
 def letters(markup: str) -> str:
@@ -60,10 +63,22 @@ def test_ranges_of_use_stand_under_their_targets() -> None:
     ranges.append(Range(4, 0.01, 1.5))
     table = range_table(ranges, "A", "rad")
     assert table.head == ("order", "within 1 %", "within 0.1 %")
-    assert [row.cells for row in table.rows] == [("2", "0.7999", "nowhere"), ("4", "1.5", "–")]
+    assert [row.cells for row in table.rows] == [("2", "0.799", "nowhere"), ("4", "1.500", "–")]
 
 
-def test_every_row_has_a_cell_for_each_head() -> None:
-    table = timing_table([Timing("series", 12.5, 12.0, 13.0, 1000, "compiled")])
-    assert [len(row.cells) for row in table.rows] == [len(table.head)]
-    assert table.rows[0].remark == "compiled"
+def test_every_row_has_a_cell_for_each_head_and_points_stand_under_each_other() -> None:
+    rows = [BudgetRow(name, name, 0.23, None, None, 1e-9, total, 2e-5) for name, total in (("a", 0.23), ("b", 1.2e-5))]
+    table = budget_table(rows)
+    assert [len(row.cells) for row in table.rows] == [len(table.head)] * 2
+    totals = [row.cells[4] for row in table.rows]
+    assert totals == [f"23{4 * DIGIT}{POINT} %", "0.0012 %"]
+    assert len({cell.index(" %") - (cell.index(".") if "." in cell else 2) for cell in totals}) == 1
+
+
+@given(st.lists(st.floats(1e-6, 9.0), min_size=1, max_size=8))
+def test_padding_adds_nothing_but_space(values: list[float]) -> None:
+    cells = [per_cent(value) for value in values]
+    padded = aligned(cells)
+    assert [cell.replace(POINT, "").replace(DIGIT, "") for cell in padded] == cells
+    after = {len(cell) - cell.find(".") for cell in padded if "." in cell}
+    assert len(after) <= 1

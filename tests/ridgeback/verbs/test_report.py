@@ -44,7 +44,7 @@ def test_a_system(ridgeback: Ridgeback, tmp_path: Path) -> None:
     assert text.rstrip().endswith("</html>")
     title = done.out.splitlines()[2]
     assert f"wrote {page}" in done.out
-    assert "Order 2" in title
+    assert "ω₀(t)" in title
     assert html.escape(title) in text or title in html.unescape(text)
     # The page tells how to make it again, without the place it was written to.
     assert "ridgeback report damped-duffing --set eps=1/2 --initial 0.8,0" in html.unescape(text)
@@ -118,9 +118,12 @@ def test_missing_results_are_owned_up_to(tmp_path: Path, monkeypatch: pytest.Mon
     from types import SimpleNamespace
 
     monkeypatch.setattr("ridgeback.reports.page.html_page", lambda _: "<html></html>")
-    scores = (SimpleNamespace(label="Wigner peak", failed="too short"), SimpleNamespace(label="model", failed=""))
-    decay = SimpleNamespace(scores=scores)
-    made = SimpleNamespace(title="t", cards=(), summary=(), decay=decay, derivation=None)
+    rows = (
+        SimpleNamespace(label="Wigner peak", refused="too short", kind="estimate"),
+        SimpleNamespace(label="model", refused=None, kind="estimate"),
+    )
+    benchmark = SimpleNamespace(contenders=rows)
+    made = SimpleNamespace(title="t", lead="", cards=(), summary=(), decay=None, benchmark=benchmark, derivation=None)
     page = tmp_path / "page.html"
     with pytest.raises(PartialError, match="Wigner peak"):
         report.publish(made, str(page), "text")  # type: ignore[arg-type]
@@ -141,8 +144,8 @@ def test_a_recording_with_a_system_and_its_findings_as_json(ridgeback: Ridgeback
     assert found["output"] == str(page)
     assert "1.25" in found["title"]
     text = page.read_text(encoding="utf-8")
-    assert "prediction-phase" in text
-    assert "noise-ratio" in text
+    assert 'id="forecast"' in text
+    assert 'id="noise"' in text
 
 
 def test_options_that_belong_elsewhere_are_refused(ridgeback: Ridgeback) -> None:
