@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from markupsafe import escape
 
+from ridgeback.common.visible import visible
 from ridgeback.numeric.arrays import Array
 
 TOLERANCE = 0.25
@@ -59,7 +60,7 @@ def text(x: float, y: float, words: str, kind: str = "", anchor: str = "start") 
     '<text x="1" y="2" class="m" text-anchor="end">&lt;b&gt;</text>'
     """
     where = "" if anchor == "start" else f' text-anchor="{anchor}"'
-    return f'<text x="{places(x)}" y="{places(y)}"{_class(kind)}{where}>{escape(words)}</text>'
+    return f'<text x="{places(x)}" y="{places(y)}"{_class(kind)}{where}>{escape(visible(words))}</text>'
 
 
 def dot(x: float, y: float, radius: float, kind: str, title: str = "") -> str:
