@@ -49,7 +49,8 @@ class ShownReport(Displayed):
         """The page itself, in a frame of its own."""
         page = escape(self.to_html(), quote=True)
         title = escape(self.title, quote=True)
-        return f'<iframe title="{title}" srcdoc="{page}" style="width:100%;height:{FRAME}px;border:0"></iframe>'
+        look = f'sandbox="allow-scripts allow-downloads" style="width:100%;height:{FRAME}px;border:0"'
+        return f'<iframe title="{title}" {look} srcdoc="{page}"></iframe>'
 
     def picture(self) -> Picture:
         """The errors of the study, or the measured backbone."""

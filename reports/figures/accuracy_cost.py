@@ -156,7 +156,7 @@ def _frame(which: Shown, panel: Panel, target: float) -> Iterable[str]:
         yield group([text(panel.right, panel.y(target) - 5, f"target {threshold(target)}", "m sm", "end")], "halo")
     if floor > panel.y.low:
         words = f"below {per_cent(floor)} two readings of ω₀(t) disagree"
-        yield group([text((panel.left + panel.right) / 2, panel.bottom - 8, words, "m sm", "middle")], "halo")
+        yield group([text(0.62 * panel.left + 0.38 * panel.right, panel.bottom - 8, words, "m sm", "middle")], "halo")
 
 
 def per_cent_tick(value: float) -> str:
