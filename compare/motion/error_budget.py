@@ -16,10 +16,15 @@ import numpy as np
 
 from ridgeback.compare.motion.error_norms import relative_error, rms
 from ridgeback.compare.motion.estimate_curves import Outcome, attempt
+from ridgeback.compare.motion.model_curves import LINEAR
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.reconstruction import KnownMotion, known_motion
 from ridgeback.compare.motion.results import AmplitudeSource, BudgetRow, Curve
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.orbits.energy import is_linearly_damped
+
+SLOW_FLOW = "multiple-scales"
+"""How the names of slow flows begin."""
 
 
 def budget(
@@ -74,12 +79,25 @@ def _model_row(motion: Motion, curve: Curve) -> BudgetRow | None:
 
 
 def _exact_for(motion: Motion, curve: Curve) -> Array:
-    """Return the exact frequency at the amplitude that this curve was evaluated at."""
+    """Return the exact frequency at the amplitude that this curve was evaluated at.
+
+    The slow flow and (3) hold mu^2 themselves, so they are held against the damped frequency.
+    """
     if not motion.has_backbone:
         return np.full(curve.time.size, float(motion.known_omega[-1]))
-    if motion.averaged is not None and curve.amplitude is AmplitudeSource.AVERAGED:
-        return motion.averaged.omega[: curve.time.size]
-    return motion.exact_at_energy[: curve.time.size]
+    averaged = motion.averaged is not None and curve.amplitude is AmplitudeSource.AVERAGED
+    exact = motion.averaged.omega if averaged and motion.averaged is not None else motion.exact_at_energy
+    holds_damping = curve.name == LINEAR or curve.name.startswith(SLOW_FLOW)
+    return (damped(motion, exact) if holds_damping else exact)[: curve.time.size]
+
+
+# omega_c = sqrt(omega0^2 - mu^2), eq. (3) at the frequency of a finite amplitude
+def damped(motion: Motion, omega: Array) -> Array:
+    """The frequency under linear damping, to mu^2; the same where the damping is of another kind."""
+    mu = motion.dynamics.damping
+    if not mu or not is_linearly_damped(motion.dynamics, float(np.nanmax(np.abs(motion.energy_peak)))):
+        return omega
+    return np.sqrt(np.maximum(omega**2 - mu**2, 0.0))
 
 
 def _estimate_row(

@@ -112,7 +112,8 @@ def shared(answer: Answer) -> dict[str, str]:
     """The leading columns that have one value in all rows, with that value."""
     if len(answer.table) < 2:
         return {}
-    values = {name: {row.get(name) for row in answer.table} for name in LEADING if name in answer.table[0]}
+    table = [named_infinities(row) for row in answer.table]
+    values = {name: {row.get(name) for row in table} for name in LEADING if name in table[0]}
     return {name: readable_value(found.pop()) for name, found in values.items() if len(found) == 1}
 
 

@@ -24,6 +24,8 @@ class Curve:
 
     omega: Array
     amplitude: Array | None = None
+    exact: Array | None = None
+    """The exact frequency at the amplitude that a prediction was made at, with mu^2 where the prediction has it."""
 
 
 @dataclass(frozen=True)
@@ -81,6 +83,21 @@ def reference_floor(case: Case) -> float:
     time = case.time[case.inside]
     spread = np.hypot(case.motion.cycle.spread_at(time), case.motion.cycle.interpolation_error_at(time))
     return float(np.sqrt(np.nanmean((spread / case.reference[case.inside]) ** 2)))
+
+
+def budget(case: Case, curve: Curve) -> tuple[float | None, float | None, float | None]:
+    """Rms over the interior of truncation, averaging, and of what the two leave of the whole error.
+
+    With e the prediction's error, t that against the exact frequency at its own amplitude, and v that frequency's own
+    error, 1 + e = (1 + t) (1 + v): what is left is t v.
+    """
+    if curve.exact is None:
+        return None, None, None
+    truncation = curve.omega[case.inside] / curve.exact[case.inside] - 1.0
+    averaging = curve.exact[case.inside] / case.reference[case.inside] - 1.0
+    rest = curve.omega[case.inside] / case.reference[case.inside] - 1.0 - truncation - averaging
+    first, second, third = (float(np.sqrt(np.nanmean(part**2))) for part in (truncation, averaging, rest))
+    return first, second, third
 
 
 def growth_error(case: Case, curve: Curve) -> float | None:

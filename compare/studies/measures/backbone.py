@@ -18,6 +18,7 @@ from ridgeback.compare.studies.plan import Plan, Subject
 from ridgeback.compare.studies.systems import System
 from ridgeback.compare.studies.tasks import Column, Coordinates, Measure, Outcome, Task
 from ridgeback.compare.study.derived import Undamped, without_damping
+from ridgeback.compare.study.reference import Reference
 from ridgeback.compare.study.study import study_of
 from ridgeback.compare.study.truncations import METHODS as SERIES
 from ridgeback.compare.study.truncations import Truncations, of_expansion
@@ -66,7 +67,7 @@ class BackboneTask:
         return [outcome for part in parts for outcome in part]
 
     def _together(self) -> Sequence[Outcome]:
-        rest = _rest(self.system)
+        rest = rest_of(self.system)
         refusals: dict[int, str] = {}
 
         def truncate(_: Undamped, orders: Sequence[int], grid: Array) -> Truncations:
@@ -106,21 +107,22 @@ def _values(omega: float, reference: float, uncertainty: float) -> Outcome:
 
 
 @lru_cache(maxsize=32)
-def _rest(system: System) -> Undamped:
+def rest_of(system: System) -> Undamped:
+    """The oscillator without its damping, made once in a process."""
     return without_damping(system.oscillator())
 
 
 @lru_cache(maxsize=32)
 def _series(system: System, method: str, order: int) -> tuple[Expansion, Limits]:
     derive = energy_integral if method == "energy-integral" else lindstedt
-    series = derive(_rest(system).oscillator, order)
+    series = derive(rest_of(system).oscillator, order)
     return series, limits(series)
 
 
 @lru_cache(maxsize=256)
 def _formula(system: System, kind: str, highest_order: int, order: int, highest: float) -> Resummation:
     series, _ = _series(system, "lindstedt", highest_order)
-    return resum(_rest(system).oscillator, series.truncated(order), kind, up_to=Fraction(highest))
+    return resum(rest_of(system).oscillator, series.truncated(order), kind, up_to=Fraction(highest))
 
 
 def series_of(system: System, method: str, order: int) -> Expansion | None:
@@ -132,6 +134,17 @@ def series_of(system: System, method: str, order: int) -> Expansion | None:
     if method == "multiple-scales":
         return _series(system, "lindstedt", order)[0].convert("fundamental")
     return _series(system, method, order)[0] if method in SERIES else None
+
+
+def exact_at(system: System, amplitudes: Array) -> Reference:
+    """The exact frequency at rising amplitudes; raises InputError as a study does."""
+
+    def truncate(_: Undamped, orders: Sequence[int], grid: Array) -> Truncations:
+        series, found = _series(system, "lindstedt", 0)
+        return of_expansion(series, orders, grid, found)
+
+    found = study_of(rest_of(system), (0,), amplitudes, truncate=truncate)
+    return Reference(found.reference, found.reference_error, found.reference_name)
 
 
 def tasks(plan: Plan) -> Iterator[Task]:

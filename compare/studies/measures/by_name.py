@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.studies.measures import backbone, decay
+from ridgeback.compare.studies.measures import backbone, cost, decay, reach
 from ridgeback.compare.studies.tasks import Measure
 
 QUESTIONS: Mapping[str, Measure] = {
     "error": backbone.MEASURE,
     "order-needed": backbone.MEASURE,
     "observed-order": backbone.MEASURE,
+    "range": reach.MEASURE,
+    "work-precision": cost.MEASURE,
     "decay-error": decay.MEASURE,
     "crossings": decay.MEASURE,
     "best-estimator": decay.MEASURE,
+    "error-budget": decay.MEASURE,
 }
 """The cells that a question is answered from."""
 

@@ -15,7 +15,7 @@ from typing import ClassVar
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.studies.measures.along import Case, Curve, growth_error, reference_floor
+from ridgeback.compare.studies.measures.along import Case, Curve, budget, growth_error, reference_floor
 from ridgeback.compare.studies.measures.estimated import ESTIMATES, estimated, noisy
 from ridgeback.compare.studies.measures.predicted import PREDICTIONS, predicted, takes_orders
 from ridgeback.compare.studies.plan import Plan
@@ -88,6 +88,7 @@ def errors_of(case: Case, curve: Curve, floor: float) -> Outcome:
         float(known.sum() / case.inside.sum()),
         growth_error(case, curve),
         floor,
+        *budget(case, curve),
     )
 
 
@@ -126,6 +127,9 @@ MEASURE = Measure(
         Column("coverage", "1", "share of the interior that has a value"),
         Column("growth_rms", "1", "root mean square of the relative error of the growth rate, by cycle"),
         Column("floor", "1", "how far two readings of the motion itself differ, relative"),
+        Column("truncation", "1", "rms error against the exact frequency at the prediction's own amplitude"),
+        Column("averaging", "1", "rms error of that exact frequency"),
+        Column("closure", "1", "rms of what truncation and averaging leave of the whole error"),
     ),
     methods=(*PREDICTIONS, *ESTIMATES),
     defaults=DEFAULTS,

@@ -11,6 +11,7 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.contenders import Source
 from ridgeback.compare.benchmark.expansions import amplitudes
+from ridgeback.compare.motion.error_budget import damped
 from ridgeback.compare.motion.model_curves import slow_flow_amplitude
 from ridgeback.compare.studies.measures.along import Case, Curve
 from ridgeback.compare.studies.systems import System
@@ -60,11 +61,22 @@ def predicted(case: Case, method: str, order: int | None, highest: int) -> Curve
         For what the method or the oscillator does not allow.
     """
     name, _, source = method.partition("/")
-    if name in SERIES and order is not None:
-        return Curve(_SERIES[name](case, source, order, highest))
     if name == "multiple-scales" and order is not None:
         return _slow_flow(case, order)
-    return Curve(_PLAIN[method](case))
+    omega = _PLAIN[method](case) if order is None else _SERIES[name](case, source, order, highest)
+    return Curve(omega, exact=exact_for(case, method))
+
+
+def exact_for(case: Case, method: str) -> Array | None:
+    """The exact frequency at the amplitude that a method uses; None where the motion has none."""
+    motion = case.motion
+    if not motion.has_backbone:
+        return None
+    at_action = method.endswith("/action") or method in ("multiple-scales", "averaged-action")
+    if at_action and motion.averaged is None:
+        return None
+    exact = motion.averaged.omega if at_action and motion.averaged is not None else motion.exact_at_energy
+    return damped(motion, exact) if method in ("multiple-scales", "linear") else exact
 
 
 def _amplitude(case: Case, source: str) -> Array:
@@ -107,7 +119,7 @@ def _slow_flow(case: Case, order: int) -> Curve:
     amplitude = slow_flow_amplitude(case.motion, flow)
     omega = np.full(case.time.size, np.nan)
     omega[: amplitude.size] = flow.frequency_at(amplitude, *small)
-    return Curve(omega, amplitude)
+    return Curve(omega, amplitude, exact_for(case, "multiple-scales"))
 
 
 def _exact(case: Case) -> Array:

@@ -11,8 +11,11 @@ from ridgeback.compare.studies.questions import (
     crossings,
     decay_error,
     error,
+    error_budget,
     observed_order,
     order_needed,
+    reach,
+    work_precision,
 )
 from ridgeback.compare.studies.tasks import Finished
 
@@ -21,9 +24,12 @@ ANSWERS: Mapping[str, Answering] = {
     "error": error.answer,
     "order-needed": order_needed.answer,
     "observed-order": observed_order.answer,
+    "range": reach.answer,
+    "work-precision": work_precision.answer,
     "decay-error": decay_error.answer,
     "crossings": crossings.answer,
     "best-estimator": best_estimator.answer,
+    "error-budget": error_budget.answer,
 }
 
 

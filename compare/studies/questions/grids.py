@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 
 import numpy as np
@@ -48,7 +48,18 @@ class Grid:
 def grids(blocks: Iterable[Finished]) -> Iterator[Grid]:
     """Put the blocks of each oscillator and method together; amplitudes rise."""
     for _, group in groupby(blocks, key=lambda block: (task_of(block).system, task_of(block).method)):
-        yield _grid(list(group))
+        yield joined([_grid(block) for block in group])
+
+
+def joined(parts: Sequence[Grid]) -> Grid:
+    """Grids of one oscillator and method side by side."""
+    return replace(
+        parts[0],
+        amplitudes=np.concatenate([part.amplitudes for part in parts]),
+        error=np.concatenate([part.error for part in parts], axis=1),
+        uncertainty=np.concatenate([part.uncertainty for part in parts]),
+        failed=sum(part.failed for part in parts),
+    )
 
 
 def task_of(block: Finished) -> BackboneTask:
@@ -59,20 +70,20 @@ def task_of(block: Finished) -> BackboneTask:
     return task
 
 
-def _grid(blocks: Sequence[Finished]) -> Grid:
-    first = task_of(blocks[0])
+def _grid(block: Finished) -> Grid:
+    task = task_of(block)
     nothing = (np.nan,) * (ERROR + 1)
-    values = [o if isinstance(o, tuple) else nothing for block in blocks for o in block.outcomes]
-    table = np.array([(v[ERROR], v[UNCERTAINTY]) for v in values], dtype=float).reshape(-1, len(first.orders), 2)
+    values = [outcome if isinstance(outcome, tuple) else nothing for outcome in block.outcomes]
+    table = np.array([(v[ERROR], v[UNCERTAINTY]) for v in values], dtype=float).reshape(-1, len(task.orders), 2)
     known = np.where(np.isfinite(table[..., 1]), table[..., 1], -1.0).max(axis=1)
     return Grid(
-        system=first.system,
-        method=first.method,
-        orders=first.orders,
-        amplitudes=np.array([a for block in blocks for a in task_of(block).amplitudes]),
+        system=task.system,
+        method=task.method,
+        orders=task.orders,
+        amplitudes=np.array(task.amplitudes),
         error=table[..., 0].T,
         uncertainty=np.where(known < 0, np.nan, known),
-        failed=sum(block.failures for block in blocks),
+        failed=block.failures,
     )
 
 

@@ -46,6 +46,9 @@ class Pooled:
     """The least of all trials."""
     growth_rms: float | None
     floor: float
+    truncation: float | None
+    averaging: float | None
+    closure: float | None
 
     @property
     def is_prediction(self) -> bool:
@@ -128,4 +131,5 @@ def _pooled(task: DecayTask, method: str, snr: float, order: int | None, outcome
         min((values[3] for values in given), default=0.0),
         growth,
         max((values[5] for values in given), default=math.nan),
+        *(given[0][6:9] if given else (None, None, None)),
     )

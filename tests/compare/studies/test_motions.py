@@ -13,7 +13,7 @@ from ridgeback.compare.studies.file.reading import plan_of
 from ridgeback.compare.studies.measures.decay import DecayTask
 from ridgeback.compare.studies.measures.estimated import noisy
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions import best_estimator, crossings, decay_error
+from ridgeback.compare.studies.questions import best_estimator, crossings, decay_error, error_budget
 from ridgeback.compare.studies.questions.crossings import Duel, axes_of
 from ridgeback.compare.studies.questions.crossings import crossings as crossings_along
 from ridgeback.compare.studies.running import tasks_of
@@ -133,3 +133,18 @@ def test_a_study_of_motions_resumes_to_the_same_bytes(tmp_path: Path) -> None:
     again = list(run_study(file, store=tmp_path / "again.db").rows())
     assert first == again
     assert len(first) == 1 + 2 + 2 * 2 * 7
+
+
+def test_the_budget_of_a_prediction_adds_up() -> None:
+    """k = 3, mu = 0.3: the slow flow and (3) hold mu^2, so averaging is not charged for it."""
+    text = PAPER.replace("k = 12.566370614359172, mu = 0.01", "k = 3, mu = 0.3").replace("2.9845130209103035", "2")
+    methods = 'methods = ["multiple-scales", "linear", "lindstedt/action"]\n'
+    text = text.replace('["decay-error", "crossings"]', '"error-budget"').replace("rate = 64", "rate = 16")
+    plan = plan_of("\n".join(methods if line.startswith("methods") else line for line in text.splitlines()))
+    rows = error_budget.answer(plan, blocks(plan)).rows()
+    for row in rows:
+        assert row["rms"] <= row["truncation"] + row["averaging"] + row["closure"] + 1e-15
+        assert row["closure"] <= 4.0 * row["truncation"] * max(row["averaging"], row["floor"]) + 1e-15
+    averaging = {row["method"]: row["averaging"] for row in rows}
+    assert averaging["multiple-scales"] < 3e-4
+    assert averaging["lindstedt/action"] == pytest.approx(5.2e-3, rel=0.05)
