@@ -55,7 +55,6 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
     ridgeback derive --equation "u'' + u + alpha2*u**2 + alpha3*u**3 = 0" --order 4 --verify
     ridgeback derive --equation "u'' - u + u**3 = 0" --about 1
     ridgeback derive van-der-pol --order 400 --digits 30 --checkpoint vdp.state --budget 30min
-    ridgeback derive van-der-pol --order 96 --workers 8
     ridgeback derive pendulum --at 1,2.5                       certified errors of the series
     ridgeback derive van-der-pol --at 0.1,1,3                  the limit cycle at these eps, enclosed
     ridgeback derive --equation "u'' + u**3 = 0" --at 1,2      no linear force: another power of A
