@@ -69,6 +69,8 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.numeric.tracking.track import Track as Track
     from ridgeback.symbolic.certificates.at_amplitudes import certified_frequencies as certified_frequencies
     from ridgeback.symbolic.certificates.certificate import certify as certify
+    from ridgeback.symbolic.cycles.found import limit_cycles as limit_cycles
+    from ridgeback.symbolic.cycles.orbit import exact_frequency as exact_frequency
     from ridgeback.symbolic.enclosure.enclosure import enclose as enclose
     from ridgeback.symbolic.expansion.cost import Budget as Budget
     from ridgeback.symbolic.expansion.energy_integral import energy_integral as energy_integral

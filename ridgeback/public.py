@@ -47,6 +47,8 @@ PUBLIC: Final = (
     Public("periodic_orbit", "interface.orbits", _PROVE, "a limit cycle found by shooting"),
     Public("precise_orbit", "interface.orbits", _PROVE, "a limit cycle to any number of digits"),
     Public("enclose", "symbolic.enclosure.enclosure", _PROVE, "the exact frequency at an amplitude, enclosed"),
+    Public("exact_frequency", "symbolic.cycles.orbit", _PROVE, "the same by integration where no energy is known"),
+    Public("limit_cycles", "symbolic.cycles.found", _PROVE, "the limit cycles of an oscillator, enclosed"),
     Public("certify", "symbolic.certificates.certificate", _PROVE, "every independent check of an expansion"),
     Public("certified_frequencies", "symbolic.certificates.at_amplitudes", _PROVE, "a formula's proved errors"),
     Public("certified_rows", "compare.study.certified", _PROVE, "proved errors of a series and its resummations"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -15,8 +16,9 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.certificates.accuracy import Accuracy, Ball, accuracy
 from ridgeback.symbolic.certificates.at_amplitudes import Refused
 from ridgeback.symbolic.certificates.at_cycles import described_cycles
-from ridgeback.symbolic.enclosure.enclosure import enclose, separatrix
-from ridgeback.symbolic.enclosure.well import well_of
+from ridgeback.symbolic.cycles.orbit import exact_frequency
+from ridgeback.symbolic.enclosure.enclosure import separatrix
+from ridgeback.symbolic.enclosure.well import NoEnergyError, well_of
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -82,13 +84,15 @@ def references(oscillator: Oscillator, places: Sequence[Fraction]) -> tuple[Know
     if oscillator.kind == "limit-cycle":
         rows = described_cycles(oscillator, places, bits=CYCLE_BITS)
         return tuple(Known(None, row.why) if isinstance(row, Refused) else Known(row.cycle.omega) for row in rows)
-    well_of(oscillator)  # refuses what has no energy, whatever the amplitude
+    if not oscillator.by_sides:
+        with suppress(NoEnergyError):
+            well_of(oscillator)  # refuses what has no frequency at any amplitude
     return tuple(_known(oscillator, place) for place in places)
 
 
 def _known(oscillator: Oscillator, place: Fraction) -> Known:
     try:
-        return Known(enclose(oscillator, place).omega)
+        return Known(exact_frequency(oscillator, place).omega)
     except InputError as refusal:
         return Known(None, str(refusal))
 
@@ -172,11 +176,22 @@ def _name(item: Accuracy) -> str:
 
 
 def _amplitudes(oscillator: Oscillator, largest: float) -> Array:
-    limit = None if oscillator.kind == "limit-cycle" else separatrix(oscillator).peak
-    top = largest if limit is None else float(limit)
+    limit = _limit(oscillator)
+    top = largest if limit is None else limit
     found = np.array([float(f"{share * top:.3g}") for share in SHARES])
     found.flags.writeable = False
     return found
+
+
+def _limit(oscillator: Oscillator) -> float | None:
+    """Where the oscillation ends by its energy; None where it does not, or has none."""
+    if oscillator.kind == "limit-cycle":
+        return None
+    try:
+        found = separatrix(oscillator).peak
+    except NoEnergyError:
+        return None
+    return None if found is None else float(found)
 
 
 def _row(item: Accuracy) -> CertifiedRow:

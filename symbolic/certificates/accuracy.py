@@ -13,7 +13,8 @@ from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import rational
-from ridgeback.symbolic.enclosure.enclosure import DEFINITIONS, Amplitude, enclose
+from ridgeback.symbolic.cycles.orbit import exact_frequency
+from ridgeback.symbolic.enclosure.enclosure import DEFINITIONS, Amplitude
 from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
@@ -64,7 +65,7 @@ def certified_error(oscillator: Oscillator, formula: Formula, amplitude: Amplitu
             f"the {formula.method} formula of {formula.system} in {formula.variable} has no certified error against "
             f"{oscillator.name}; derive it in the amplitude from the same parameters"
         )
-    exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
+    exact = exact_frequency(oscillator, amplitude, definition=formula.amplitude, bits=bits)
     with ctx.workprec(bits + 40):
         return formula.in_balls(arb(rational(exact.amplitude))) / exact.omega - 1
 
@@ -154,7 +155,7 @@ def accuracy(
     amplitudes : sequence of Fraction
         Peak amplitudes, in the unit of u; of a limit cycle values of its small parameter.
     reference : sequence of arb or None, optional
-        omega0 there in balls, None where there is no enclosure; by default those of ``enclose``.
+        omega0 there in balls, None where there is no enclosure; by default those of ``exact_frequency``.
 
     Returns
     -------
@@ -178,7 +179,7 @@ def accuracy(
 
 def _enclosed(oscillator: Oscillator, amplitude: Fraction) -> arb | None:
     try:
-        return enclose(oscillator, amplitude).omega
+        return exact_frequency(oscillator, amplitude).omega
     except InputError:
         return None
 

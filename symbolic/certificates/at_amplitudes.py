@@ -14,7 +14,8 @@ from ridgeback.common.numbers import exact_text
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.symbolic.arithmetic.balls import rational
 from ridgeback.symbolic.certificates.accuracy import check_belongs
-from ridgeback.symbolic.enclosure.enclosure import Enclosure, brief_number, enclose, rounded_up
+from ridgeback.symbolic.cycles.orbit import exact_frequency
+from ridgeback.symbolic.enclosure.enclosure import Enclosure, brief_number, rounded_up
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, ball_row
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
@@ -100,6 +101,7 @@ def at_each(
 
     Examples
     --------
+    >>> from ridgeback.symbolic.enclosure.enclosure import enclose
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> [type(row).__name__ for row in at_each(lambda a: CertifiedFrequency(enclose(find("pendulum"), a)), [1, 4])]
     ['CertifiedFrequency', 'Refused']
@@ -117,7 +119,7 @@ def certified_frequency(
     oscillator: Oscillator, formula: Formula, amplitude: Fraction, *, bits: int = 128
 ) -> CertifiedFrequency:
     """Enclose omega0 at one amplitude, and the formula with its error; raises as ``certified_frequencies``."""
-    exact = enclose(oscillator, amplitude, definition=formula.amplitude, bits=bits)
+    exact = exact_frequency(oscillator, amplitude, definition=formula.amplitude, bits=bits)
     if isinstance(formula, Expansion | PowerExpansion):
         check_belongs(oscillator, formula)
     if formula.variable != "A" or formula.system != oscillator.name:

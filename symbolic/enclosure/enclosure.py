@@ -36,7 +36,7 @@ from ridgeback.symbolic.systems.oscillator import Oscillator
 __all__ = ["Amplitude", "Enclosure", "Separatrix", "enclose", "separatrix"]
 
 Amplitude: TypeAlias = "Fraction | int | str | float | sympy.Rational"
-Method: TypeAlias = Literal["closed form", "quadrature"]
+Method: TypeAlias = Literal["closed form", "quadrature", "integration"]
 
 DEFINITIONS: Final = ("peak", "trough")
 BITS: Final = (16, 4096)
@@ -164,8 +164,8 @@ def enclose_in(
     progress: Progress = silent,
 ) -> Enclosure:
     """Enclose omega0 at an amplitude of the motion in a well; see ``enclose``."""
-    size, bits = _exact(amplitude), _checked_bits(bits)
-    _check_definition(definition)
+    size, bits = exact_size(amplitude), checked_bits(bits)
+    check_definition(definition)
     well = well.mirrored() if definition == "trough" else well
     value, place, how = _at_rest(well, bits) if size == 0 else _swinging(well, size, bits, method, definition, progress)
     peak, trough = (place.peak, place.trough) if definition == "peak" else (-place.trough, -place.peak)
@@ -181,13 +181,13 @@ def _by_sides(
     if well is not None:
         found = enclose_in(well, amplitude, definition=definition, bits=bits, method=method)
         return replace(found, scale=sympy.S.Zero)
-    size, bits = _exact(amplitude), _checked_bits(bits)
-    _check_definition(definition)
+    size, bits = exact_size(amplitude), checked_bits(bits)
+    check_definition(definition)
     if method == "closed form":
         raise InputError(f"{oscillator.name} has no closed form here; use the quadrature, which holds for every force")
     sides = two_sided(oscillator)
     if size == 0:
-        return _limit_at_rest(oscillator, definition, bits)
+        return limit_at_rest(oscillator, definition, bits)
     sides = sides.mirrored() if definition == "trough" else sides
     exact = sympy.Rational(size.numerator, size.denominator)
 
@@ -202,20 +202,20 @@ def _by_sides(
         places = (arb(rational(exact)), -turn)
         peak, trough = places if definition == "peak" else (-places[1], -places[0])
         scale = oscillator.natural_frequency if oscillator.is_linear_at_rest else sympy.S.Zero
-        return Enclosure(_widened(omega, bits), exact, definition, peak, trough, "quadrature", bits, scale)
+        return Enclosure(widened(omega, bits), exact, definition, peak, trough, "quadrature", bits, scale)
 
     return decided(attempt, sides.name, bits + GUARD_BITS + GUARD_BITS + 2 * max(0, -_magnitude(size)))
 
 
-def _limit_at_rest(oscillator: Oscillator, definition: str, bits: int) -> Enclosure:
+def limit_at_rest(oscillator: Oscillator, definition: str, bits: int) -> Enclosure:
     """omega0 at amplitude 0: the natural frequency, where there is one."""
     k = oscillator.natural_frequency
     with ctx.workprec(bits + GUARD_BITS):
-        value = _widened(number(k), bits)
+        value = widened(number(k), bits)
     return Enclosure(value, sympy.S.Zero, definition, arb(0), arb(0), "closed form", bits, k)
 
 
-def _check_definition(definition: str) -> None:
+def check_definition(definition: str) -> None:
     if definition not in DEFINITIONS:
         raise InputError(
             f"amplitude {definition!r} has no enclosure, for which the turning point must be known exactly; "
@@ -225,7 +225,7 @@ def _check_definition(definition: str) -> None:
 
 def _at_rest(well: Well, bits: int) -> tuple[arb, Orbit, Method]:
     with ctx.workprec(bits + GUARD_BITS):
-        return _widened(number(well.scale), bits), Orbit(arb(0), arb(0)), "closed form"
+        return widened(number(well.scale), bits), Orbit(arb(0), arb(0)), "closed form"
 
 
 def _swinging(
@@ -241,7 +241,7 @@ def _swinging(
         omega = number(well.scale) * value
         if omega.rel_accuracy_bits() < bits + GUARD_BITS // 4:
             raise UndecidedError
-        return _widened(omega, bits), path, how
+        return widened(omega, bits), path, how
 
     return decided(attempt, well.name, bits + GUARD_BITS + _cancelled(well, size), progress)
 
@@ -256,8 +256,12 @@ def _natural(well: Well, path: Orbit, bits: int, method: Method | None) -> tuple
     return frequency(integrand_of(well, path), strip_of(well, path), bits + GUARD_BITS // 2), "quadrature"
 
 
-def _widened(omega: arb, bits: int) -> arb:
-    """The ball with 2**-bits of its value added to its radius, so that balls of more bits lie inside."""
+def widened(omega: arb, bits: int) -> arb:
+    """The ball with 2**-bits of its value added to its radius, so that balls of more bits lie inside.
+
+    >>> widened(arb(1), 10).contains(arb(1.0009))
+    True
+    """
     return arb(omega.mid(), (omega.rad() + abs(omega) * arb(2) ** -bits).upper())
 
 
@@ -285,8 +289,12 @@ def rounded_up(ball: arb) -> float:
     return -rounded_down(-ball)
 
 
-def _exact(amplitude: Amplitude) -> Fraction:
-    """The amplitude as an exact fraction, not negative."""
+def exact_size(amplitude: Amplitude) -> Fraction:
+    """The amplitude as an exact fraction, not negative; InputError for what is none.
+
+    >>> exact_size("0.5")
+    Fraction(1, 2)
+    """
     if isinstance(amplitude, str):
         value = parse_number(amplitude)
     elif isinstance(amplitude, sympy.Rational):
@@ -309,7 +317,7 @@ def _magnitude(value: Fraction) -> int:
     return value.numerator.bit_length() - value.denominator.bit_length()
 
 
-def _checked_bits(bits: int) -> int:
+def checked_bits(bits: int) -> int:
     low, high = BITS
     if isinstance(bits, bool) or not isinstance(bits, int) or not low <= bits <= high:
         raise InputError(f"bits {bits!r} must be a whole number from {low} to {high}; 128 gives 38 digits")

@@ -75,6 +75,10 @@ class Curves:
     analytic: Function
 
 
+class NoEnergyError(InputError):
+    """Orbits close, but by no energy of the form I(u)^2 u'^2/2 + V(u)."""
+
+
 @lru_cache(maxsize=64)
 def well_of(oscillator: Oscillator, *, mirrored: bool = False) -> Well:
     """Return the well of a conservative oscillator, in units with k = 1.
@@ -172,10 +176,9 @@ def _check_kind(oscillator: Oscillator) -> None:
             "use --method multiple-scales, or set its damping to 0"
         )
     if oscillator.kind == "reversible":
-        raise InputError(
+        raise NoEnergyError(
             f"{name} closes its orbits by a symmetry under (u, t) -> (-u, -t) and not by an energy of the form "
-            "I(u)^2 u'^2/2 + V(u), so there is no enclosure; study holds the series against an integrated cycle (not "
-            "proved); leave out --at and --certified"
+            "I(u)^2 u'^2/2 + V(u); derive --at encloses its frequency by integration"
         )
     unset = free_names(oscillator.substituted_force)
     if unset:
@@ -186,9 +189,9 @@ def _drag(oscillator: Oscillator, force: sympy.Expr) -> sympy.Expr:
     """b(u) of a force a(u) + b(u) u'^2."""
     drag = force.diff(V, 2) / 2
     if drag.has(V):  # the force is even in u', so nothing but a(u) + b(u) u'^2 is left
-        raise InputError(
+        raise NoEnergyError(
             f"{oscillator.name} has velocity terms other than b(u) u'^2, for which there is no energy to integrate; "
-            "no enclosure exists, the series of --method lindstedt does: leave out --at and --certified"
+            "derive --at encloses its frequency by integration"
         )
     return drag
 

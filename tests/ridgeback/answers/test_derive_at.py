@@ -215,12 +215,26 @@ def test_where_no_amplitude_has_an_enclosure_the_series_is_printed(ridgeback: Ri
 
 
 def test_a_refused_enclosure_leaves_the_series_standing(ridgeback: Ridgeback) -> None:
-    done = ridgeback("derive", "--equation", "u'' + u + u*u'**4 = 0", "--at", "0.5", "--order", "4", "--format", "json")
+    done = ridgeback(
+        "derive", "--equation", "u'' + u - u**3 + u*u'**4 = 0", "--at", "1.5", "--order", "4", "--format", "json"
+    )
     assert done.code == 3
     public = json.loads(done.out)
     assert public["frequency"][0]["coefficient"] == "1"
     assert public["at"][0]["omega0"] is None
-    assert "velocity terms other than" in public["at"][0]["refused"]
+    assert "does not come back" in public["at"][0]["refused"]
+
+
+@pytest.mark.parametrize(
+    ("equation", "omega"),
+    [("u'' + u*(1 - u'**2)**(3/2) = 0", "0.95603075767103839102"), ("u'' + u*u' + u = 0", "0.98966500902748735354")],
+)
+def test_where_no_energy_is_known_the_motion_is_integrated(ridgeback: Ridgeback, equation: str, omega: str) -> None:
+    done = ridgeback("derive", "--equation", equation, "--at", "1/2", "--order", "4", "--format", "json")
+    (row,) = json.loads(done.out)["at"]
+    assert (done.code, row["by"]) == (0, "integration")
+    assert row["omega0"].startswith(omega)
+    assert abs(float(row["relative_error"])) < 1e-3
 
 
 def test_a_force_that_no_rule_integrates_is_enclosed(ridgeback: Ridgeback) -> None:
