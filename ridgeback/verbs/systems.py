@@ -29,6 +29,11 @@ def command(system: str | None, style: str, output: str) -> None:
     ridgeback systems
     ridgeback systems pendulum --format json
     """
+    if system is None and style == "text":
+        from ridgeback.symbolic.systems.entries.every import listed as entries
+
+        write_text(output, aligned(COLUMNS, entries()) + "\n")
+        return
     from ridgeback.symbolic.systems.catalogue import catalogue
 
     listed = catalogue() if system is None else (Choice(system, None, None, None, ()).oscillator(),)
@@ -38,6 +43,8 @@ def command(system: str | None, style: str, output: str) -> None:
 
 def record(oscillator: Oscillator) -> dict[str, Any]:
     """Everything the catalogue says of an oscillator, exact values as text."""
+    from ridgeback.symbolic.systems.entries.every import known_frequency
+
     return {
         "name": oscillator.name,
         "title": oscillator.title,
@@ -45,6 +52,7 @@ def record(oscillator: Oscillator) -> dict[str, Any]:
         "equation": oscillator.equation,
         "parameters": {name: str(value) for name, value in oscillator.parameters.items()},
         "natural_frequency": str(oscillator.natural_frequency),
+        "exact_frequency": known_frequency(oscillator.name),
         "potential": None if oscillator.potential is None else str(oscillator.potential),
         "aliases": list(oscillator.aliases),
         "reference": oscillator.reference,
@@ -59,8 +67,6 @@ def printed(records: list[dict[str, Any]], style: str, *, detailed: bool) -> str
     rows = [{**r, "parameters": " ".join(f"{n}={v}" for n, v in r["parameters"].items())} for r in records]
     if style == "csv":
         return csv_text([*COLUMNS, "potential", "reference"], rows)
-    if not detailed:
-        return aligned(COLUMNS, rows) + "\n"
     row = {**rows[0], "aliases": ", ".join(rows[0]["aliases"])}
     width = max(map(len, row))
     return "".join(f"{key.ljust(width)}  {value}\n" for key, value in row.items() if value)

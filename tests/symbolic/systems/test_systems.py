@@ -2,10 +2,16 @@
 
 import pytest
 import sympy
+from flint import ctx, fmpq
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.grammar.parse import parse_equation, to_sympy
+from ridgeback.symbolic.arithmetic.balls import number_ball
+from ridgeback.symbolic.cycles.found import limit_cycles
+from ridgeback.symbolic.cycles.orbit import exact_frequency
+from ridgeback.symbolic.expansion.ball_expansion import holds
+from ridgeback.symbolic.grammar.parse import parse_equation, parse_expression, to_sympy
 from ridgeback.symbolic.systems.catalogue import catalogue, find
+from ridgeback.symbolic.systems.entries.every import known_frequency, listed, names
 from ridgeback.symbolic.systems.oscillator import U, V
 
 EXPECTED = [
@@ -22,11 +28,61 @@ EXPECTED = [
     "damped-duffing-softening",
     "damped-helmholtz-duffing",
 ]
+OTHERS = [system.name for system in catalogue()[len(EXPECTED) :]]
+classical = pytest.mark.parametrize("system", catalogue()[: len(EXPECTED)], ids=lambda system: system.name)
 every = pytest.mark.parametrize("system", catalogue(), ids=lambda system: system.name)
 
 
 def test_the_catalogue_holds_the_promised_systems():
-    assert [system.name for system in catalogue()] == EXPECTED
+    assert [system.name for system in catalogue()[: len(EXPECTED)]] == EXPECTED
+    assert len(OTHERS) >= 25
+    assert list(names()) == EXPECTED + OTHERS
+
+
+def test_the_list_is_what_the_equations_say():
+    for row, system in zip(listed(), catalogue(), strict=True):
+        values = " ".join(f"{name}={value}" for name, value in system.parameters.items())
+        assert row == {"name": system.name, "kind": system.kind, "equation": system.equation, "parameters": values}
+
+
+KNOWN = [name for name in names() if known_frequency(name) and find(name).kind != "limit-cycle"]
+
+
+@pytest.mark.parametrize("name", KNOWN)
+@pytest.mark.parametrize("amplitude", ["1/5", "2/3"])
+def test_a_frequency_known_in_closed_form_is_in_the_certified_ball(name, amplitude):
+    oscillator = find(name)
+    with ctx.workprec(120):
+        values = {n: str(v) for n, v in oscillator.parameters.items()}
+        expected = closed_form(known_frequency(name), {**values, "A": amplitude})
+        found = exact_frequency(oscillator, amplitude, bits=80)
+        assert found.omega.overlaps(expected)
+        assert expected.rel_accuracy_bits() > 90
+
+
+def test_the_hybrid_has_a_circle_for_a_limit_cycle():
+    (cycle,) = limit_cycles(find("hybrid"), bits=64)
+    assert known_frequency("rayleigh-van-der-pol") == "1"
+    assert holds(cycle.omega, fmpq(1))
+    assert holds(cycle.peak, fmpq(1))
+
+
+def closed_form(text, values):
+    """The formula in balls; agm(x, y) may stand outermost, after a factor."""
+    before, is_mean, after = text.partition("agm(")
+    if not is_mean:
+        return ball_of(text, values)
+    factor = ball_of(before.rstrip("*") or "1", values)
+    depth, cut = 0, 0
+    for place, sign in enumerate(after):
+        depth += (sign == "(") - (sign == ")")
+        cut = place if sign == "," and depth == 0 else cut
+    return factor * ball_of(after[:cut], values).agm(ball_of(after[cut + 1 : -1], values))
+
+
+def ball_of(text, values):
+    inserted = {sympy.Symbol(name, real=True): sympy.Rational(value) for name, value in values.items()}
+    return number_ball(to_sympy(parse_expression(text, unknown="u")).subs(inserted))
 
 
 @every
@@ -46,7 +102,7 @@ def test_the_force_is_that_of_the_equation_and_natural_units_are_the_default(sys
     assert system.normalised.bound == system.substituted_force
 
 
-@every
+@classical
 def test_every_conservative_system_and_its_damped_twin_has_a_potential_of_its_restoring_force(system):
     if system.kind == "limit-cycle":
         assert system.potential is None
