@@ -13,7 +13,8 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.benchmark import benchmark
 from ridgeback.compare.benchmark.contenders import Reference, Row
 from ridgeback.compare.benchmark.crossings import by_order
-from ridgeback.compare.benchmark.own_correction import corrected, described
+from ridgeback.compare.benchmark.judging import common_support
+from ridgeback.compare.benchmark.own_correction import corrected, described, held_beyond
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import judge
 from ridgeback.compare.motion.motion import setting
@@ -167,3 +168,18 @@ def test_bad_requests_are_refused() -> None:
         benchmark(chosen, orders=())
     with pytest.raises(InputError, match="below 0"):
         benchmark(chosen, orders=(-2,))
+
+
+def test_contenders_without_a_common_stretch_are_refused() -> None:
+    time, inside = np.arange(8.0), np.ones(8, bool)
+    hardly = np.where(time < 2, 0.0, np.nan)[None]
+    with pytest.raises(InputError, match="no contender covers enough of the motion"):
+        common_support(time, hardly, inside)
+    apart = np.array([np.where(time % 4 == i, np.nan, 0.0) for i in range(4)])
+    with pytest.raises(InputError, match="the contenders share no stretch of the motion"):
+        common_support(time, apart, inside)
+
+
+def test_a_track_of_few_values_is_held_as_their_mean() -> None:
+    track = Track(np.arange(5.0), np.array([1.0, 2.0, 9.0, 9.0, 9.0]), np.arange(5) < 2, "flat")
+    assert held_beyond(track, np.arange(3.0)).tolist() == [1.5, 1.5, 1.5]

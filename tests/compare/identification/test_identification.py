@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import json
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.identification.candidates import NAMES, level_at, models_of, van_der_pol_flow
+from ridgeback.compare.identification.candidates import LAWS, NAMES, level_at, models_of, van_der_pol_flow
 from ridgeback.compare.identification.confusion import DRAWS, confusion, noisy
-from ridgeback.compare.identification.fitting import spread_of
+from ridgeback.compare.identification.fitting import Fit, spread_of
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.potentials import POTENTIALS, helmholtz_limit, pendulum_orbits
 from ridgeback.compare.identification.prediction import predict
 from ridgeback.compare.identification.preparation import usable
-from ridgeback.compare.identification.ranking import effective_number
+from ridgeback.compare.identification.ranking import criterion, effective_number
 from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.noise.truth import recording_truth
 from ridgeback.compare.recording.recording import compare_recording
 from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
-from ridgeback.numeric.motion.dynamics import duffing, helmholtz_duffing, pendulum, van_der_pol
+from ridgeback.numeric.motion.dynamics import Dynamics, duffing, helmholtz_duffing, pendulum, van_der_pol
 from ridgeback.numeric.motion.trajectory import integrate
 from ridgeback.numeric.orbits.potential import peak_limit
 from ridgeback.numeric.orbits.slow_flow import motion
@@ -96,8 +97,6 @@ def test_what_cannot_be_told_apart_is_said() -> None:
 @pytest.mark.parametrize(("law", "name"), [("linear + quadratic", "beta"), ("linear + cubic", "gamma")])
 def test_the_damping_law_is_found(law: str, name: str) -> None:
     """u'' + 2 mu u' + c u'|u'|^n + u + 0.4 u^3 = 0, integrated as it stands."""
-    from ridgeback.numeric.motion.dynamics import Dynamics
-
     power, c = (1, 0.03) if name == "beta" else (2, 0.04)
     conservative = duffing(eps=0.4, mu=0.003)
     dynamics = Dynamics(
@@ -111,6 +110,33 @@ def test_the_damping_law_is_found(law: str, name: str) -> None:
     assert found.best.damping_law == law
     parameter = found.best.parameter(name)
     assert parameter.value == pytest.approx(c, abs=3.5 * parameter.standard_deviation + 0.02 * c)
+
+
+@pytest.mark.parametrize(("law", "name", "power"), [(LAWS[1], "beta", 1), (LAWS[2], "gamma", 2)])
+def test_a_damping_law_by_itself_starts_from_the_measured_growth_rate(law: str, name: str, power: int) -> None:
+    c, conservative = 0.03, duffing(eps=0.4, mu=0.003)
+    dynamics = Dynamics(
+        name="damped",
+        force=lambda u, v: conservative.force(u, v) + c * v * abs(v) ** power,
+        natural_frequency=1.0,
+    )
+    run = integrate(dynamics, (1.0, 0.0), duration=150.0, rate=1.3, rtol=1e-8)
+    values = run.u + 0.003 * np.random.default_rng(2).normal(size=run.u.size)
+    recording = Recording(run.time, values, 1.3, "u", "", "x", "")
+    best = identify(recording, candidates=("duffing-hardening",), laws=(law,)).best
+    assert best.damping_law == law
+    assert abs(best.parameter(name).value - c) < 4.0 * best.parameter(name).standard_deviation + 0.02 * c
+    with pytest.raises(KeyError, match="none"):
+        best.parameter("none")
+
+
+def test_the_corrected_criterion_counts_few_samples() -> None:
+    """Hurvich and Tsai: 2 p n / (n - p - 1) in place of p log n, and nothing to compare with too few samples."""
+    of_three = Fit(SimpleNamespace(count=3), np.zeros(3), np.ones(20), np.eye(3))  # type: ignore[arg-type]
+    apart = criterion(of_three, 10.0, "aicc") - criterion(of_three, 10.0, "bic")
+    assert apart == pytest.approx(2 * 3 * 10 / 6 - 3 * math.log(10.0))
+    assert criterion(of_three, 4.0, "aicc") == math.inf
+    assert effective_number(np.full(50, 2.0)) == 1.0
 
 
 def test_prediction_from_the_first_cycles() -> None:

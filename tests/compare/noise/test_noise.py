@@ -12,8 +12,9 @@ import pytest
 from ridgeback.common.errors import InputError
 from ridgeback.compare.noise.monte_carlo import attempt, judged, monte_carlo, noisy, truth_of
 from ridgeback.compare.noise.results import NoiseStudy, Trial, cell_of, read_study
-from ridgeback.compare.noise.truth import Truth, paper_truth, recording_truth
+from ridgeback.compare.noise.truth import Truth, oscillator_truth, paper_truth, recording_truth
 from ridgeback.numeric.tracking.track import Track
+from ridgeback.symbolic.systems.catalogue import find
 
 
 @pytest.fixture(scope="module")
@@ -134,3 +135,14 @@ def test_what_cannot_be_studied_is_refused(paper: Truth, change: dict[str, objec
     request: dict[str, object] = {"source": paper, "methods": ("pseudo-wigner",), "snr_db": (20.0,), "trials": 2}
     with pytest.raises(InputError, match=message):
         monte_carlo(**{**request, **change})  # type: ignore[arg-type]
+
+
+def test_a_cell_that_was_not_tried_is_not_there(small: NoiseStudy) -> None:
+    assert small.cell("hilbert", 40.0).method == "hilbert"
+    with pytest.raises(KeyError, match="hilbert"):
+        small.cell("hilbert", 7.0)
+
+
+def test_a_record_without_a_whole_cycle_is_no_truth() -> None:
+    with pytest.raises(InputError, match=r"use a longer duration|longer"):
+        oscillator_truth(find("pendulum"), (1.0, 0.0), duration=3.0, rate=32.0)

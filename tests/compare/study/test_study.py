@@ -126,6 +126,10 @@ def test_bad_grids_are_refused_by_name(orders, amplitudes, words):
 
 
 def test_other_bad_input():
+    with pytest.raises(InputError, match=r"amplitudes of shape \(1, 2\) are not a list of numbers"):
+        study(find("pendulum"), (2,), [[0.5, 1.0]])
+    with pytest.raises(InputError, match="101 values of eps exceed 100 orbits"):
+        study(find("van-der-pol"), (2,), np.linspace(0.1, 1.0, 101))
     with pytest.raises(InputError, match=r"separatrix of duffing-softening at 1;"):
         study(find("duffing-softening"), (2,), [1.0])
     with pytest.raises(InputError, match="method 'guess'"):
