@@ -19,7 +19,7 @@ CASES: tuple[Case, ...] = (
     refused("generate pendulum --order -1", "'-1'", "give an integer"),
     unusable("generate pendulum -o .", "'.'", "check the path"),
     unusable("generate pendulum -o missing/p.c", "'missing'", "check the path"),
-    refused("simulate nothing-like-it", "'nothing-like-it'", "for instance pendulum"),
+    refused("simulate zzz", "'zzz'", "for instance pendulum"),
     refused("simulate pendulum --initial 1", "'1'", "write for example"),
     refused("simulate pendulum --initial 1,2,3", "'1,2,3'", "write for example"),
     refused("simulate pendulum --initial nan,0", "'nan'", "write a decimal"),
