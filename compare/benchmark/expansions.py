@@ -20,13 +20,12 @@ from ridgeback.compare.binding.compiled_code import NotCompiled, compiled
 from ridgeback.compare.binding.generated_code import python_module
 from ridgeback.compare.motion.model_curves import slow_flow_curve
 from ridgeback.compare.motion.motion import Motion
+from ridgeback.compare.study.derived import backbone_series, without_damping
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.energy import is_linearly_damped
 from ridgeback.numeric.orbits.paper_model import series_frequency
 from ridgeback.symbolic.expansion.expansion import Expansion
-from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
-from ridgeback.symbolic.flow.ordering import undamped
 from ridgeback.symbolic.resummation.by_name import resum
 
 ORDERS = (2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 24, 28, 32, 36, 40)
@@ -69,7 +68,7 @@ def theory(motion: Motion, orders: Iterable[int], step: Callable[[str], None]) -
     oscillator = motion.setting.oscillator
     step("expansions, derived and generated")
     try:
-        expansion = lindstedt(undamped(oscillator), max(orders))
+        expansion = backbone_series(without_damping(oscillator).oscillator, max(orders))
     except InputError as error:
         yield refused("lindstedt", "perturbation expansion", "expansion", str(error))
     else:
@@ -123,7 +122,7 @@ def series(
                 cost = nanoseconds(function, next(iter(at.values())))
                 for source, x in at.items():
                     row = Row(
-                        f"lindstedt-{order}"
+                        f"{expansion.method}-{order}"
                         + (f"-{source}" if source else "")
                         + ("" if language == "python" else "-c"),
                         f"expansion, order {order}" + (f", A(t) from the {source}" if source else ""),
@@ -141,7 +140,7 @@ def resummations(motion: Motion, expansion: Expansion, sources: Mapping[Source, 
     """Other formulas from the same coefficients, where they exist."""
     if expansion.variable == "eps":
         return
-    oscillator = undamped(motion.setting.oscillator)
+    oscillator = without_damping(motion.setting.oscillator).oscillator
     order = min(expansion.order, 24)
     part = expansion.truncated(order)
     for name in RESUMMATIONS:

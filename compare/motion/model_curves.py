@@ -14,6 +14,7 @@ from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.results import AmplitudeSource, Curve
 from ridgeback.compare.study.derived import Derived
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.orbits.energy import is_linearly_damped
 from ridgeback.numeric.orbits.paper_model import series_frequency
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
 from ridgeback.symbolic.flow.reconstruction import Reconstruction
@@ -57,7 +58,9 @@ def _conservative_curves(motion: Motion, derived: Derived, orders: Sequence[int]
             omega = series_frequency(peak, k=k, terms=terms)
             yield _model(motion, f"series-{terms}", label, omega, by=AmplitudeSource.ENERGY)
     if motion.averaged is not None:
-        note = "J(t) = J₀ exp(−2μt); no integration of the equation."
+        linear = is_linearly_damped(motion.dynamics, float(motion.averaged.peak[0]))
+        how = "J(t) = J₀ exp(−2μt)" if linear else "J(t) by the averaged loss of action"
+        note = f"{how}; no integration of the equation."
         omega = motion.averaged.omega
         yield _model(motion, AVERAGED_ACTION, "averaged action", omega, note, by=AmplitudeSource.AVERAGED)
     yield _linear(motion)

@@ -32,6 +32,8 @@ CYCLES = 40.0
 SAMPLES_PER_CYCLE = 32.0
 """Defaults of the paper's case: 20 s of 2 Hz (small amplitude), at 64 Hz."""
 DIGITS = 25
+SECOND = "RK45"
+"""The second integrator of forces with kinks."""
 CHECKED = 8
 """The second integration is compared at every eighth sample: its accuracy does not depend on where it is read."""
 MIN_CYCLES = 4
@@ -223,6 +225,8 @@ def exact_omega(dynamics: Dynamics, peaks: Array) -> Array:
 def integrate_motion(chosen: Setting, *, digits: int | None = DIGITS) -> Motion:
     """Integrate by DOP853 and by Taylor series, and compute what a comparison along the motion shares.
 
+    A force with kinks has no Taylor series there; its second integration is by RK45, from switch to switch likewise.
+
     Parameters
     ----------
     chosen
@@ -243,7 +247,9 @@ def integrate_motion(chosen: Setting, *, digits: int | None = DIGITS) -> Motion:
     trajectory = integrate(dynamics, chosen.initial, duration=duration, rate=rate)
     _check_cycles(chosen, trajectory)
     precise = trajectory
-    if digits is not None:
+    if digits is not None and dynamics.switches is not None:
+        precise = integrate(dynamics, chosen.initial, duration=duration, rate=rate / CHECKED, method=SECOND)
+    elif digits is not None:
         precise = integrate_taylor(dynamics, chosen.initial, duration=duration, rate=rate / CHECKED, digits=digits)
     averaged = None
     if dynamics.restoring is not None:

@@ -20,6 +20,7 @@ from ridgeback.symbolic.cycles.orbit import exact_frequency
 from ridgeback.symbolic.enclosure.enclosure import separatrix
 from ridgeback.symbolic.enclosure.well import NoEnergyError, well_of
 from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -172,7 +173,7 @@ def _value(item: Accuracy, amplitude: float) -> float | None:
 
 
 def _name(item: Accuracy) -> str:
-    return "truncated series" if isinstance(item.formula, Expansion) else item.formula.method
+    return "truncated series" if isinstance(item.formula, Expansion | PowerExpansion) else item.formula.method
 
 
 def _amplitudes(oscillator: Oscillator, largest: float) -> Array:

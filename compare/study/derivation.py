@@ -64,7 +64,7 @@ def _printed(derived: Derived) -> Derived:
 def _formulas(derived: Derived) -> Iterator[Formula]:
     expansion = derived.expansion
     yield frequency_formula(expansion)
-    if expansion.variable == "A" and expansion.amplitude == "peak":
+    if expansion.variable == "A" and expansion.amplitude == "peak" and expansion.waveform is not None:
         yield frequency_formula(expansion.convert("fundamental"))
     if expansion.amplitude_coefficients is not None:
         yield _amplitude_formula(expansion)

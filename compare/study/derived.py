@@ -6,16 +6,20 @@ import math
 from dataclasses import dataclass
 from functools import cached_property
 
+from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.orbits.potential import peak_limit
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.flow.averaged_losses import undamped as without_losses
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.ordering import small_parameters, undamped
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.singularities.limits import Limits, limits
 from ridgeback.symbolic.systems.oscillator import Oscillator
+from ridgeback.symbolic.systems.structure import dissipative_names
 
 
 @dataclass(frozen=True)
@@ -57,6 +61,8 @@ def without_damping(oscillator: Oscillator) -> Undamped:
     >>> without_damping(find("damped-pendulum")).oscillator.kind
     'conservative'
     """
+    if oscillator.has_rough_losses:
+        return Undamped(without_losses(oscillator, dissipative_names(oscillator.force)))
     return Undamped(undamped(oscillator))
 
 
@@ -67,7 +73,7 @@ class Derived:
     oscillator: Oscillator
     undamped: Undamped
     expansion: Expansion
-    """Lindstedt-Poincaré, in the peak amplitude or in eps."""
+    """Lindstedt-Poincaré, in the peak amplitude or in eps; the energy integral where the force has a kink at rest."""
     flow: SlowFlow | None
 
     @cached_property
@@ -102,6 +108,27 @@ def derive(oscillator: Oscillator, order: int, *, flow_order: int | None = None)
     """
     rest = without_damping(oscillator)
     flow = None
+    if oscillator.has_rough_losses or rest.oscillator.by_sides:
+        return Derived(oscillator, rest, backbone_series(rest.oscillator, order), None)
     if small_parameters(oscillator) or oscillator.kind != "damped":
         flow = multiple_scales(oscillator, min(order, 8) if flow_order is None else flow_order)
-    return Derived(oscillator, rest, lindstedt(rest.oscillator, order), flow)
+    return Derived(oscillator, rest, backbone_series(rest.oscillator, order), flow)
+
+
+def backbone_series(rest: Oscillator, order: int) -> Expansion:
+    """The series of an oscillator whose damping is left out, by the method that suits it.
+
+    Raises InputError where it runs in other powers of A than whole ones.
+
+    >>> backbone_series(Oscillator.from_equation("u'' + u + u*abs(u) = 0"), 2).method
+    'energy-integral'
+    """
+    if not rest.by_sides:
+        return lindstedt(rest, order)
+    found = energy_on_each_side(rest, order)
+    if isinstance(found, Expansion):
+        return found
+    raise InputError(
+        f"{rest.name}: omega0 begins with A^({found.growth}) and rises in steps of A^(1/{found.root}), and this is "
+        "made of power series in A; derive and study take it"
+    )

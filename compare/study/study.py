@@ -27,10 +27,11 @@ from ridgeback.compare.study.reference import (
     limit_cycle_reference,
 )
 from ridgeback.compare.study.results import Range, Study
-from ridgeback.compare.study.truncations import METHODS, Method
+from ridgeback.compare.study.truncations import METHODS, Method, usual_method
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.symbolic.enclosure.enclosure import separatrix
+from ridgeback.symbolic.enclosure.half_wells import two_sided
 from ridgeback.symbolic.enclosure.well import well_of
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, V, Value
@@ -55,7 +56,7 @@ def study(
     orders: Sequence[int],
     amplitudes: ArrayLike,
     *,
-    method: str = "lindstedt",
+    method: str | None = None,
     values: Mapping[str, Value] | None = None,
     progress: Progress = silent,
 ) -> Study:
@@ -71,7 +72,8 @@ def study(
         Peak amplitudes of a conservative oscillator in the unit of u, or values of eps for a limit cycle; shape (n,),
         all positive.
     method
-        Which series is truncated: ``lindstedt``, ``energy-integral`` or ``multiple-scales``.
+        Which series is truncated: ``lindstedt``, ``energy-integral`` or ``multiple-scales``; by default the first, and
+        the energy integral for a force with a kink at rest or without a linear part.
     values
         Parameters to set first, by name.
     progress
@@ -97,7 +99,8 @@ def study(
     """
     oscillator = as_oscillator(oscillator)
     rest = without_damping(oscillator.with_parameters(values) if values else oscillator)
-    return study_of(rest, orders, amplitudes, method=method, truncate=_method(method), progress=progress)
+    name = usual_method(rest.oscillator) if method is None else method
+    return study_of(rest, orders, amplitudes, method=name, truncate=_method(name), progress=progress)
 
 
 def study_of(
@@ -296,7 +299,7 @@ def _reference(rest: Undamped, grid: Array) -> tuple[float | None, Reference]:
 def _has_well(oscillator: Oscillator) -> bool:
     """Whether an energy is known that certified enclosures can be made from."""
     try:
-        well_of(oscillator)
+        two_sided(oscillator) if oscillator.by_sides else well_of(oscillator)
     except InputError:
         return False
     return True

@@ -16,11 +16,15 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.study.derived import Derived, Undamped
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.singularities.limits import Limits, limits
+from ridgeback.symbolic.singularities.settled import settled_limits
+from ridgeback.symbolic.systems.oscillator import Oscillator
 
 
 @dataclass(frozen=True)
@@ -45,8 +49,21 @@ def by_lindstedt(rest: Undamped, orders: Sequence[int], grid: Array) -> Truncati
 
 
 def by_energy_integral(rest: Undamped, orders: Sequence[int], grid: Array) -> Truncations:
-    """The energy integral in the peak amplitude."""
-    return of_expansion(energy_integral(rest.oscillator, max(orders)), orders, grid)
+    """The energy integral in the peak amplitude, on each side of rest where the force has a kink there."""
+    own = rest.oscillator
+    derive = energy_on_each_side if own.by_sides else energy_integral
+    expansion = derive(own, max(orders))
+    return of_expansion(expansion, orders, grid, settled_limits(own, expansion) if own.by_sides else None)
+
+
+def usual_method(oscillator: Oscillator) -> str:
+    """The method that suits an oscillator whose damping is left out.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> usual_method(find("pendulum")), usual_method(Oscillator.from_equation("u'' + u*abs(u) = 0"))
+    ('lindstedt', 'energy-integral')
+    """
+    return "energy-integral" if oscillator.by_sides and oscillator.is_conservative else "lindstedt"
 
 
 def already_derived(derived: Derived) -> Method:
@@ -54,14 +71,18 @@ def already_derived(derived: Derived) -> Method:
     return lambda _, orders, grid: of_expansion(derived.expansion, orders, grid, derived.limits)
 
 
-def of_expansion(expansion: Expansion, orders: Sequence[int], grid: Array, found: Limits | None = None) -> Truncations:
+def of_expansion(
+    expansion: Expansion | PowerExpansion, orders: Sequence[int], grid: Array, found: Limits | None = None
+) -> Truncations:
     """Truncations of one series; ``found`` saves looking for its limits again."""
-    found = limits(expansion) if found is None else found
+    if found is None:
+        found = limits(expansion.beside_leading() if isinstance(expansion, PowerExpansion) else expansion)
+    scale = expansion.lead if isinstance(expansion, PowerExpansion) else expansion.scale
     return Truncations(
         omega=np.stack([np.asarray(expansion.truncated(order)(grid), dtype=float) for order in orders]),
         variable=expansion.variable,
         amplitude=expansion.amplitude,
-        scale=float(expansion.scale),
+        scale=float(scale),
         radius=found.radius,
         uncertainty=found.uncertainty,
         note=found.sentence(),

@@ -31,7 +31,7 @@ def study(
     orders: Sequence[int] = ORDERS,
     amplitudes: Any = None,
     *,
-    method: str = "lindstedt",
+    method: str | None = None,
     parameters: Mapping[str, Value] | None = None,
     about: str | None = None,
     progress: Wanted = None,
@@ -46,8 +46,9 @@ def study(
         Highest powers kept.
     amplitudes : array_like of float
         Peak amplitudes, in the unit of u, or values of eps of a limit cycle.
-    method : {"lindstedt", "energy-integral"}
-        How the expansion is derived.
+    method : {"lindstedt", "energy-integral"}, optional
+        How the expansion is derived; by default the first, and the energy integral for a force with a kink at rest or
+        without a linear part.
     parameters, about : optional
         As for :func:`ridgeback.oscillator`.
     progress : bool or callable, optional
@@ -73,7 +74,9 @@ def study(
         raise InputError("a study needs amplitudes; give a list or an array, such as numpy.linspace(0.1, 3, 30)")
     system = as_oscillator(oscillator, parameters=parameters, about=about)
     with showing(progress) as told:
-        return studies.study(system, orders, amplitudes, method=chosen(method, METHODS, "method"), progress=told)
+        return studies.study(
+            system, orders, amplitudes, method=method and chosen(method, METHODS, "method"), progress=told
+        )
 
 
 def report(

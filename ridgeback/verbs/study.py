@@ -57,9 +57,9 @@ BESIDE_AN_EXAMPLE = (
 @click.option(
     "--method",
     type=click.Choice(["lindstedt", "energy-integral"]),
-    default="lindstedt",
-    show_default=True,
-    help="How the expansion is derived.",
+    default=None,
+    help="How the expansion is derived.  Default: lindstedt, and energy-integral for a force with a kink at rest or "
+    "without a linear part.",
 )
 @click.option(
     "--certified",
@@ -76,7 +76,7 @@ def command(
     example: str | None,
     orders: tuple[int, ...] | None,
     amplitudes: tuple[float, ...] | None,
-    method: str,
+    method: str | None,
     certified: bool,
     estimators: bool,
     trials: int | None,
@@ -185,7 +185,7 @@ def heading(result: Study, *, damped: bool = False) -> str:
         f"reference: {result.reference_name}",
     ]
     if damped:
-        lines.append("the study is of the undamped motion, mu = 0")
+        lines.append("the study is of the undamped motion")
     if result.limit is not None:
         lines.append(f"the oscillation ends at {result.variable} = {result.limit:.6g}")
     if result.convergence_radius is not None:

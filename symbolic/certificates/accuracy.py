@@ -33,7 +33,7 @@ BITS = 168
 FIRST_TERMS = 4
 """Order through which an expansion must agree with the oscillator's own series."""
 
-Formula: TypeAlias = Expansion | Resummation
+Formula: TypeAlias = Expansion | PowerExpansion | Resummation
 
 _LONGER = 40
 """Order of the expansion that settles the singularity when the one asked for is shorter."""
@@ -58,7 +58,7 @@ def certified_error(oscillator: Oscillator, formula: Formula, amplitude: Amplitu
     >>> bool(abs(error) < 1e-18)
     True
     """
-    if isinstance(formula, Expansion):
+    if isinstance(formula, Expansion | PowerExpansion):
         check_belongs(oscillator, formula)
     elif formula.system != oscillator.name or formula.scale != oscillator.natural_frequency or formula.variable != "A":
         raise InputError(
@@ -121,8 +121,13 @@ def resummations(oscillator: Oscillator, order: int) -> tuple[Formula, ...]:
     >>> [formula.method for formula in resummations(find("duffing"), 8)]
     ['energy-integral', 'Pade [2/2]', 'Euler transformation', 'elliptic nome after 2 Landen steps']
     """
-    series = _series(oscillator, order)
-    found = limits(_series(oscillator, max(order, _LONGER)))
+    if oscillator.by_sides:
+        sided = energy_on_each_side(oscillator, order)
+        if isinstance(sided, PowerExpansion):
+            return (sided,)
+        series, found = sided, limits(sided)
+    else:
+        series, found = _series(oscillator, order), limits(_series(oscillator, max(order, _LONGER)))
     builders = (
         lambda: pade(series),
         lambda: mapped(series, mapping_for(found)),
