@@ -69,7 +69,7 @@ class _Series:
         self.called = argument_names(self.parameters)
         self.fixed = bool(self.parameters) and expansion.scale.is_number
         self.variable = variable_name(expansion.variable)
-        self.domain: Domain = request.domain(self.variable)
+        self.domain: Domain = request.domain(self.variable, even=not expansion.sided)
         self.arguments: tuple[Argument, ...] = (
             Argument(self.variable, variable_meaning(expansion)),
             *(Argument(name, PARAMETER) for name in self.called.values()),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from ridgeback.common.errors import InputError
@@ -40,7 +40,8 @@ class CodeRequest:
             )
         last = limit if self.up_to is None else self.up_to
         if last is None:
-            return whole_domain(argument, self.real)
+            whole = whole_domain(argument, self.real)
+            return whole if even else replace(whole, low=0.0)
         end = not_above(last, self.real, open_end=last == limit)
         return Domain(argument, -end if even else 0.0, end)
 

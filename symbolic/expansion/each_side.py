@@ -103,6 +103,7 @@ def energy_on_each_side(
         residual_of=None,
         names=found.names,
         constants=found.constants,
+        sided=oscillator.is_kinked,
     )
 
 

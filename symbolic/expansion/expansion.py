@@ -87,6 +87,8 @@ class Expansion(ShownExpansion):
         Values of the symbols that stand for irrational numbers and for 1/k^2; see ``natural_units.Normalised``.
     velocity : bool
         Whether the force holds u', so that two amplitude definitions do not exist.
+    sided : bool
+        Whether the force has a kink at rest, so that the series holds for A >= 0 only.
 
     Examples
     --------
@@ -112,6 +114,7 @@ class Expansion(ShownExpansion):
     names: tuple[str, ...] = ()
     constants: Mapping[str, sympy.Expr] = field(default_factory=dict)
     velocity: bool = False
+    sided: bool = False
 
     @cached_property
     def frequency(self) -> tuple[sympy.Expr, ...]:
