@@ -136,6 +136,8 @@ def harmonic_table(expansion: Expansion) -> HarmonicTable | None:
     >>> table.powers, [(row.multiple, row.part) for row in table.rows]
     ((1, 3, 5), [(1, 'cos'), (3, 'cos'), (5, 'cos')])
     """
+    if expansion.waveform is None:
+        return None
     found = [
         (h.multiple, part if h.multiple else "", values)
         for h in expansion.harmonics
