@@ -51,7 +51,7 @@ def record(oscillator: Oscillator) -> dict[str, Any]:
         "kind": oscillator.kind,
         "equation": oscillator.equation,
         "parameters": {name: str(value) for name, value in oscillator.parameters.items()},
-        "natural_frequency": str(oscillator.natural_frequency),
+        "natural_frequency": str(oscillator.natural_frequency) if oscillator.is_linear_at_rest else None,
         "exact_frequency": known_frequency(oscillator.name),
         "potential": None if oscillator.potential is None else str(oscillator.potential),
         "aliases": list(oscillator.aliases),

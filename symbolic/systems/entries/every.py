@@ -7,11 +7,12 @@ from typing import Final
 
 from ridgeback.symbolic.systems.entries.classical import CLASSICAL
 from ridgeback.symbolic.systems.entries.entry import Entry
+from ridgeback.symbolic.systems.entries.kinked import KINKED
 from ridgeback.symbolic.systems.entries.moving_mass import MOVING_MASS
 from ridgeback.symbolic.systems.entries.self_excited import SELF_EXCITED
 from ridgeback.symbolic.systems.entries.wells import WELLS
 
-OTHERS: Final = (*WELLS, *MOVING_MASS, *SELF_EXCITED)
+OTHERS: Final = (*WELLS, *MOVING_MASS, *SELF_EXCITED, *KINKED)
 ENTRIES: Final = (*CLASSICAL, *OTHERS)
 DAMPING: Final = "1/100"
 """mu of the damped twins."""

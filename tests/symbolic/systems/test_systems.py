@@ -13,6 +13,7 @@ from ridgeback.symbolic.grammar.parse import parse_equation, parse_expression, t
 from ridgeback.symbolic.systems.catalogue import catalogue, find
 from ridgeback.symbolic.systems.entries.every import known_frequency, listed, names
 from ridgeback.symbolic.systems.oscillator import U, V
+from ridgeback.symbolic.systems.sides import is_kinked
 
 EXPECTED = [
     "linear",
@@ -98,6 +99,10 @@ def test_an_entry_says_what_it_is_and_whence(system):
 def test_the_force_is_that_of_the_equation_and_natural_units_are_the_default(system):
     equation = parse_equation(system.equation)
     assert to_sympy(equation.left) - sympy.Symbol("u''", real=True) == system.force
+    if is_kinked(system.force) or system.by_sides:
+        with pytest.raises(InputError):
+            assert system.normalised
+        return
     assert system.natural_frequency == system.stiffness == 1
     assert system.normalised.bound == system.substituted_force
 
