@@ -12,19 +12,19 @@ HEAD = "| series | by hand | Ridgeback | ratio |\n|---|---|---|---|\n"
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """Pair the medians of each (series, who) and write them as Markdown, when any pair was measured."""
+    """Pair the best times of each (series, who) and write them as Markdown, when any pair was measured."""
     benchmarks = getattr(getattr(session.config, "_benchmarksession", None), "benchmarks", [])
-    medians: dict[str, dict[str, float]] = {}
+    best: dict[str, dict[str, float]] = {}
     for item in benchmarks:
         if "series" in item.extra_info and item.stats.data:
-            medians.setdefault(item.extra_info["series"], {})[item.extra_info["who"]] = item.stats.median
-    rows = [row(series, found) for series, found in medians.items() if len(found) == 2]
+            best.setdefault(item.extra_info["series"], {})[item.extra_info["who"]] = item.stats.min
+    rows = [row(series, found) for series, found in best.items() if len(found) == 2]
     if rows:
         TABLE.write_text(HEAD + "".join(rows), encoding="utf-8")
 
 
 def row(series: str, found: dict[str, Any]) -> str:
-    """One line: both medians in seconds and their ratio."""
+    """One line: both times in seconds and their ratio."""
     hand, ours = found["by hand"], found["Ridgeback"]
     return f"| {series} | {seconds(hand)} | {seconds(ours)} | {ours / hand:.2g} |\n"
 

@@ -62,10 +62,11 @@ RUNS: dict[str, Callable[[Oscillator, int], object]] = {
 }
 CASES = (
     Case("lindstedt", "pendulum", 100),
-    Case("lindstedt", "pendulum", 160),
+    Case("lindstedt", "pendulum", 240),
     Case("lindstedt", "helmholtz-duffing", 80),
     Case("lindstedt", SYMBOLIC, 20, parameters=2),
     Case("limit-cycle", "van-der-pol", 48),
+    Case("limit-cycle", "van-der-pol", 96),
     Case("limit-cycle", "rayleigh", 48),
     Case("energy-integral", "pendulum", 400),
     Case("energy-integral", "pendulum", 800),

@@ -1,99 +1,127 @@
-"""The yardstick: the direct recurrences, written by hand for one equation each, on FLINT's ``fmpq_poly``.
+"""The yardstick: direct recurrences, each written by hand for one equation, as fast as products order by order get.
 
-Order by order, Fourier polynomials in z = exp(i tau), solvability at each order; nothing general about them.  A
-Fourier polynomial of highest harmonic h is stored as z^h times itself.
+Solvability at each order, nothing general about them.  With z = exp(i tau) only odd powers of z occur, and
+z^-h P(z^2) stands for a Fourier polynomial of highest harmonic h.  Orders that a symmetry removes are not stored, a
+square multiplies each pair once, and products are of integers over denominators (``Whole``) that are brought together
+once an order.
 """
 
 from __future__ import annotations
 
-from flint import fmpq, fmpq_poly
+from collections.abc import Callable, Iterable
+from functools import reduce
+
+from flint import fmpq, fmpq_poly, fmpz, fmpz_poly
+
+Whole = tuple[fmpz_poly, fmpz]
+"""Numerator and denominator of P."""
 
 
 def pendulum(order: int) -> list[fmpq]:
-    """omega0(A) of u'' + sin u = 0 through A^order, peak amplitude; u_n is stored times z^n."""
-    half = fmpq(1, 2)
-    zero = fmpq_poly([])
-    u = [zero, fmpq_poly([half, 0, half])]
-    sine, cosine = [zero, u[1]], [fmpq_poly([1]), zero]
-    w = [fmpq(1)]
-    for n in range(2, order + 2):
-        # n s_n = sum j u_j c_(n-j) without the part u_n c_0;  n c_n = -sum j u_j s_(n-j)
-        s = sum((j * u[j] * cosine[n - j] for j in range(1, n) if n % 2 and j % 2), zero) * fmpq(1, n)
-        right = s + sum((w[j] * curvature(u[n - j], n - j).left_shift(j) for j in range(2, n - 1, 2)), zero)
-        new, resonant = solve(-right, n)
-        w.append(2 * resonant)  # w u_1'' adds -w/2 to the first harmonic of the left-hand side
-        w[-1] = -w[-1]
-        at_zero = sum(new.coeffs(), fmpq(0))
-        new -= fmpq_poly([0] * (n - 1) + [at_zero * half, 0, at_zero * half])
-        u.append(new)
-        sine.append(s + new)
-        c = sum((j * u[j] * sine[n - j] for j in range(1, n) if n % 2 == 0 and j % 2), zero) * fmpq(-1, n)
-        cosine.append(c)
-    return square_root(w)
+    """omega0(A) of u'' + sin u = 0 through A^order, peak amplitude.
+
+    U_k, S_k are the parts of u, sin u of A^(2k+1), C_k that of cos u of A^(2k).  From d/dA:
+    2k C_k = -sum (2j+1) U_j S_(k-1-j),  (2k+1) S_k = sum (2j+1) U_j C_(k-j).
+    """
+    start = (fmpz_poly([1, 1]), fmpz(2))
+    rates, sine, cosine = [start], [start], [(fmpz_poly([1]), fmpz(1))]
+    curves, w = [each(start, 1, curve)], [fmpq(1)]
+    for k in range(1, order // 2 + 1):
+        h = 2 * k + 1
+        cosine.append(reduced(dot(rates, sine[::-1]), fmpq(-1, 2 * k)))
+        partial = reduced(dot(rates, cosine[:0:-1]), fmpq(1, h))  # S_k without U_k
+        right = reduced(added([partial, dot(shifted(w[1:], 1), curves[:0:-1])]), fmpq(-1))
+        w.append(fmpq(-2 * right[0][k + 1], right[1]))  # w_k u_0'' holds -w_k / 2 at either end
+        p, d = solved(right, h)
+        at_zero = p(1)
+        new = reduced((2 * p - fmpz_poly([at_zero, at_zero]).left_shift(k), 2 * d))
+        rates.append((h * new[0], new[1]))
+        curves.append(each(new, h, curve))
+        sine.append(reduced(added([partial, new])))
+    halves = square_root(w)
+    return [halves[n // 2] if n % 2 == 0 else fmpq(0) for n in range(order + 1)]
 
 
 def van_der_pol(order: int) -> list[fmpq]:
-    """omega0(eps) of u'' - eps (1 - u^2) u' + u = 0; u_n is stored times i^n z^(2n+1), so that it is real.
+    """omega0(eps) of u'' - eps (1 - u^2) u' + u = 0; u_n stands times i^n, so that it is real.
 
-    With eps -> i eps the equation reads omega^2 u'' + u = -eps (1 - u^2) v, v = omega D u, D = -i d/dtau: all real.
+    With eps -> i eps the equation reads omega^2 u'' + u + eps omega D (u - u^3/3) = 0, D = -i d/dtau: D z^m = m z^m.
     """
-    zero = fmpq_poly([])
-    u = [fmpq_poly([1, 0, 1])]
-    velocity, square = [slope(u[0], 1)], [u[0] * u[0]]
-    w, omega = [fmpq(1)], [fmpq(1)]
+    u, square = [(fmpz_poly([1, 1]), fmpz(1))], [(fmpz_poly([1, 2, 1]), fmpz(1))]
+    flow, curves, w, omega = [(fmpz_poly([-1, 0, 0, -1]), fmpz(3))], [each(u[0], 1, curve)], [fmpq(1)], [fmpq(1)]
     for n in range(1, order + 2):
-        m = n - 1
-        settled = sum((square[j] * velocity[m - j] for j in range(1, m)), zero)
-        settled += sum((w[j] * curvature(u[n - j], 2 * (n - j) + 1).left_shift(2 * j) for j in range(2, n)), zero)
-        right = latest(u, velocity, square, w, n) - settled
-        excess = (right[2 * n] - right[2 * n + 2]) / 2
-        if excess:  # a secular sine: a_(n-1) cos tau in u_(n-1) removes it, whose slope is 1 here
-            change = fmpq_poly([0] * (2 * m) + [-excess / 2, 0, -excess / 2])
-            u[m] += change
-            velocity[m] += slope(change, 2 * m + 1)
-            square[m] += 2 * change * u[0]
-            right = latest(u, velocity, square, w, n) - settled
-        if right[2 * n] != right[2 * n + 2]:
-            raise AssertionError("the secular term did not vanish")
-        new, resonant = solve(right, 2 * n + 1)
-        w.append(-resonant)
-        omega.append((w[n] - sum((omega[j] * omega[n - j] for j in range(1, n)), fmpq(0))) / 2)
+        h = 2 * n + 1
+        driven = each(dot(shifted(omega, 0), flow[::-1]), h, lambda m: m)
+        right = reduced(added([driven, dot(shifted(w[1:], 1), curves[:0:-1])]), fmpq(-1))
+        if n % 2 and n > 1:  # the secular sine: a cos tau more in u_(n-1) changes it by 2a, and the third by 3a
+            a = fmpq(-right[0][n + 1], 2 * right[1])
+            changes = (1, 1), (2, 4, 2), (-1, -2, -2, -1)  # of u, u^2 and u - u^3/3 times a
+            for series, c in zip((u, square, flow), changes, strict=True):
+                series[-1] = reduced(added([series[-1], (fmpz_poly(list(c)).left_shift(n - 1) * a.p, a.q)]))
+            curves[-1] = each(u[-1], h - 2, curve)
+            turn = fmpz_poly([-3, -2, 2, 3]).left_shift(n - 1)
+            right = added([right, (turn * a.p, a.q)])
+        w.append(fmpq(-right[0][n + 1], right[1]) if n % 2 == 0 else fmpq(0))
+        omega.append((w[n] - sum((omega[j] * omega[n - j] for j in range(2, n, 2)), fmpq(0))) / 2)
+        p, d = solved(right, h)
         if n % 2:  # u'(0) = 0 by a multiple of sin tau
-            tilt = sum(((k - 2 * n - 1) * c for k, c in enumerate(new.coeffs())), fmpq(0)) / 2
-            new += fmpq_poly([0] * (2 * n) + [tilt, 0, -tilt])
-        u.append(new)
-        velocity.append(
-            sum((omega[j] * slope(u[n - j], 2 * (n - j) + 1).left_shift(2 * j) for j in range(n + 1)), zero)
-        )
-        square.append(sum((u[j] * u[n - j] for j in range(n + 1)), zero))
+            tilt = each((p, d), h, lambda m: m)[0](1)
+            p, d = 2 * p + fmpz_poly([tilt, -tilt]).left_shift(n), 2 * d
+        u.append(reduced((p, d)))
+        curves.append(each(u[n], h, curve))
+        square.append(reduced(squared(u)))
+        cube = dot(u, square[::-1])
+        flow.append(reduced(added([(u[n][0].left_shift(1), u[n][1]), (-cube[0], 3 * cube[1])])))
     return [(-1) ** (n // 2) * c for n, c in enumerate(omega[: order + 1])]  # back from i eps
 
 
-def latest(u: list, velocity: list, square: list, w: list[fmpq], n: int) -> fmpq_poly:
-    """The part of the right-hand side of order n that holds u_(n-1)."""
-    m = n - 1
-    right = velocity[m].left_shift(2) - square[0] * velocity[m]
-    if m:
-        right -= square[m] * velocity[0] + w[1] * curvature(u[m], 2 * m + 1).left_shift(2)
-    return right
+def dot(left: Iterable[Whole], right: Iterable[Whole]) -> Whole:
+    """Sum of products, those with a zero left out."""
+    return added([(p * q, d * e) for (p, d), (q, e) in zip(left, right, strict=True) if p and q])
 
 
-def slope(p: fmpq_poly, h: int) -> fmpq_poly:
-    """-i d/dtau of z^-h p."""
-    return fmpq_poly([(k - h) * c for k, c in enumerate(p.coeffs())])
+def squared(u: list[Whole]) -> Whole:
+    """The last coefficient of u^2."""
+    n = len(u)
+    p, d = dot(u[: n // 2], u[: (n - 1) // 2 : -1])
+    return added([(2 * p, d), dot([u[n // 2]], [u[n // 2]])]) if n % 2 else (2 * p, d)
 
 
-def curvature(p: fmpq_poly, h: int) -> fmpq_poly:
-    """d^2/dtau^2 of z^-h p."""
-    return fmpq_poly([-((k - h) ** 2) * c for k, c in enumerate(p.coeffs())])
+def added(terms: list[Whole]) -> Whole:
+    """The sum, from the shortest denominator to the longest."""
+    total, common = fmpz_poly([]), fmpz(1)
+    for p, d in sorted(terms, key=lambda term: term[1]):
+        before, common = common, common.lcm(d)
+        total = total * (common // before) + p * (common // d)
+    return total, common
 
 
-def solve(right: fmpq_poly, h: int) -> tuple[fmpq_poly, fmpq]:
-    """w'' + w = right harmonic by harmonic; also the resonant coefficient (mean of both sides)."""
-    values = right.coeffs()
-    new = [c / (1 - (k - h) ** 2) if abs(k - h) != 1 else fmpq(0) for k, c in enumerate(values)]
-    resonant = (right[h - 1] + right[h + 1]) / 2
-    return fmpq_poly(new), resonant
+def reduced(x: Whole, factor: fmpq | int = 1) -> Whole:
+    """A multiple in lowest terms."""
+    p = fmpq_poly(*x) * factor
+    return p.numer(), p.denom()
+
+
+def shifted(numbers: list[fmpq], first: int) -> list[Whole]:
+    """The numbers times z^(2j), j = first, first + 1, ...: by so much the harmonics of their partners are lower."""
+    return [(fmpz_poly([c.p]).left_shift(j), c.q) for j, c in enumerate(numbers, first)]
+
+
+def each(x: Whole, h: int, factor: Callable[[int], int]) -> Whole:
+    """Multiply each harmonic m of z^-h P(z^2)."""
+    return fmpz_poly([factor(m) * c for m, c in zip(range(-h, h + 1, 2), x[0].coeffs(), strict=False)]), x[1]
+
+
+def curve(m: int) -> int:
+    """d^2/dtau^2 of z^m, over z^m."""
+    return -m * m
+
+
+def solved(right: Whole, h: int) -> Whole:
+    """v'' + v = right but for the first harmonic: each other over 1 - m^2."""
+    common = reduce(fmpz.lcm, (fmpz(m * m - 1) for m in range(3, h + 1, 2)), fmpz(1))
+    quotient = each(right, h, lambda m: 0 if abs(m) == 1 else common // (1 - m * m))
+    return quotient[0], right[1] * common
 
 
 def square_root(w: list[fmpq]) -> list[fmpq]:

@@ -83,6 +83,8 @@ def cycle_parameter(oscillator: Oscillator, formula: Any) -> str | None:
 
 def complete(found: Sequence[Row]) -> None:
     """Raise PartialError, which names the first, when amplitudes were refused; the output is written by then."""
+    if not found:
+        return
     from ridgeback.symbolic.certificates.at_amplitudes import Refused
 
     refused = [row for row in found if isinstance(row, Refused)]

@@ -10,7 +10,6 @@ from typing import Any
 
 import sympy
 from flint import fmpq
-from latex2mathml.converter import convert
 
 from ridgeback.common.errors import InputError
 
@@ -81,6 +80,8 @@ def mathml(latex: str) -> str:
     >>> mathml("x").startswith("<math")
     True
     """
+    from latex2mathml.converter import convert  # noqa: PLC0415 - brings an XML reader and all that it needs
+
     return str(convert(latex))
 
 
