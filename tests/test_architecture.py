@@ -40,7 +40,17 @@ ORDER: dict[str, tuple[str, ...]] = {
         *("cycles", "flow", "certificates", "codegen", "high_order"),
     ),
     "numeric": (
-        *("signal", "harmonics", "tracking", "motion", "model_fit", "distributions", "estimators", "orbits"),
+        *(
+            "signal",
+            "harmonics",
+            "components",
+            "tracking",
+            "motion",
+            "model_fit",
+            "distributions",
+            "estimators",
+            "orbits",
+        ),
         *("files", "recording", "backbone"),
     ),
     "compare": ("binding", "study", "identification", "motion", "benchmark", "noise", "studies", "recording", "report"),

@@ -22,6 +22,7 @@ from ridgeback.numeric.backbone.damping import growth_columns
 from ridgeback.numeric.backbone.half_cycles import HalfCycles, half_cycles
 from ridgeback.numeric.estimators.amplitude import amplitude_of, estimate_amplitude
 from ridgeback.numeric.estimators.estimate import Estimation, estimation
+from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.signal.decimation import Samples, every, every_flag
 from ridgeback.numeric.tracking.track import NORMAL_95, AmplitudeTrack, Track
@@ -195,17 +196,51 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
         return of_half_cycles(recording, settings)
     start = float(recording.time[0])
     words: Any = settings
-    found = estimation(recording.values, recording.rate, start=start, harmonic=harmonic, **words)
+    wrong = marked(recording)
+    found = estimation(recording.values, recording.rate, start=start, harmonic=harmonic, wrong=wrong, **words)
     track = found.track
     if harmonic > 1:
         return of_harmonic(recording, found, harmonic, words.get("band"))
+    told = (*beside_notes(track), *recording.notes)
+    if track.used.doubt:
+        return Measurement(recording, track, None, (f"No interval and no amplitude: {track.used.doubt}.", *told))
     try:
         used = as_tracked(recording, found.samples)
-        curve = backbone(track, used.values, used.rate, start=float(used.time[0]), exclude=marked(used))
+        curve = backbone(
+            track,
+            used.values,
+            used.rate,
+            start=float(used.time[0]),
+            exclude=marked(used),
+            models=models_of(found),
+        )
     except InputError as error:
         reason = str(error) if track.presence is None or track.presence.found else track.presence.reason
-        return Measurement(recording, track, None, (*recording.notes, f"No amplitude: {reason}."))
-    return Measurement(recording, track, curve, (*recording.notes, *curve.notes))
+        return Measurement(recording, track, None, (*told, f"No amplitude: {reason}."))
+    return Measurement(recording, track, curve, (*told, *curve.notes))
+
+
+def beside_notes(track: Track) -> tuple[str, ...]:
+    """What was found beside the oscillation, in words."""
+    notes = []
+    if track.used.tones:
+        listed = "; ".join(tone.said() for tone in track.used.tones)
+        notes.append(f"Beside the oscillation, fitted with it and taken off: {listed}.")
+    if track.used.spikes:
+        what = "sample lies" if track.used.spikes == 1 else "samples lie"
+        notes.append(f"{track.used.spikes} {what} far outside the noise (spikes); they enter no fit.")
+    return tuple(notes)
+
+
+def models_of(found: Estimation) -> SignalModels | None:
+    """The models of all of the signal, where the track claims an interval that rests on them."""
+    request = found.request
+    if request is None or found.track.interval is None:
+        return None
+    try:
+        return request.models
+    except InputError:
+        return None
 
 
 def samples_behind(track: Track, recording: Recording) -> Samples:
@@ -215,7 +250,7 @@ def samples_behind(track: Track, recording: Recording) -> Samples:
 
 
 def as_tracked(recording: Recording, samples: Samples) -> Recording:
-    """The recording at the samples that its track is of: the fundamental needs no more of them.
+    """The recording at the samples that its track is of, without what was found beside the oscillation.
 
     >>> t = np.arange(20_000) / 1000.0
     >>> run = Recording(t, np.cos(30.0 * t), 1000.0, "u", "mm", "run.csv", "")
@@ -224,7 +259,7 @@ def as_tracked(recording: Recording, samples: Samples) -> Recording:
     (True, True)
     """
     if samples.factor < 2:
-        return recording
+        return replace(recording, values=samples.x)
     clipped, filled = (every_flag(flags, samples.factor) for flags in (recording.clipped, recording.filled))
     return replace(recording, time=samples.time, values=samples.x, rate=samples.rate, clipped=clipped, filled=filled)
 

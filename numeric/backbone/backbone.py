@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.ndimage import uniform_filter1d
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
-from ridgeback.numeric.backbone.curve import Backbone, Crowding, Points, assemble
+from ridgeback.numeric.backbone.curve import Backbone, Crowding, Points, Rates, assemble
 from ridgeback.numeric.backbone.local_rates import local_rates
+from ridgeback.numeric.backbone.model_rates import ModelRates
+from ridgeback.numeric.backbone.windows import MOST_POINTS, POINTS_PER_CYCLE
 from ridgeback.numeric.estimators.higher_harmonics import carrier
 from ridgeback.numeric.harmonics.local_fit import choose_multiples
+from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.signal.samples import TWO_PI, checked_rate, checked_real_samples
 from ridgeback.numeric.signal.windows import half_width
+from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.track import Track
 
 __all__ = ["Backbone", "backbone"]
 
 WINDOW_CYCLES, MOST_SHARE = 4.0, 0.95
+MOST_EXCLUDED = 0.75
 CLEAR = 5.0
 """A point is used where the amplitude exceeds its own standard deviation this many times."""
 
@@ -30,6 +38,7 @@ def backbone(
     start: float | None = None,
     window_seconds: float | None = None,
     exclude: Mask | None = None,
+    models: SignalModels | None = None,
 ) -> Backbone:
     """Measure amplitude and growth rate along a frequency track, and set omega0 against amplitude.
 
@@ -50,6 +59,8 @@ def backbone(
         Width of the local fits, in time units; by default 3 to 32 cycles, as amplitude and frequency change.
     exclude : array of bool, shape (N,), optional
         Samples that are not to be used (clipped ones): points whose window holds one are left out.
+    models : SignalModels, optional
+        Models of all of the track's stretch, which give amplitude and growth rate in place of local fits.
 
     Returns
     -------
@@ -77,17 +88,88 @@ def backbone(
         samples, first = samples[keep], first + keep.start / rate
         exclude = None if exclude is None else exclude[keep]
     offset = float(samples.mean())
-    base = carrier(track, samples.size, rate, first)
-    cycle = TWO_PI / float(np.median(base.omega[base.valid]))
-    longest = MOST_SHARE * (samples.size - 1) / rate
-    seconds = min(WINDOW_CYCLES * cycle, longest) if window_seconds is None else window_seconds
-    half = half_width(seconds, rate, name="window_seconds", longest=samples.size)
-    real = samples - offset
-    multiples = choose_multiples(real, rate, base.omega, half=half)
-    fixed, unclipped = (
-        window_seconds is not None,
-        np.ones(samples.size, dtype=np.bool_) if exclude is None else ~exclude,
+    if models is not None and window_seconds is None and models.fine is not models.coarse:
+        measured = along_models(models, track, first, exclude)
+    else:
+        measured = along_windows(samples - offset, rate, track, first, window_seconds, exclude)
+    notes = [f"The mean of the samples, {offset:.4g}, was removed.", *measured.notes]
+    if track.used.span is not None:
+        begin, end = track.used.span
+        notes.insert(
+            0, f"The amplitude stands above the noise from t = {begin:.6g} to {end:.6g}; the rest is left out."
+        )
+    return assemble(
+        measured.points,
+        crowding=measured.crowding,
+        offset=offset,
+        settings={"track": track.method, "harmonics": measured.harmonics},
+        notes=notes,
+        window_seconds=measured.window_seconds,
+        local=measured.rates,
     )
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Points along time, and how the errors of neighbours belong together."""
+
+    points: Points
+    rates: Rates
+    crowding: Crowding
+    harmonics: tuple[int, ...]
+    notes: list[str]
+    window_seconds: float
+
+
+def along_models(models: SignalModels, track: Track, first: float, exclude: Mask | None) -> Measured:
+    """Amplitude and growth rate by models of all of the stretch, and omega too where the track is such a model's.
+
+    A point is used where at most MOST_EXCLUDED of the cycle round it are samples that are not.
+    """
+    fine = models.fine
+    cycle = TWO_PI / float(np.median(fine.omega))
+    step = max(1, round(cycle / POINTS_PER_CYCLE / (fine.time[1] - fine.time[0])), fine.time.size // MOST_POINTS)
+    own = track.used.scope is Scope.GLOBAL
+    found = ModelRates(models, np.arange(step // 2, fine.time.size, step), own)
+    points = found.points(first)
+    usable = points.amplitude > CLEAR * points.amplitude_sd
+    if not own:
+        base, total = (
+            carrier(track, fine.time.size, 1.0 / float(fine.time[1] - fine.time[0]), first),
+            total_deviation(track),
+        )
+        usable &= base.valid[found.index] | track.used.one_sided_borders
+        sd = points.omega_sd if total is None else np.interp(points.time, track.time, total)
+        points = replace(points, omega=base.omega[found.index], omega_sd=sd)
+    clean = np.ones_like(usable)
+    if exclude is not None:
+        around = max(1, round(cycle / float(fine.time[1] - fine.time[0])))
+        clean = (uniform_filter1d(exclude.astype(float), around, mode="nearest") <= MOST_EXCLUDED)[found.index]
+    usable &= clean
+    check_enough(usable, clean)
+    knot = fine.cycles * cycle
+    window = max(1.0, knot / (step * float(fine.time[1] - fine.time[0])))
+    return Measured(
+        points.at(usable),
+        found.at(usable),
+        Crowding(amplitude=window, omega=max(window, resolution(track, cycle) / knot * window)),
+        (1, *fine.multiples),
+        left_out_notes(usable, clean),
+        knot,
+    )
+
+
+def along_windows(
+    real: Array, rate: float, track: Track, first: float, window_seconds: float | None, exclude: Mask | None
+) -> Measured:
+    """Amplitude and growth rate by local fits, in windows that follow the local rate of change unless one is given."""
+    base = carrier(track, real.size, rate, first)
+    cycle = TWO_PI / float(np.median(base.omega[base.valid]))
+    longest = MOST_SHARE * (real.size - 1) / rate
+    seconds = min(WINDOW_CYCLES * cycle, longest) if window_seconds is None else window_seconds
+    half = half_width(seconds, rate, name="window_seconds", longest=real.size)
+    multiples = choose_multiples(real, rate, base.omega, half=half)
+    fixed, unclipped = window_seconds is not None, np.ones(real.size, dtype=np.bool_) if exclude is None else ~exclude
     found = local_rates(real, rate, base.omega, multiples, half=half, start=first, fixed=fixed, clean=unclipped)
     fit, centres = found.fine, found.centre
     seen = fit.settled if track.used.one_sided_borders else fit.settled & base.valid[centres]
@@ -101,22 +183,7 @@ def backbone(
     spacing, width = float(np.median(np.diff(fit.time))), 2.0 * float(np.median(found.half[usable])) / rate
     window = max(1.0, width / spacing)
     crowding = Crowding(amplitude=window, omega=max(window, resolution(track, cycle) / spacing))
-    settings = {"track": track.method, "harmonics": (1, *multiples)}
-    notes = [f"The mean of the samples, {offset:.4g}, was removed.", *left_out_notes(usable, clean)]
-    if track.used.span is not None:
-        begin, end = track.used.span
-        notes.insert(
-            0, f"The amplitude stands above the noise from t = {begin:.6g} to {end:.6g}; the rest is left out."
-        )
-    return assemble(
-        points,
-        crowding=crowding,
-        offset=offset,
-        settings=settings,
-        notes=notes,
-        window_seconds=width,
-        local=found.at(usable),
-    )
+    return Measured(points, found.at(usable), crowding, (1, *multiples), left_out_notes(usable, clean), width)
 
 
 def stretch_of(span: tuple[float, float], size: int, rate: float, start: float) -> slice:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.polynomial import Polynomial
@@ -11,7 +12,6 @@ from numpy.typing import NDArray
 
 from ridgeback.numeric.arrays import Array, Mask, as_rows, freeze
 from ridgeback.numeric.backbone.damping import damping_sentence, growth_columns
-from ridgeback.numeric.backbone.local_rates import LocalRates
 from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.choices import Definition
@@ -132,6 +132,21 @@ class Crowding:
     growth_ends: float = 0.0
 
 
+class MeanDeviation(NamedTuple):
+    """Standard deviations of the means of amplitude, growth rate and frequency over one bin; None for one not known."""
+
+    level: float | None = None
+    growth: float | None = None
+    omega: float | None = None
+
+
+class Rates(Protocol):
+    """Fits of which the errors of means are known."""
+
+    def mean_deviations(self, index: list[NDArray[np.intp]], share: list[Array]) -> list[MeanDeviation]:
+        """Standard deviations of means over some of the points, each with its shares."""
+
+
 def assemble(
     points: Points,
     *,
@@ -142,7 +157,7 @@ def assemble(
     definition: Definition = Definition.FUNDAMENTAL,
     fewest: int = 1,
     window_seconds: float | None = None,
-    local: LocalRates | None = None,
+    local: Rates | None = None,
 ) -> Backbone:
     """Put points into a Backbone and bin them over amplitude, at least ``fewest`` in a bin.
 
@@ -153,8 +168,9 @@ def assemble(
     weights = 1.0 / np.maximum(s, 1e-9 * w.max()) ** 2
     of = bins(a, fewest)
 
-    known = [(None, None) if local is None else local.mean_deviation(i, weights[i] / weights[i].sum()) for i in of]
-    of_level, of_growth = zip(*known, strict=True)
+    shares = [weights[i] / weights[i].sum() for i in of]
+    known = [MeanDeviation()] * len(of) if local is None else local.mean_deviations(of, shares)
+    of_level, of_growth, of_omega = zip(*known, strict=True)
 
     def means(
         values: Array,
@@ -170,7 +186,7 @@ def assemble(
         return np.array(found).T
 
     centre, unsure = means(a, points.amplitude_sd, crowding.amplitude, stated=of_level)
-    omega, omega_sd = means(w, s, crowding.omega, crowding.omega_ends)
+    omega, omega_sd = means(w, s, crowding.omega, crowding.omega_ends, of_omega)
     growth_rate, growth_rate_sd = means(
         points.growth_rate, points.growth_rate_sd, crowding.amplitude, crowding.growth_ends, of_growth
     )

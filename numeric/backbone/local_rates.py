@@ -21,6 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.backbone.curve import MeanDeviation
 from ridgeback.numeric.backbone.windows import half_widths, spacing
 from ridgeback.numeric.harmonics.local_fit import HarmonicFit, Shape, harmonic_fit, powers, slopes
 from ridgeback.numeric.signal.samples import TWO_PI
@@ -60,6 +61,10 @@ class LocalRates:
     def begin(self) -> NDArray[np.intp]:
         """First sample of each window."""
         return np.asarray(np.clip(self.centre - self.half, 0, self.size - 2 * self.half - 1))
+
+    def mean_deviations(self, index: list[NDArray[np.intp]], share: list[Array]) -> list[MeanDeviation]:
+        """Standard deviations of means over some of the points, each with its shares."""
+        return [MeanDeviation(*self.mean_deviation(i, s)) for i, s in zip(index, share, strict=True)]
 
     def mean_deviation(self, index: NDArray[np.intp], share: Array) -> tuple[float, float]:
         """Standard deviations of the mean amplitude and of the mean growth rate, in noise and with the bias left."""

@@ -104,6 +104,6 @@ def sizes(model: SplineModel, multiple: int) -> tuple[Array, Array]:
     rng = np.random.default_rng(SEED)
     changes = np.empty((REPLICATES, amplitude.size))
     for i in range(REPLICATES):
-        noise = model.noise * rng.normal(size=amplitude.size)
+        noise = model.band_noise * rng.normal(size=amplitude.size)
         changes[i] = model.tone(multiple, model.response(noise)[0])[1] - amplitude
     return amplitude, changes

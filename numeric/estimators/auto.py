@@ -19,8 +19,9 @@ from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.curvature_bias import curvature_bias
 from ridgeback.numeric.tracking.request import Request
 
-AS_GOOD = 0.25
-"""Expected errors that differ by less than this share count as equal; the first of the candidates is taken then."""
+AS_GOOD = 4.0
+"""Expected errors that differ by less than this share count as equal; the first of the candidates is taken then: a
+model of the whole record knows the error of everything that is measured along it."""
 SHORT = 0.4
 """Share of the record from which on a window leaves too little between the borders for a peak."""
 NOTHING = 1e-9

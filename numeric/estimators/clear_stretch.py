@@ -16,7 +16,7 @@ from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.request import LAG_CYCLES, Request
 
 CLEAR = 5.0
-FEWEST_WINDOWS = 3
+FEWEST_WINDOWS = 2
 """Of those that are clear, and of all: with fewer nothing is cut."""
 WEAKER = 0.5
 """What is cut has, on the mean, at most this share of the clearness of what is kept."""

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
+from ridgeback.numeric.arrays import Mask
 from ridgeback.numeric.estimators.auto import for_auto, for_least_squares
 from ridgeback.numeric.estimators.clear_stretch import clear_stretch
 from ridgeback.numeric.estimators.global_harmonics import by_harmonic_splines, with_spline_interval
@@ -57,6 +58,8 @@ def with_bias(track: Track, estimator: Callable[[Request], Track], request: Requ
     """The track with its bias and its interval, or with the reason why it has none."""
     if not request.options.bias:
         return track
+    if request.signal.doubt:
+        return replace(track, no_interval=request.signal.doubt)
     if request.plan.scope is Scope.GLOBAL:
         return with_spline_interval(track, request)
     try:
@@ -107,6 +110,8 @@ def estimate(
     single: bool = False,
     bias: bool = True,
     remove_bias: bool = False,
+    components: int | None = None,
+    wrong: Mask | None = None,
     family: Family | None = None,
     progress: Progress = silent,
 ) -> Track:
@@ -153,6 +158,12 @@ def estimate(
         Whether the bias is estimated, and with it the 95 % interval.
     remove_bias : bool
         Whether it is taken off the values.
+    components : int, optional
+        Oscillations to tell apart, the strongest in the band and tones beside it, steady or damped; 1 looks for no
+        others.  By default those that the samples show; all but the one that is tracked are taken off, and
+        ``used.tones`` says what they are.
+    wrong : array of bool, shape (N,), optional
+        Samples that are known to be no part of the motion, such as clipped ones: they enter no model of the signal.
     family : Family, optional
         The oscillator that ``method="model-fit"`` fits to the samples; of the other options only ``band`` counts then.
     progress : callable, optional
@@ -201,6 +212,8 @@ def estimate(
         order=order,
         band_limited=band_limited,
         single=single,
+        components=components,
+        wrong=wrong,
         progress=progress,
     ).track
 
@@ -216,6 +229,7 @@ def estimation(
     family: Family | None = None,
     scope: str | None = None,
     bias: bool = True,
+    wrong: Mask | None = None,
     progress: Progress = silent,
     **words: Any,
 ) -> Estimation:
@@ -223,7 +237,7 @@ def estimation(
     if scope not in (None, *Scope):
         raise InputError(f"scope {scope!r} is unknown; use one of {', '.join(Scope)}")
     options = Options(scope=None if scope is None else Scope(scope), bias=bias or remove_bias, **words)
-    samples = checked(x, rate, start=start, what="estimate", at_least=FEWEST_SAMPLES)
+    samples = replace(checked(x, rate, start=start, what="estimate", at_least=FEWEST_SAMPLES), wrong=wrong)
     if family is not None or method == MODEL_FIT:
         return Estimation(of_model(samples, options, method, family, harmonic), samples, None)
     if method not in METHODS:
@@ -240,6 +254,9 @@ def estimation(
     request = prepared(samples, options, search=search)
     noise = request.presence
     request = in_its_stretch(request, samples) if noise.found else without_bias_of(request)
+    if request.options.bias:
+        request = request.separated()
+        samples = with_motion_of(request, samples)
     if method in QUADRATIC and options.band is not None:
         refuse_cross_term(request, method)
     progress(0.1, "choosing an estimator" if method == "auto" else method)
@@ -272,7 +289,16 @@ def in_its_stretch(request: Request, samples: Samples) -> Request:
     if stretch is None:
         return request
     first = samples.start + stretch.start / samples.rate
-    return prepared(replace(samples, x=samples.x[stretch], start=first), request.options)
+    wrong = None if samples.wrong is None else samples.wrong[stretch]
+    return prepared(replace(samples, x=samples.x[stretch], start=first, wrong=wrong), request.options)
+
+
+def with_motion_of(request: Request, samples: Samples) -> Samples:
+    """The samples with those of the request's stretch as they are without what was found beside the oscillation."""
+    first = round((request.signal.start - samples.start) * samples.rate)
+    x = samples.x.copy()
+    x[first : first + request.signal.x.size] = request.signal.x + request.signal.offset
+    return replace(samples, x=x)
 
 
 def span_of(request: Request, samples: Samples) -> tuple[float, float] | None:

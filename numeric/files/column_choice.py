@@ -21,6 +21,16 @@ TIME_NAMES = (
     "time_sec",
     "time_seconds",
     "datetime",
+    "zeit",
+    "temps",
+    "tiempo",
+    "tempo",
+    "elapsed",
+    "elapsed time",
+    "relative time",
+    "rel. time",
+    "time stamp",
+    "x_value",
 )
 SECONDS: Mapping[str, float] = MappingProxyType(
     {
@@ -34,20 +44,27 @@ SECONDS: Mapping[str, float] = MappingProxyType(
     }
 )
 """Units of time and their lengths in seconds."""
-TAILS = ("ms", "us", "ns", "min")
+TAILS = tuple(unit for unit in SECONDS if unit.isascii())
 """Units that may end a time column's name after an underscore."""
+HEADS = ("t", "time", "times", "zeit", "elapsed")
+BRACKETED = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]\s*")
+AFTER_A_SLASH = re.compile(r"(.*\S)\s+/\s*(\S+)\s*")
 ALL = "all"
 SHOWN = 12
 """Column names that a message lists."""
 
 
 def name_and_units(header: str) -> tuple[str, str]:
-    """Split a header into its name and the unit in brackets at its end; a number there is a place, not a unit.
+    """Split a header into its name and the unit at its end, in brackets or after a blank and a slash.
+
+    A number there is a place, not a unit.
 
     >>> name_and_units("u [mm]"), name_and_units("time (s)"), name_and_units("velocity"), name_and_units("x[2]")
     (('u', 'mm'), ('time', 's'), ('velocity', ''), ('x[2]', ''))
+    >>> name_and_units("Time /us"), name_and_units("run1/u")
+    (('Time', 'us'), ('run1/u', ''))
     """
-    match = re.fullmatch(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]\s*", header)
+    match = BRACKETED.fullmatch(header) or AFTER_A_SLASH.fullmatch(header)
     return (match[1], match[2]) if match and not match[2].isdecimal() else (header, "")
 
 
@@ -64,11 +81,11 @@ def short(name: str) -> str:
 def is_time(name: str) -> bool:
     """Whether a column's name is that of a time.
 
-    >>> is_time("Time [ms]"), is_time("t_ms"), is_time("temperature")
-    (True, True, False)
+    >>> is_time("Time [ms]"), is_time("t_ms"), is_time("time_days"), is_time("temperature")
+    (True, True, True, False)
     """
     head, _, tail = short(name).rpartition("_")
-    return short(name) in TIME_NAMES or (head in ("t", "time") and tail in TAILS)
+    return short(name) in TIME_NAMES or (head in HEADS and tail in TAILS)
 
 
 def time_unit(header: str) -> tuple[str, float]:
@@ -117,7 +134,7 @@ def time_index(columns: Columns, wanted: str | int | None, rate: float | None) -
     if rate is None and columns.rate is None:
         raise InputError(
             f"{columns.source} has no time column among {listed(columns)}; "
-            f"name it, or give the sampling rate in its place"
+            f"name it (--time-column), or give the sampling rate in its place (--rate)"
         )
     return None
 

@@ -59,9 +59,11 @@ def datasets(file: h5py.File, data: bytes, source: str) -> Iterator[Stored]:
     """Every dataset that holds its own values, with its unit in its name, and numbers that attributes state."""
     found: list[Any] = []
     kind = library(source).Dataset
-    file.visititems(lambda _, item: found.append(item) if isinstance(item, kind) else None)
+    file.visititems(lambda _, item: found.append(item))
     yield from attribute_numbers(file)
-    for item in found:
+    for group in (item for item in found if not isinstance(item, kind)):
+        yield from attribute_numbers(group)
+    for item in (item for item in found if isinstance(item, kind)):
         path = str(item.name).lstrip("/")
         if path.startswith(MATLAB_INTERNALS) or item.external or item.is_virtual or item.shape is None:
             continue
@@ -90,12 +92,12 @@ def unit_of(item: h5py.Dataset) -> str:
     return ""
 
 
-def attribute_numbers(item: h5py.Dataset | h5py.File) -> Iterator[Stored]:
-    """A sampling rate or step among the attributes, as a scalar array of that name."""
-    for name in (*RATE_NAMES, *STEP_NAMES):
-        for spelled in (name, name.upper(), name.capitalize()):
-            if spelled in item.attrs:
-                value = np.asarray(item.attrs[spelled])
-                if value.dtype.kind in "iuf" and math.prod(value.shape) == 1:
-                    yield held(spelled, value)
-                break
+def attribute_numbers(item: h5py.Dataset | h5py.Group) -> Iterator[Stored]:
+    """A sampling rate or step among the attributes, however its words are joined, as a scalar array of that name."""
+    known = {name.replace("_", ""): name for name in (*RATE_NAMES, *STEP_NAMES)}
+    for spelled in item.attrs:
+        name = known.get(str(spelled).lower().replace("_", "").replace(" ", ""))
+        if name is not None:
+            value = np.asarray(item.attrs[spelled])
+            if value.dtype.kind in "iuf" and math.prod(value.shape) == 1:
+                yield held(name, value)

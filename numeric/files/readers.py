@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import zipfile
 from collections.abc import Callable, Mapping
+from datetime import datetime
 from types import MappingProxyType
 
 from ridgeback.common.errors import InputError
@@ -13,7 +14,7 @@ from ridgeback.numeric.files.columns import DAMAGE, FILE_BUDGET, Columns, first_
 from ridgeback.numeric.files.hdf5 import from_hdf5
 from ridgeback.numeric.files.matlab import from_mat
 from ridgeback.numeric.files.npy import array_of
-from ridgeback.numeric.files.text import TEXT_BUDGET, parse_table
+from ridgeback.numeric.files.text import TEXT_BUDGET, decoded, parse_table
 from ridgeback.numeric.files.wav import from_wav
 from ridgeback.numeric.signal.samples import checked_budget
 
@@ -21,13 +22,38 @@ from ridgeback.numeric.signal.samples import checked_budget
 def from_text(data: bytes, source: str) -> Columns:
     """Columns of a delimited text file."""
     checked_budget(len(data), TEXT_BUDGET, f"{source} as text", "store it as NPZ, MAT or HDF5, or cut it into parts")
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise InputError(f"{source}: byte {error.start} is not UTF-8 text; save the table as UTF-8") from None
+    text, note = decoded(data, source)
     table = parse_table(text, source=source)
     sizes = (len(table.rows),) * len(table.names)
-    return Columns(table.names, sizes, table.column, lambda i: f"line {table.lines[i]}", source)
+    notes = " ".join(part for part in (note, table.note) if part)
+    return Columns(table.names, sizes, table.column, lambda i: f"line {table.lines[i]}", source, note=notes)
+
+
+def from_excel(data: bytes, source: str) -> Columns:
+    """Columns of the first sheet of an Excel workbook, by openpyxl: values, no formula is evaluated."""
+    try:
+        from openpyxl import load_workbook  # noqa: PLC0415 - only Excel's files need it
+    except ImportError:
+        raise OSError(
+            f"reading {source} needs openpyxl, which is not installed; pip install 'ridgeback[excel]' brings it"
+        ) from None
+    try:
+        sheet = load_workbook(io.BytesIO(data), read_only=True, data_only=True).worksheets[0]
+        lines = ["\t".join(cell_text(cell) for cell in row) for row in sheet.iter_rows(values_only=True)]
+    except DAMAGE as error:
+        raise InputError(f"{source} is not a readable Excel workbook: {first_line(error)}") from None
+    return from_text("\n".join(lines).encode(), source)
+
+
+def cell_text(cell: object) -> str:
+    """A cell as text: dates as stamps, nothing for an empty one.
+
+    >>> cell_text(1.5), cell_text(None), cell_text(datetime(2026, 1, 2, 3, 4, 5))
+    ('1.5', '', '2026-01-02T03:04:05')
+    """
+    if isinstance(cell, datetime):
+        return cell.isoformat()
+    return "" if cell is None else str(cell).replace("\t", " ").replace("\n", " ")
 
 
 def from_npz(data: bytes, source: str) -> Columns:
@@ -58,6 +84,9 @@ READERS: Mapping[str, Callable[[bytes, str], Columns]] = MappingProxyType(
         ".txt": from_text,
         ".tsv": from_text,
         ".dat": from_text,
+        ".lvm": from_text,
+        ".asc": from_text,
+        ".xlsx": from_excel,
         ".npz": from_npz,
         ".npy": from_npy,
         ".wav": from_wav,

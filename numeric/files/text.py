@@ -6,6 +6,7 @@ than its text.
 
 from __future__ import annotations
 
+import codecs
 import csv
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
@@ -35,6 +36,7 @@ class TextTable:
     lines: NDArray[np.intp]
     delimiter: str
     source: str
+    note: str = ""
 
     @property
     def decimal_comma(self) -> bool:
@@ -146,39 +148,160 @@ def find_delimiter(line: str, last: str = "") -> str:
     return max(DELIMITERS, key=lambda d: (line.count(d) > 0, DELIMITERS.index(d)))
 
 
-def parse_table(text: str, *, source: str) -> TextTable:
-    r"""Split delimited text into a table; empty lines and lines that begin with # or % are skipped.
+def decoded(data: bytes, source: str) -> tuple[str, str]:
+    r"""Text in UTF-8 or UTF-16, else in Windows' or ISO's Latin alphabet, and a note where that was supposed.
 
-    The first row is the header when any of its cells is not a number.
+    >>> decoded("t;u".encode("utf-16"), "run.csv"), decoded(b"\xb5m", "run.csv")[0]
+    (('t;u', ''), 'µm')
+    """
+    if data[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
+        return readable(data, "utf-16", source), ""
+    if data[1:2] == b"\0" or data[:1] == b"\0":
+        return readable(data, "utf-16-le" if data[1:2] == b"\0" else "utf-16-be", source), ""
+    try:
+        return data.decode("utf-8-sig"), ""
+    except UnicodeDecodeError as error:
+        if b"\0" in data[:10_000]:
+            raise InputError(f"{source}: byte {error.start} is not UTF-8 text; save the table as UTF-8") from None
+    return data.decode("cp1252", "replace"), "The text is not UTF-8; it was read in the Latin alphabet of Windows-1252."
+
+
+def readable(data: bytes, encoding: str, source: str) -> str:
+    """Text in a known encoding; InputError for what is none."""
+    try:
+        return data.decode(encoding)
+    except UnicodeDecodeError as error:
+        raise InputError(f"{source}: byte {error.start} is not {encoding} text; save the table as UTF-8") from None
+
+
+def parse_table(text: str, *, source: str) -> TextTable:
+    r"""Split delimited text into a table.
+
+    Rows of numbers begin where a line and the last one have as many numbers.  The line above them names the columns,
+    and one more between them may hold their units; what stands before, as the preamble of an instrument, is left out,
+    and so are empty lines and comments, which begin with # or % (the last one above the table may name the columns).
+    A first line "sep=;" says what separates the cells.
     Raises InputError when there is no row of numbers.
 
     >>> table = parse_table("t_s,u\n0,1.5\n0.5,2.5\n", source="run.csv")
     >>> table.names, table.column(1).tolist()
     (('t_s', 'u'), [1.5, 2.5])
+    >>> table = parse_table("sep=;\nmade by X\nZeit;u\n[ms];[mm]\n0;1,5\n1;2,5\n", source="run.csv")
+    >>> table.names, table.column(1).tolist()
+    (('Zeit [ms]', 'u [mm]'), [1.5, 2.5])
     """
-    numbered = [
-        (number, line)
-        for number, line in enumerate(text.splitlines(), start=1)
-        if line.strip() and not line.lstrip().startswith(COMMENTS)
-    ]
+    given, lines_of = stated_delimiter(text.splitlines())
+    filled = [(number, line) for number, line in lines_of if line.strip()]
+    numbered = [(number, line) for number, line in filled if not line.lstrip().startswith(COMMENTS)]
     if not numbered:
         raise InputError(f"{source} holds no data; a table needs rows of numbers")
     lines = tuple(line for _, line in numbered)
-    delimiter = find_delimiter(lines[0], lines[-1])
-    check_quotes(lines, delimiter, source)
-    top = next(cells_of(lines[:1], delimiter))
-    check_widths(numbered, len(top), delimiter, source)
-    headed = not all(is_number(cell) or is_stamp(cell) for cell in top)
-    first = 1 if headed else 0
-    if len(lines) == first:
+    first = first_numbers(lines, given)
+    if first == len(lines):
         raise InputError(f"{source} holds no row of numbers below its header")
+    above = lines[first - 1] if first else lines[first]
+    delimiter = given or find_delimiter(above if first else lines[0], lines[-1])
+    check_quotes(lines[max(0, first - 2) :], delimiter, source)
+    heads = [next(cells_of([line], delimiter)) for line in lines[max(0, first - 2) : first]]
+    width = len(next(cells_of(lines[first : first + 1], delimiter)))
+    names, used = heading(heads, width)
+    if not names and first == 0:
+        names = commented(filled, numbered[0][0], delimiter, width)
+    top = max(len(names), width) if names else width
+    check_widths(numbered[first:], top, delimiter, source)
+    skipped = first - used
     return TextTable(
-        names=tuple(top) if headed else tuple(str(i + 1) for i in range(len(top))),
+        names=names or tuple(str(i + 1) for i in range(width)),
         rows=lines[first:],
         lines=np.array([number for number, _ in numbered[first:]], dtype=np.intp),
         delimiter=delimiter,
         source=source,
+        note="" if skipped == 0 else f"{skipped} lines before the table were left out.",
     )
+
+
+def stated_delimiter(lines: list[str]) -> tuple[str, list[tuple[int, str]]]:
+    """What a first line "sep=;" says, else nothing, and the lines with their numbers, without it.
+
+    >>> stated_delimiter(["sep=;", "1;2"]), stated_delimiter(["1;2"])
+    ((';', [(2, '1;2')]), ('', [(1, '1;2')]))
+    """
+    numbered = list(enumerate(lines, start=1))
+    if lines and lines[0].lower().startswith("sep=") and len(lines[0].rstrip("\r\n")) == len("sep=") + 1:
+        return lines[0][-1], numbered[1:]
+    return "", numbered
+
+
+def first_numbers(lines: tuple[str, ...], given: str) -> int:
+    """The first line of numbers, several where the last one has several; the second line where there is none.
+
+    A line beside the first that holds a number, and as many cells, is a row of the table, however wrong.
+
+    >>> first_numbers(("made by X", "t,u", "0,1", "1,2"), ""), first_numbers(("t,u", "0,x", "1,2"), "")
+    (2, 1)
+    """
+    delimiter = given or find_delimiter(lines[-1], lines[-1])
+    several = len(cells_in(lines[-1], delimiter)) > 1
+    for at, line in enumerate(lines):
+        cells = cells_in(line, delimiter)
+        if (len(cells) > 1) == several and all(map(is_value, cells)) and any(map(is_there, cells)):
+            return after_wrong_rows(lines, at, delimiter, len(cells))
+    return 1
+
+
+def after_wrong_rows(lines: tuple[str, ...], at: int, delimiter: str, width: int) -> int:
+    """The first of the rows up to ``at`` that hold a number beside something else, the first line left out."""
+    while at > 1:
+        cells = cells_in(lines[at - 1], delimiter)
+        if len(cells) != width or not any(is_value(cell) and is_there(cell) for cell in cells):
+            return at
+        at -= 1
+    return at
+
+
+def is_there(cell: str) -> bool:
+    """Whether a cell does not say that there is no value."""
+    return cell.lower() not in MISSING
+
+
+def cells_in(line: str, delimiter: str) -> list[str]:
+    """The cells of one line; the whole line where its quotes are broken."""
+    try:
+        return next(cells_of([line], delimiter), [])
+    except csv.Error:
+        return [line]
+
+
+def is_value(cell: str) -> bool:
+    """Whether a cell is a number, a missing one or a stamp."""
+    return is_number(cell) or is_stamp(cell)
+
+
+def heading(heads: list[list[str]], width: int) -> tuple[tuple[str, ...], int]:
+    """The names of the columns from the lines above the numbers, with their units, and how many of the lines they are.
+
+    >>> heading([["made by X"], ["t", "u"]], 2), heading([["t", "u"], ["s", "mm"]], 2), heading([["X"]], 2)
+    ((('t', 'u'), 1), (('t [s]', 'u [mm]'), 2), ((), 0))
+    """
+    if not heads or len(heads[-1]) < width:
+        return (), 0
+    last = heads[-1]
+    two = len(heads) == 2 and len(heads[0]) == len(last) and not any(is_value(c) and c for c in (*heads[0], *last))
+    if not two:
+        return tuple(last), 1
+    units = [cell.strip().strip("[]()") for cell in last]
+    return tuple(f"{name} [{unit}]" if unit else name for name, unit in zip(heads[0], units, strict=True)), 2
+
+
+def commented(lines: list[tuple[int, str]], first: int, delimiter: str, width: int) -> tuple[str, ...]:
+    """The names of the columns from the last comment above the numbers, where it has as many words.
+
+    >>> commented([(1, "% t, u"), (2, "0,1")], 2, ",", 2)
+    ('t', 'u')
+    """
+    above = [line for number, line in lines if number < first]
+    cells = cells_in(above[-1].lstrip().lstrip("".join(COMMENTS)).strip(), delimiter) if above else []
+    return tuple(cells) if len(cells) == width and not any(map(is_value, cells)) else ()
 
 
 def check_widths(numbered: list[tuple[int, str]], width: int, delimiter: str, source: str) -> None:

@@ -58,27 +58,28 @@ def splines_at(time: Array, knots: Array, left: NDArray[np.integer], degree: int
 
 @dataclass(frozen=True)
 class Part:
-    """The B-splines at R neighbouring samples: each sees six of them, from ``first`` on."""
+    """The B-splines at R neighbouring samples: each sees ``degree`` + 1 of them, from ``first`` on."""
 
     rows: slice
     time: Array
     knots: Array
+    degree: int = DEGREE
 
     @property
     def count(self) -> int:
         """K."""
-        return self.knots.size - DEGREE - 1
+        return self.knots.size - self.degree - 1
 
     @cached_property
     def first(self) -> NDArray[np.int32]:
         """The number of the first spline that each sample sees."""
         left = np.searchsorted(self.knots, self.time, side="right") - 1
-        return (np.clip(left, DEGREE, self.count - 1) - DEGREE).astype(np.int32)
+        return (np.clip(left, self.degree, self.count - 1) - self.degree).astype(np.int32)
 
     @cached_property
     def entries(self) -> Array:
-        """The values of the six splines at each sample, ``(R, 6)``."""
-        return splines_at(self.time, self.knots, self.first + DEGREE, DEGREE)
+        """The values of those splines at each sample, ``(R, degree + 1)``."""
+        return splines_at(self.time, self.knots, self.first + self.degree, self.degree)
 
     @cached_property
     def values(self) -> csr_array:
@@ -89,16 +90,17 @@ class Part:
     @cached_property
     def slopes(self) -> csr_array:
         """B_k'(t_n), ``(R, K)``."""
-        knots, lower = self.knots, splines_at(self.time, self.knots, self.first + DEGREE, DEGREE - 1)
-        rise = DEGREE / (knots[DEGREE + 1 : -1] - knots[1 : -DEGREE - 1])
-        steps = lower * rise[self.first[:, None] + np.arange(DEGREE)]
+        d, knots = self.degree, self.knots
+        lower = splines_at(self.time, knots, self.first + d, d - 1)
+        rise = d / (knots[d + 1 : -1] - knots[1 : -d - 1])
+        steps = lower * rise[self.first[:, None] + np.arange(d)]
         return self.sparse(np.diff(np.pad(-steps, ((0, 0), (1, 1))), axis=1))
 
     @cached_property
     def overlaps(self) -> tuple[csr_array, ...]:
-        """The products B_k(t_n) B_(k+j)(t_n) as ``(R, K)``, j = 0 .. DEGREE."""
-        value = self.entries
-        return tuple(self.sparse(value[:, : DEGREE + 1 - j] * value[:, j:]) for j in range(DEGREE + 1))
+        """The products B_k(t_n) B_(k+j)(t_n) as ``(R, K)``, j = 0 .. degree."""
+        value, order = self.entries, self.degree + 1
+        return tuple(self.sparse(value[:, : order - j] * value[:, j:]) for j in range(order))
 
     def sparse(self, entries: Array) -> csr_array:
         """Entries ``(R, width)`` that stand from ``first`` on, as ``(R, K)``."""
@@ -114,15 +116,16 @@ class SplineBasis:
 
     time: Array
     knots: Array
+    degree: int = DEGREE
 
     @property
     def count(self) -> int:
         """K."""
-        return self.knots.size - DEGREE - 1
+        return self.knots.size - self.degree - 1
 
     @cached_property
     def _whole(self) -> Part:
-        return Part(slice(0, self.time.size), self.time, self.knots)
+        return Part(slice(0, self.time.size), self.time, self.knots, self.degree)
 
     def parts(self) -> Iterator[Part]:
         """All samples, in parts; those of a short record are one, which is kept."""
@@ -132,7 +135,7 @@ class SplineBasis:
             return
         for first in range(0, size, ROWS):
             rows = slice(first, min(first + ROWS, size))
-            yield Part(rows, self.time[rows], self.knots)
+            yield Part(rows, self.time[rows], self.knots, self.degree)
 
     def along(self, of: Callable[[Part], Array]) -> Array:
         """What a function gives for each part, joined, ``(N,)``."""
@@ -149,29 +152,38 @@ class SplineBasis:
         """Its derivative by time."""
         return self.along(lambda part: part.slopes @ coefficients)
 
+    def rows_at(self, index: NDArray[np.intp], *, slopes: bool) -> csr_array:
+        """Values or slopes of the splines at some of the times, ``(index, K)``."""
+        some = Part(slice(0, index.size), self.time[index], self.knots, self.degree)
+        return some.slopes if slopes else some.values
 
-def spline_basis(time: Array, breaks: Array) -> SplineBasis:
+
+def spline_basis(time: Array, breaks: Array, degree: int = DEGREE) -> SplineBasis:
     """B-splines on the intervals between ``breaks``, the first and last of which are the ends of ``time``.
 
     >>> basis = spline_basis(np.linspace(0.0, 1.0, 5), np.array([0.0, 0.5, 1.0]))
     >>> basis.count, basis.values(np.ones(7)).round(12).tolist()
     (7, [1.0, 1.0, 1.0, 1.0, 1.0])
     """
-    return SplineBasis(time, np.concatenate([np.full(DEGREE, breaks[0]), breaks, np.full(DEGREE, breaks[-1])]))
+    ends = np.full(degree, breaks[0]), np.full(degree, breaks[-1])
+    return SplineBasis(time, np.concatenate([ends[0], breaks, ends[1]]), degree)
 
 
 # de Boor's NEWNOT, A Practical Guide to Splines, ch. XII: breaks between which |s^(d+1)|^(1/(d+1)) has equal integrals,
 # that derivative being the jumps of the d-th, spread out; mixed half and half with the density that the breaks had.
-def adapted_density(coefficients: Array, breaks: Array, before: Array) -> Array:
-    """Return the density of breaks (one value per interval, integral 1) that suits a spline."""
+def adapted_density(coefficients: Array, breaks: Array, before: Array, size: Array) -> Array:
+    """Return the density of breaks (one value per interval, integral 1) that suits splines.
+
+    ``coefficients`` are ``[K, spline]``; an error of the splines counts by the ``size`` on each interval.
+    """
     width = np.diff(breaks)
     if width.size < 3:
         return before
     knots = np.concatenate([np.full(DEGREE, breaks[0]), breaks, np.full(DEGREE, breaks[-1])])
     highest = BSpline(knots, coefficients, DEGREE).derivative(DEGREE)(0.5 * (breaks[1:] + breaks[:-1]))
-    jump = np.abs(np.diff(highest)) / (0.5 * (width[1:] + width[:-1]))
+    jump = np.linalg.norm(np.diff(highest, axis=0), axis=1) / (0.5 * (width[1:] + width[:-1]))
     beyond = 0.5 * (np.concatenate([jump[:1], jump]) + np.concatenate([jump, jump[-1:]]))
-    wanted = beyond ** (1.0 / (DEGREE + 1))
+    wanted = (size * beyond) ** (1.0 / (DEGREE + 1))
     total = float((wanted * width).sum())
     return before if total <= 0.0 else np.asarray(0.5 * before + 0.5 * wanted / total, dtype=np.float64)
 
@@ -183,13 +195,18 @@ def alone(part: Part) -> Array:
 
 @dataclass(frozen=True)
 class NormalEquations:
-    """The factored normal matrix of F weighted splines; coefficients come as ``(K, F)``."""
+    """The factored normal matrix of F weighted splines; coefficients come as ``(K, F)``.
+
+    ``beside``, ``(N, Q)``, are columns of something else that was fitted to the same samples: they count in the
+    variance, not in the solution.
+    """
 
     basis: SplineBasis
     weights: Weights
     factor: Array
     scale: Array
     """Square roots of its diagonal, ``(K F,)``."""
+    beside: Array | None = None
 
     @property
     def families(self) -> int:
@@ -223,34 +240,62 @@ class NormalEquations:
         band = self.band(family)
 
         def at(part: Part) -> Array:
-            rows = (part.slopes if slopes else part.values).data.reshape(-1, DEGREE + 1)
+            matrix, order = part.slopes if slopes else part.values, self.basis.degree + 1
+            rows = matrix.data.reshape(-1, order)
             total = np.zeros(part.time.size)
-            for j in range(DEGREE + 1):
-                pairs = rows[:, : DEGREE + 1 - j] * rows[:, j:]
+            for j in range(order):
+                pairs = rows[:, : order - j] * rows[:, j:]
                 total += (1.0 if j == 0 else 2.0) * (part.sparse(pairs) @ band[:, j])
-            return np.maximum(total, 0.0)
+            return np.maximum(total, 0.0) + self.by_others(matrix, family)
 
         return self.basis.along(at)
 
+    def variance_of(self, vectors: csr_array, family: int) -> Array:
+        """The same for any combinations ``(M, K)`` of a family's coefficients, a few of them."""
+        right = np.zeros((self.basis.count * self.families, vectors.shape[0]))
+        right[family :: self.families] = vectors.toarray().T
+        answer = self.inverse_times(right)[family :: self.families]
+        own = np.asarray(vectors.multiply(answer.T).sum(axis=1)).ravel()
+        return np.maximum(own, 0.0) + self.by_others(vectors, family)
+
+    # The inverse of a matrix in blocks: with C = (J^T J)^-1, Y = C J^T B and S = B^T B - B^T J Y, the covariance of the
+    # coefficients is C + Y S^-1 Y^T.
+    @cached_property
+    def shared(self) -> tuple[Array, Array]:
+        """Y and S^-1 for the columns ``beside``."""
+        beside = np.zeros((self.basis.time.size, 0)) if self.beside is None else self.beside
+        between = np.stack([self.moments(b).ravel() for b in beside.T], axis=1)
+        answer = self.inverse_times(between)
+        inverse = np.linalg.pinv(beside.T @ beside - between.T @ answer, hermitian=True)
+        return answer, np.asarray(inverse, dtype=np.float64)
+
+    def by_others(self, rows: csr_array, family: int) -> Array:
+        """What columns ``beside`` add to a variance."""
+        if self.beside is None:
+            return np.zeros(rows.shape[0])
+        answer, inverse = self.shared
+        part = np.asarray(rows @ answer[family :: self.families])
+        return np.asarray(np.maximum(np.einsum("rq,qp,rp->r", part, inverse, part), 0.0), dtype=np.float64)
+
     def band(self, family: int) -> Array:
-        """C_(k, k+j) of one family, ``(K, 6)``, j = 0 .. DEGREE; 0 beyond the last."""
-        count, families = self.basis.count, self.families
-        found, columns = np.zeros((count, DEGREE + 1)), max(16, UNKNOWNS // (count * families))
+        """C_(k, k+j) of one family, ``(K, degree + 1)``, j = 0 .. degree; 0 beyond the last."""
+        count, families, order = self.basis.count, self.families, self.basis.degree + 1
+        found, columns = np.zeros((count, order)), max(16, UNKNOWNS // (count * families))
         for first in range(0, count, columns):
             wanted = np.arange(first, min(first + columns, count))
             unit = np.zeros((count * families, wanted.size))
             unit[wanted * families + family, np.arange(wanted.size)] = 1.0
             part = self.inverse_times(unit)[family::families]
-            for j in range(DEGREE + 1):
+            for j in range(order):
                 inside = wanted[wanted + j < count]
                 found[inside, j] = part[inside + j, inside - first]
         return found
 
 
 def overlap_sums(basis: SplineBasis, weights: Weights, pairs: list[tuple[int, int]]) -> list[Array]:
-    """Sums over n of B_k B_(k+j) w_f w_g as ``(K, pairs)``, for j = 0 .. DEGREE in turn."""
+    """Sums over n of B_k B_(k+j) w_f w_g as ``(K, pairs)``, for j = 0 .. degree in turn."""
     left, right = np.array(pairs).T
-    sums = [np.zeros((basis.count, len(pairs))) for _ in range(DEGREE + 1)]
+    sums = [np.zeros((basis.count, len(pairs))) for _ in range(basis.degree + 1)]
     step = max(1024, PRODUCTS // len(pairs))
     for part in basis.parts():
         given = weights(part)
@@ -262,8 +307,13 @@ def overlap_sums(basis: SplineBasis, weights: Weights, pairs: list[tuple[int, in
     return sums
 
 
-def normal_equations(basis: SplineBasis, weights: Weights, families: int) -> NormalEquations:
+def normal_equations(
+    basis: SplineBasis, weights: Weights, families: int, ridge: Array | None = None
+) -> NormalEquations:
     """Form and factor J^T J of the model with ``weights`` for ``families`` splines.
+
+    ``ridge``, ``(F,)``, adds to each family what so large a weight at all times would: families that are increments
+    stay put where the data say less of them than that.
 
     >>> t = np.linspace(0.0, 1.0, 40)
     >>> basis = spline_basis(t, np.linspace(0.0, 1.0, 4))
@@ -273,13 +323,16 @@ def normal_equations(basis: SplineBasis, weights: Weights, families: int) -> Nor
     True
     """
     size = basis.count * families
-    bands = np.zeros(((DEGREE + 1) * families, size))
+    bands = np.zeros(((basis.degree + 1) * families, size))
     pairs = list(combinations_with_replacement(range(families), 2))
     for j, sums in enumerate(overlap_sums(basis, weights, pairs)):
         for column, (f, g) in enumerate(pairs):
             bands[j * families + g - f, f::families] = sums[:, column]
             if j and g > f:  # the sums of w_f w_g are symmetric; below the diagonal of a block there is the same again
                 bands[j * families + f - g, g::families] = sums[:, column]
+    if ridge is not None:
+        squares = sum(np.asarray(part.overlaps[0].sum(axis=0)).ravel() for part in basis.parts())
+        bands[0] += np.outer(squares, ridge).ravel()
     scale = np.sqrt(np.where(bands[0] > 0.0, bands[0], 1.0))
     bands /= scale
     for r in range(bands.shape[0]):

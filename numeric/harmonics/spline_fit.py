@@ -1,22 +1,25 @@
 """Global harmonic least squares: phase, amplitudes and offset as quintic splines over the whole record, fitted at once.
 
-    x = a(t) cos phi(t) + sum over h of [b_h(t) cos h phi + c_h(t) sin h phi] + d(t) + noise,
+    x = a(t) (cos phi(t) + sum over h of [b_h(t) cos h phi + c_h(t) sin h phi]) + d(t) + noise,      a = exp(l(t)),
 
-with phi, a, b_h, c_h and d quintic splines on the same knots.  For white Gaussian noise this is maximum likelihood, and
-the deviations are the Cramer-Rao bound of this model with the residual variance put in (Kay, Fundamentals of
-Statistical Signal Processing: Estimation Theory, 1993, ch. 3).  The knots stand at equal numbers of *cycles* first and
-are then moved to where the phase's sixth derivative asks for them.  Their number is chosen by how well the model
-predicts: Akaike's criterion.  The local form, a polynomial in a sliding window, is ``harmonics.local_fit``.
+with phi, l, b_h, c_h and d quintic splines on the same knots: the logarithm of a decay's amplitude is as smooth as its
+phase, and a plain damped oscillation is in the model on any knots.
+For white Gaussian noise this is maximum likelihood, and the deviations are the Cramer-Rao bound of this model with the
+residual variance put in (Kay, Fundamentals of Statistical Signal Processing: Estimation Theory, 1993, ch. 3).  The
+knots stand at equal numbers of *cycles* first and are then moved to where the sixth derivatives of phase and l, times
+a, ask for them.  Their number is chosen by how well the model predicts: Akaike's criterion.  The local form, a
+polynomial in a sliding window, is ``harmonics.local_fit``.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from scipy.fft import rfft, rfftfreq
 from scipy.integrate import cumulative_trapezoid
 
 from ridgeback.common.errors import InputError
@@ -42,6 +45,14 @@ end of a decay, it goes on wandering."""
 FINEST_CYCLES = 2.0
 """Closer knots would let the amplitude's spline imitate harmonics."""
 CLEAR = 5.0
+ENOUGH = 100
+"""Ordinates of a spectrum from which on they suffice to judge a model by."""
+FIRM = 0.05
+"""Of the mean square of what is left of the samples: so much of a^2 / 2 leaves the increments of l and phi free."""
+LEAST = 1e-4
+"""Of the largest amplitude, that the first logarithm is taken of."""
+LOW_DEGREES = (1, 2, 3)
+"""Of polynomials over the whole record, which are tried first."""
 GROWTH = 1.5
 """From one number of knot intervals to the next that is tried."""
 GUIDE_CYCLES = (4.0, 3.0)
@@ -50,24 +61,43 @@ GUIDE_CYCLES = (4.0, 3.0)
 
 @dataclass(frozen=True)
 class SplineModel:
-    """A fitted model.  ``coefficients`` is ``(K, F)``: the splines a, then b_h and c_h in turn, d, and phi.
+    """A fitted model.  ``coefficients`` is ``(K, F)``: the splines 1 (what multiplies a), b_h and c_h in turn, d, phi.
 
-    ``noise`` is the residual's standard deviation, ``cycles`` the mean distance of the knots, ``settled`` tells whether
-    the iteration came to rest.
+    ``size`` is a at the samples and ``logarithm`` the coefficients of l.  ``noise`` is the residual's standard
+    deviation, ``cycles`` the mean distance of the knots, ``settled`` tells whether the iteration came to rest.
     """
 
     time: Array
     breaks: Array
     coefficients: Array
+    logarithm: Array
     multiples: tuple[int, ...]
     noise: float
     settled: bool
     equations: NormalEquations
+    count: int
+    """Samples that it was fitted to."""
+    criterion: float
+    """Akaike's: the lower, the better the model predicts."""
+    band: tuple[float, float]
+    """In which that counts, rad per sample."""
+    colour: float = 1.0
+    """Power of the noise near the oscillation over its mean power."""
+
+    @property
+    def band_noise(self) -> float:
+        """Standard deviation of white noise as strong as that near the oscillation."""
+        return self.noise * math.sqrt(self.colour)
 
     @property
     def basis(self) -> SplineBasis:
         """The splines that all parts are made of."""
         return self.equations.basis
+
+    @property
+    def families(self) -> int:
+        """F."""
+        return int(self.coefficients.shape[1])
 
     @property
     def parameters(self) -> int:
@@ -78,6 +108,11 @@ class SplineModel:
     def phase(self) -> Array:
         """phi at the samples."""
         return self.basis.values(self.coefficients[:, -1])
+
+    @cached_property
+    def size(self) -> Array:
+        """e^l at the samples."""
+        return np.exp(self.basis.values(self.logarithm))
 
     @property
     def cycles(self) -> float:
@@ -95,13 +130,10 @@ class SplineModel:
         """a at the samples."""
         return self.tone(1)[1]
 
-    # Akaike's criterion with its correction for few samples: Hurvich and Tsai, Biometrika 76 (1989) 297.
     @property
-    def criterion(self) -> float:
-        """n log(mean squared residual) + 2 p n / (n - p - 1): the lower, the better the model predicts."""
-        n, p = self.time.size, self.parameters
-        floor = (1e-14 * float(np.abs(self.coefficients[:, 0]).max())) ** 2
-        return n * math.log(self.noise**2 * (n - p) / n + floor) + 2.0 * p * n / (n - p - 1)
+    def growth(self) -> Array:
+        """a'/a = l' at the samples."""
+        return self.basis.slopes(self.logarithm)
 
     def tone(self, multiple: int, change: Array | None = None) -> tuple[Array, Array]:
         """Frequency and amplitude of harmonic ``multiple``, with the coefficients changed by ``change``.
@@ -110,7 +142,7 @@ class SplineModel:
         """
         c = self.coefficients if change is None else self.coefficients + change
         if multiple == 1:
-            return self.basis.slopes(c[:, -1]), self.basis.values(c[:, 0])
+            return self.basis.slopes(c[:, -1]), self.size * self.basis.values(c[:, 0])
         if multiple not in self.multiples:
             raise InputError(f"harmonic {multiple} is not in the model of the signal; it holds {(1, *self.multiples)}")
         # b_h and c_h are solved for beside cos and sin of h times the phase as it was, before it takes its increment
@@ -119,15 +151,17 @@ class SplineModel:
         cosine, sine = c[:, at], c[:, at + 1]
         value = self.basis.values(cosine) - 1j * self.basis.values(sine)
         slope = self.basis.slopes(cosine) - 1j * self.basis.slopes(sine)
-        size = np.abs(value)
-        drift = (slope * value.conj()).imag / np.maximum(size, np.finfo(float).tiny) ** 2
-        return np.asarray(multiple * omega + drift, dtype=np.float64), np.asarray(size, dtype=np.float64)
+        share = np.abs(value)
+        drift = (slope * value.conj()).imag / np.maximum(share, np.finfo(float).tiny) ** 2
+        return np.asarray(multiple * omega + drift, dtype=np.float64), np.asarray(self.size * share, dtype=np.float64)
 
     def samples(self, *, keep: Callable[[int], bool] = lambda _: True) -> Array:
         """The model's samples: of the harmonics (0 the offset, 1 the fundamental, ...) for which ``keep`` is true."""
         order = (1, *(h for h in self.multiples for _ in "bc"), 0)
         kept = np.array([keep(h) for h in order] + [False])
-        return self.equations.model(np.where(kept, self.coefficients, 0.0))
+        part = np.where(kept, self.coefficients, 0.0)
+        weights = Linearised(self.coefficients[:, -1], self.logarithm, self.multiples)
+        return self.basis.along(lambda some: ((some.values @ part) * weights(some)).sum(axis=1))
 
     def response(self, noise: Array) -> tuple[Array, Array]:
         """What small noise in the samples does to the coefficients, and the part of the noise that the fit takes up."""
@@ -137,58 +171,153 @@ class SplineModel:
     @cached_property
     def clear(self) -> bool:
         """Whether the amplitude rises out of the noise anywhere, CLEAR times its own deviation."""
-        deviation = self.noise * np.sqrt(self.equations.variance(0))
-        return bool((np.abs(self.amplitude) > CLEAR * deviation).any())
+        deviation = self.band_noise * np.sqrt(self.equations.variance(0))
+        return bool((deviation < 1.0 / CLEAR).any())
 
     @cached_property
     def omega_deviation(self) -> Array:
         """One sigma of omega in white noise of the residual's size: the Cramer-Rao bound of this model."""
         last = self.coefficients.shape[1] - 1
-        return np.asarray(self.noise * np.sqrt(self.equations.variance(last, slopes=True)), dtype=np.float64)
+        return np.asarray(self.band_noise * np.sqrt(self.equations.variance(last, slopes=True)), dtype=np.float64)
+
+
+@dataclass(frozen=True)
+class Known:
+    """What is known of samples beside the oscillation in them.
+
+    ``sound`` is 1 at the samples that count and 0 at those that are no part of the motion, all by default; ``beside``
+    the tangent of other components that were fitted to them and are taken off already; ``band`` that in which models
+    are judged, rad per sample, by default that of the model itself.
+    """
+
+    sound: Array | None = None
+    beside: Array | None = None
+    band: tuple[float, float] | None = None
+
+    def sound_of(self, size: int) -> Array:
+        """1 at the samples that count."""
+        return np.ones(size) if self.sound is None else self.sound
+
+
+NOTHING_KNOWN = Known()
 
 
 def weights_of(phase: Array, amplitude: Array, multiples: tuple[int, ...]) -> Array:
-    """What multiplies each spline: those of a, of b_h and c_h in turn, of d, and of an increment of phi."""
-    columns = [np.cos(phase)]
+    """What multiplies each spline: an increment of l, b_h and c_h in turn, d, and an increment of phi."""
+    columns = [amplitude * np.cos(phase)]
     for h in multiples:
-        columns += [np.cos(h * phase), np.sin(h * phase)]
+        columns += [amplitude * np.cos(h * phase), amplitude * np.sin(h * phase)]
     return np.stack([*columns, np.ones_like(phase), -amplitude * np.sin(phase)], axis=1)
+
+
+def level_of(basis: SplineBasis, amplitude: Array) -> Array:
+    """Coefficients of the logarithm of an amplitude, weighted with it; LEAST of the largest at least."""
+    weight = np.maximum(amplitude, LEAST * float(amplitude.max()))
+    equations = normal_equations(basis, lambda part: weight[part.rows, None], 1)
+    return equations.solve(weight * np.log(weight))[:, 0]
 
 
 @dataclass(frozen=True)
 class Linearised:
-    """The weights of a model about a phase and an amplitude, as coefficients of splines ``(K,)``."""
+    """The weights of a model about a phase and the logarithm of an amplitude, as coefficients of splines ``(K,)``.
+
+    They are 0 at samples that are not ``sound``.
+    """
 
     phase: Array
-    amplitude: Array
+    logarithm: Array
     multiples: tuple[int, ...]
+    sound: Array | None = None
 
     def __call__(self, part: Part) -> Array:
         """The weights at the samples of a part, ``(R, F)``."""
-        return weights_of(part.values @ self.phase, part.values @ self.amplitude, self.multiples)
+        weights = weights_of(part.values @ self.phase, np.exp(part.values @ self.logarithm), self.multiples)
+        return weights if self.sound is None else weights * self.sound[part.rows, None]
 
 
 def fit_on(
-    x: Array, time: Array, phase: Array, amplitude: Array, breaks: Array, multiples: tuple[int, ...]
+    x: Array,
+    time: Array,
+    phase: Array,
+    amplitude: Array,
+    breaks: Array,
+    multiples: tuple[int, ...],
+    degree: int = DEGREE,
+    known: Known = NOTHING_KNOWN,
 ) -> SplineModel:
     """Gauss-Newton with knots at ``breaks``, from a phase and an amplitude; each step half a radian at most."""
-    basis = spline_basis(time, breaks)
-    plain = normal_equations(basis, alone, 1)
-    p, a = plain.solve(phase)[:, 0], plain.solve(amplitude)[:, 0]
-    step = math.inf
+    basis = spline_basis(time, breaks, degree)
+    p, level = normal_equations(basis, alone, 1).solve(phase)[:, 0], level_of(basis, amplitude)
+    step, residual, sound = math.inf, x, known.sound_of(x.size)
+    families = 3 + 2 * len(multiples)
+    itself = np.zeros((basis.count, families))
+    itself[:, 0] = 1.0
     for _ in range(ITERATIONS):
-        equations = normal_equations(basis, Linearised(p, a, multiples), 3 + 2 * len(multiples))
-        c = equations.solve(x)
-        a = c[:, 0]
-        turn, size = np.abs(basis.values(c[:, -1])), np.abs(basis.values(a))
-        before, step = step, float((turn * size).max() / max(float(size.max()), np.finfo(float).tiny))
+        weights = Linearised(p, level, multiples, known.sound)
+        equations = normal_equations(basis, weights, families, firmness(families, residual))
+        left = x * sound - equations.model(itself)
+        c = equations.solve(left)
+        residual, size = left - equations.model(c), np.exp(basis.values(level))
+        moved = np.maximum(np.abs(basis.values(c[:, 0])), np.abs(basis.values(c[:, -1])))
+        before, step = step, float((moved * size).max() / max(float(size.max()), np.finfo(float).tiny))
         if step < 1e-10 or (step < SETTLED and step > 0.5 * before):
             break
-        p = p + c[:, -1] * min(1.0, 0.5 / float(turn.max()))
-    residual = x - equations.model(c)
+        part = min(1.0, 0.5 / float(moved.max()))
+        p, level = p + part * c[:, -1], level + part * c[:, 0]
+    c[:, 0] += 1.0
     c[:, -1] = p
-    noise = math.sqrt(float(residual @ residual) / max(1, x.size - c.size))
-    return SplineModel(time, breaks, c, multiples, noise, step < SETTLED, equations)
+    count = int(sound.sum())
+    noise = math.sqrt(float((residual**2).sum()) / max(1, count - c.size))
+    equations = replace(equations, beside=known.beside)
+    band = known.band or counted(basis.slopes(p) * (time[1] - time[0]), size, multiples)
+    floor = 1e-14 * float(size.max())
+    criterion = akaike(residual, band, count=count, parameters=c.size - basis.count, floor=floor)
+    return SplineModel(
+        time=time,
+        breaks=breaks,
+        coefficients=c,
+        logarithm=level,
+        multiples=multiples,
+        noise=noise,
+        settled=step < SETTLED,
+        equations=equations,
+        count=count,
+        criterion=criterion,
+        band=band,
+    )
+
+
+def counted(omega: Array, size: Array, multiples: tuple[int, ...]) -> tuple[float, float]:
+    """The band round an oscillation of so many rad per sample and its harmonics, in which a model is judged."""
+    clear = omega[size > 0.1 * size.max()]
+    return 0.5 * float(clear.min()), (max(multiples, default=1) + 1.0) * float(clear.max())
+
+
+# Akaike's criterion with its correction for few samples: Hurvich and Tsai, Biometrika 76 (1989) 297.
+def akaike(left: Array, band: tuple[float, float], *, count: int, parameters: int, floor: float) -> float:
+    """n log(mean square) + 2 p n / (n - p - 1) of what a model leaves in a band, below which the offset is.
+
+    Slow drift and noise far away from the oscillation are nothing that knots of its phase are for.  A band with fewer
+    than ENOUGH ordinates is widened upward.
+
+    >>> left = np.random.default_rng(1).normal(size=400)
+    >>> fine, drifting = (akaike(x, (0.5, 2.0), count=400, parameters=6, floor=0.0) for x in (left, left + 9.0))
+    >>> bool(abs(fine - drifting) < 1e-6)
+    True
+    """
+    power, w = np.abs(rfft(left)) ** 2 / left.size, TWO_PI * rfftfreq(left.size)
+    first = int(np.searchsorted(w, band[0]))
+    last = max(int(np.searchsorted(w, band[1])), min(first + ENOUGH, w.size))
+    n = 2.0 * (last - first) * count / left.size
+    mean = 2.0 * float(power[first:last].sum()) / max(n, 1.0)
+    return n * math.log(mean + floor**2 + 1e-300) + 2.0 * parameters * n / max(n - parameters - 1.0, 0.5)
+
+
+def firmness(families: int, left: Array) -> Array:
+    """The ridge of the two increments: where a is far below what is left of the samples, both stay as they are."""
+    ridge = np.zeros(families)
+    ridge[[0, -1]] = FIRM * float(np.mean(left**2))
+    return ridge
 
 
 def corrected_phase(x: Array, rate: float, guide: Array) -> tuple[Array, Array]:
@@ -216,34 +345,57 @@ def breaks_of(rising: Array, time: Array, intervals: int) -> Array:
     return np.concatenate([time[:1], inner, time[-1:]])
 
 
-def numbers_of_intervals(cycles: float, size: int, families: int) -> list[int]:
-    """1, 2, 3, 5, 8, ... knot intervals, down to FINEST_CYCLES cycles each and a third of the samples as coefficients.
+@dataclass(frozen=True)
+class Splines:
+    """How many intervals between knots, and the degree on them."""
 
-    >>> numbers_of_intervals(33.0, 641, 6)
-    [1, 2, 3, 5, 8, 12]
+    intervals: int
+    degree: int
+
+    @property
+    def count(self) -> int:
+        """Coefficients of one spline."""
+        return self.intervals + self.degree
+
+
+def splines_tried(cycles: float, size: int, families: int) -> list[Splines]:
+    """Polynomials of degree 1, 2 and 3, then quintics on 1, 2, 3, 5, 8, ... intervals.
+
+    No more coefficients than cycles, down to FINEST_CYCLES cycles an interval, and a third of the samples at most.
+
+    >>> [(one.intervals, one.degree) for one in splines_tried(33.0, 641, 6)]
+    [(1, 1), (1, 2), (1, 3), (1, 5), (2, 5), (3, 5), (5, 5), (8, 5), (12, 5)]
+    >>> [(one.intervals, one.degree) for one in splines_tried(3.5, 140, 3)]
+    [(1, 1), (1, 2)]
     """
-    most = min(int(cycles / FINEST_CYCLES), size // (3 * families) - DEGREE)
-    found = [1]
-    while (after := math.ceil(GROWTH * found[-1])) <= most:
-        found.append(after)
-    return found
+    tried = [Splines(1, degree) for degree in (*LOW_DEGREES, DEGREE)]
+    most = int(cycles / FINEST_CYCLES)
+    while (after := math.ceil(GROWTH * tried[-1].intervals)) <= most:
+        tried.append(Splines(after, DEGREE))
+    return [s for s in tried if s.count <= max(cycles, LOW_DEGREES[1] + 1) and 3 * families * s.count <= size]
 
 
 def on_more_knots(
-    x: Array, time: Array, phase: Array, amplitude: Array, density: Array, multiples: tuple[int, ...]
+    x: Array,
+    time: Array,
+    phase: Array,
+    amplitude: Array,
+    density: Array,
+    multiples: tuple[int, ...],
+    known: Known = NOTHING_KNOWN,
 ) -> Iterator[SplineModel]:
     """Models on more and more knots, spread as ``density`` grows, from the first that can follow the phase."""
     families = 3 + 2 * len(multiples)
-    for intervals in numbers_of_intervals(float(phase[-1] - phase[0]) / TWO_PI, x.size, families):
-        breaks = breaks_of(density, time, intervals)
-        if np.diff(breaks).min() > 0.0 and follows(time, breaks, phase, amplitude):
-            yield fit_on(x, time, phase, amplitude, breaks, multiples)
+    for splines in splines_tried(float(phase[-1] - phase[0]) / TWO_PI, x.size, families):
+        breaks = breaks_of(density, time, splines.intervals)
+        if np.diff(breaks).min() > 0.0 and follows(time, breaks, phase, amplitude, splines.degree):
+            yield fit_on(x, time, phase, amplitude, breaks, multiples, splines.degree, known)
 
 
-def follows(time: Array, breaks: Array, phase: Array, amplitude: Array) -> bool:
+def follows(time: Array, breaks: Array, phase: Array, amplitude: Array, degree: int = DEGREE) -> bool:
     """Tell whether splines come within half a radian of a phase, rms, weighted with the amplitude."""
     weight = np.maximum(amplitude, 1e-6 * amplitude.max())
-    fitted = normal_equations(spline_basis(time, breaks), lambda part: weight[part.rows, None], 1)
+    fitted = normal_equations(spline_basis(time, breaks, degree), lambda part: weight[part.rows, None], 1)
     off = fitted.model(fitted.solve(phase * weight)) - phase * weight
     return bool((off**2).mean() < 0.25 * (weight**2).mean())
 
@@ -261,7 +413,9 @@ def until_no_better(models: Iterator[SplineModel]) -> list[SplineModel]:
     return found
 
 
-def harmonic_splines(x: Array, rate: float, guide: Array, *, multiples: tuple[int, ...] = ()) -> list[SplineModel]:
+def harmonic_splines(
+    x: Array, rate: float, guide: Array, *, multiples: tuple[int, ...] = (), known: Known = NOTHING_KNOWN
+) -> list[SplineModel]:
     """Fit models on more and more knots until the criterion has failed to improve twice; in that order.
 
     ``guide`` is the frequency per sample, rad per time unit, right to within a quarter of itself or so.  Raises
@@ -277,21 +431,27 @@ def harmonic_splines(x: Array, rate: float, guide: Array, *, multiples: tuple[in
     checked_work(200.0 * x.size * families**2 * ITERATIONS, f"harmonic splines on {x.size} samples", "decimate first")
     phase, amplitude = corrected_phase(x, rate, guide)
     cycles = float(phase[-1] - phase[0]) / TWO_PI
-    if not (cycles > FINEST_CYCLES and x.size >= 3 * families * (DEGREE + 1)):
+    fewest = 3 * families * (LOW_DEGREES[1] + 1)
+    if not (cycles > FINEST_CYCLES and x.size >= fewest):
         raise InputError(
             f"signal holds {cycles:.3g} cycles in {x.size} samples; a model of all of it with {families} splines needs "
-            f"more than {FINEST_CYCLES:g} cycles and {3 * families * (DEGREE + 1)} samples"
+            f"more than {FINEST_CYCLES:g} cycles and {fewest} samples"
         )
     time = np.arange(x.size) / rate
-    first = best_model(until_no_better(on_more_knots(x, time, phase, amplitude, phase, multiples)))
-    return until_no_better(on_more_knots(x, time, first.phase, first.amplitude, adapted(first), multiples))
+    known = replace(known, band=counted(guide / rate, amplitude, multiples))
+    first = best_model(until_no_better(on_more_knots(x, time, phase, amplitude, phase, multiples, known)))
+    return until_no_better(on_more_knots(x, time, first.phase, first.amplitude, adapted(first), multiples, known))
 
 
 def adapted(model: SplineModel) -> Array:
     """A rising function of time whose equal steps put knots where the model's phase asks for them."""
+    if model.basis.degree < DEGREE:
+        return model.phase
     share = np.diff(np.interp(model.breaks, model.time, model.phase)) / np.diff(model.breaks)
     total = float(model.phase[-1] - model.phase[0])
-    density = adapted_density(model.coefficients[:, -1], model.breaks, share / total)
+    middle = np.interp(0.5 * (model.breaks[1:] + model.breaks[:-1]), model.time, model.size)
+    both = np.stack([model.logarithm, model.coefficients[:, -1]], axis=1)
+    density = adapted_density(both, model.breaks, share / total, middle)
     level = np.concatenate([[0.0], np.cumsum(density * np.diff(model.breaks))])
     return np.asarray(np.interp(model.time, model.breaks, level), dtype=np.float64)
 

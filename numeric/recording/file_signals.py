@@ -28,6 +28,8 @@ from ridgeback.numeric.recording.stretches import Rows
 from ridgeback.numeric.recording.uniform import MOST_SAMPLES
 from ridgeback.numeric.signal.samples import checked_rate
 
+ALIKE, MOSTLY = 0.02, 0.9
+"""Steps of a time column that differ by less than this share are alike; it is even where most of them are."""
 Wanted = str | int | Sequence[str | int] | None
 
 
@@ -87,6 +89,8 @@ def stamps(signal: Signal, size: int, rate: float | None) -> tuple[Array, str]:
         if stated is not None and clock is None and rate not in (None, stated):
             raise InputError(f"{columns.source} states {stated:g} samples per second, not {rate:g}; leave the rate out")
         used = checked_rate(rate if rate is not None else stated or 0.0)
+        if clock is not None:
+            check_agreement(signal, used)
         note = "" if clock is None else f"the time column {columns.names[clock]} was replaced by the given rate"
         return np.arange(signal.rows.size) / used, note
     if columns.sizes[clock] != size:
@@ -99,3 +103,20 @@ def stamps(signal: Signal, size: int, rate: float | None) -> tuple[Array, str]:
     if unit and unit.lower() not in SECONDS:
         note = f"the unit of time, {unit}, is not known: what is printed per second is per {unit}"
     return seconds * columns.values(clock)[signal.rows], note
+
+
+def check_agreement(signal: Signal, rate: float) -> None:
+    """Refuse a rate that an even time column contradicts, unless that counts the samples."""
+    columns, clock = signal.columns, signal.clock
+    if clock is None:
+        return
+    name = columns.names[clock]
+    steps = np.diff(columns.values(clock)[signal.rows]) * time_unit(name)[1]
+    steps = steps[np.isfinite(steps)]
+    usual = float(np.median(steps)) if steps.size else 0.0
+    even = steps.size > 0 and bool(np.mean(np.abs(steps - usual) <= ALIKE * abs(usual)) > MOSTLY)
+    if even and usual > 0.0 and usual != 1.0 and abs(usual * rate - 1.0) > ALIKE:
+        raise InputError(
+            f"{columns.source}: the time column {name} has steps of {usual:.6g} s, {1.0 / usual:.6g} samples per "
+            f"second, not {rate:g}; leave --rate out, or name another --time-column"
+        )

@@ -7,7 +7,7 @@ The rules, in this order:
    is RESAMPLED_STEPS steps, usual ones or those of the new rate, whichever are longer.
 2. A stretch on a uniform grid is kept as it is.  Nearly even times are interpolated, others only by ``resample``.
 3. Stretches with too few samples, or constant, are left out.
-4. Clipped samples are kept and marked; who needs amplitudes must leave their neighbourhood out.
+4. Clipped samples are kept and marked; they must enter no fit.
 5. The slow part is measured and named, and removed by ``detrend`` only.
 """
 
@@ -276,8 +276,8 @@ def signal_notes(samples: Stamped, header: str, gaps: Sequence[Gap], lost: Seque
         tops = runs(flat, 1)
         spans = [f"t = {samples.time[first]:.6g} to {samples.time[last]:.6g}" for first, last in tops]
         notes.append(
-            f"{np.count_nonzero(flat)} samples in {len(tops)} flat tops are clipped: {places(spans)}; they are kept, "
-            "and amplitudes near them are not used."
+            f"{np.count_nonzero(flat)} samples in {len(tops)} flat tops are clipped: {places(spans)}; they "
+            "enter no fit of the motion."
         )
     return notes
 

@@ -35,6 +35,8 @@ class Samples:
     rate: float
     start: float
     factor: int = 1
+    wrong: Mask | None = None
+    """Samples that are known to be no part of the motion, such as clipped ones."""
 
     @property
     def time(self) -> Array:
@@ -88,7 +90,8 @@ def every(samples: Samples, factor: int) -> Samples:
     (60, 20.0, 2.5, True)
     """
     x = np.asarray(resample_poly(samples.x, 1, factor, window=("kaiser", FLAT))[RINGING:-RINGING], dtype=np.float64)
-    return Samples(x, samples.rate / factor, samples.start + RINGING * factor / samples.rate, factor)
+    wrong = None if samples.wrong is None else every_flag(samples.wrong, factor)
+    return Samples(x, samples.rate / factor, samples.start + RINGING * factor / samples.rate, factor, wrong)
 
 
 def every_flag(flags: Mask, factor: int) -> Mask:

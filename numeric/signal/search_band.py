@@ -7,6 +7,7 @@ so that the constant, the second and the third harmonic stay outside even when o
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -24,6 +25,10 @@ MARGIN = 1.45
 """Half width of a search band as a factor: below 1.5, so that a second harmonic 1.45 times off it stays out."""
 GUIDE_CYCLES = 6.0
 FEWEST_CYCLES = 3.0
+CLEAR = 100.0
+"""Of the median of the spectrum, that its highest line exceeds in white noise with hardly any probability."""
+CLEAR_AT_AN_END = 40.0
+"""The same for a line of a record that holds nothing else than noise for the most of it."""
 LONG = 100_000
 BLOCK_VALUES = 60_000
 """Values that the segments of one block of columns hold, padded: half a megabyte."""
@@ -61,23 +66,44 @@ class SearchBand:
 def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | None = None) -> float:
     """Angular frequency of the highest line of the Hann-windowed spectrum within ``band``.
 
-    By default everything above FEWEST_CYCLES per record counts: the constant and slow drift are left out.
+    By default everything above FEWEST_CYCLES per record counts: the constant and slow drift are left out.  Where no
+    line is CLEAR of that spectrum, as of a decay that is over long before the record, the halves of the window that
+    begin or end at its middle are tried too, and the clearest line counts.
 
     >>> t = np.arange(320) / 32.0
     >>> round(strongest_frequency(np.cos(2 * np.pi * 1.5 * t), rate=32.0) / (2 * np.pi), 2)
     1.5
     """
     padded = 4 * x.size
-    spectrum = np.abs(fft.rfft((x - x.mean()) * np.hanning(x.size), padded)) ** 2
-    omega = TWO_PI * rate * np.arange(spectrum.size) / padded
+    omega = TWO_PI * rate * np.arange(padded // 2 + 1) / padded
     low, high = band or (TWO_PI * rate * FEWEST_CYCLES / x.size, math.pi * rate)
-    within = np.where((omega >= low) & (omega <= high), spectrum, 0.0)
-    if not within.max() > 0.0:
+    within = (omega >= low) & (omega <= high)
+    best, clearest = 0.0, 0.0
+    for taper in (np.hanning(x.size), *half_tapers(x.size)):
+        spectrum = np.where(within, np.abs(fft.rfft((x - x.mean()) * taper, padded)) ** 2, 0.0)
+        at, typical = int(spectrum.argmax()), float(np.median(spectrum[within])) if within.any() else 0.0
+        clear = float(spectrum[at]) / max(typical, np.finfo(float).tiny)
+        if clear > max(clearest, CLEAR_AT_AN_END if clearest else 0.0):
+            best, clearest = float(omega[at]), clear
+        if clear > CLEAR:
+            break
+    if not clearest > 0.0:
         raise InputError(
             f"signal of {x.size} samples shows no oscillation between {low:.4g} and {high:.4g} rad per time unit; "
             f"give a longer record or another band"
         )
-    return float(omega[within.argmax()])
+    return best
+
+
+def half_tapers(size: int) -> Iterator[Array]:
+    """The falling half of a Hann window, and the rising one, over the whole record: for a motion at one of its ends.
+
+    >>> [taper.round(2).tolist() for taper in half_tapers(3)]
+    [[1.0, 0.5, 0.0], [0.0, 0.5, 1.0]]
+    """
+    falling = np.hanning(2 * size - 1)[size - 1 :]
+    yield falling
+    yield falling[::-1]
 
 
 def continuous_path(level: Floats, reach: int) -> NDArray[np.intp]:

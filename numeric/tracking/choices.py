@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from enum import StrEnum
 
+from ridgeback.numeric.components.tones import Tone
+
 
 class Scope(StrEnum):
     """Of harmonic least squares: splines over the whole record, or a polynomial in a sliding window."""
@@ -51,6 +53,12 @@ class Choices:
     span : (float, float), optional
         First and last time of the stretch in which the amplitude stands above the noise, where that is not all of the
         record: the track is of that stretch.
+    tones : tuple of Tone
+        What was found beside the oscillation and taken off.
+    spikes : int
+        Samples far outside the noise that enter no fit.
+    doubt : str
+        Why no interval can be claimed of this record, if so.
     why : str
         The reason for what was chosen, for display.
 
@@ -75,9 +83,12 @@ class Choices:
     one_sided_borders: bool = False
     decimated_by: int = 1
     span: tuple[float, float] | None = None
+    tones: tuple[Tone, ...] = ()
+    spikes: int = 0
+    doubt: str = ""
     why: str = ""
 
     def shown(self) -> dict[str, object]:
         """What differs from its default, by name, for display."""
         held = {item.name: (getattr(self, item.name), item.default) for item in fields(self)}
-        return {name: value for name, (value, default) in held.items() if value != default}
+        return {name: value for name, (value, default) in held.items() if value != default and name != "tones"}

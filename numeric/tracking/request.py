@@ -10,6 +10,8 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, ComplexArray, Mask
+from ridgeback.numeric.components.separation import MOST_TONES, separated
+from ridgeback.numeric.components.tones import Tone
 from ridgeback.numeric.harmonics.noise import Level, measure_level
 from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
 from ridgeback.numeric.signal.analytic import analytic_of
@@ -50,6 +52,13 @@ class Options:
     band_limited: bool = False
     single: bool = False
     bias: bool = True
+    components: int | None = None
+    """Oscillations to tell apart; None for those that the samples show."""
+
+    @property
+    def most_tones(self) -> int:
+        """Tones to look for beside the oscillation."""
+        return MOST_TONES if self.components is None else self.components - 1
 
     @property
     def given(self) -> list[str]:
@@ -74,6 +83,13 @@ class Signal:
     search: SearchBand
     factor: int = 1
     """Samples of the record behind each of these."""
+    wrong: Mask | None = None
+    """Samples that are known to be no part of the motion."""
+    tones: tuple[Tone, ...] = ()
+    """What was found beside the oscillation and is off the samples."""
+    spikes: int = 0
+    doubt: str = ""
+    """Why no model of the samples can be trusted, if so."""
 
     @property
     def time(self) -> Array:
@@ -155,6 +171,26 @@ class Request:
         """How long the ends of the record ring in the filter of a band-limited kernel; 0 without it."""
         return 0.0 if self.band is None else ringing(*self.band)
 
+    def separated(self) -> Request:
+        """The request for one oscillation alone, with models of it; unchanged where no model of it settles."""
+        signal = self.signal
+        try:
+            found = separated(
+                signal.x,
+                signal.rate,
+                signal.search.guide,
+                half=self.half,
+                multiples=self.options.multiples,
+                excluded=signal.wrong,
+                most=self.options.most_tones,
+            )
+        except InputError:
+            return self
+        alone = replace(
+            signal, x=found.x, z=analytic_of(found.x), tones=found.tones, spikes=found.spikes, doubt=found.reason
+        )
+        return replace(self, signal=alone, known_models=found.models)
+
     @cached_property
     def models(self) -> SignalModels:
         """Models of the whole signal; raises InputError where there is none."""
@@ -183,7 +219,15 @@ class Request:
     @property
     def used(self) -> Choices:
         """What every track was made with; each method adds its own."""
-        return Choices(start=self.signal.start, decimated_by=self.signal.factor, why=self.plan.why)
+        signal = self.signal
+        return Choices(
+            start=signal.start,
+            decimated_by=signal.factor,
+            tones=signal.tones,
+            spikes=signal.spikes,
+            doubt=signal.doubt,
+            why=self.plan.why,
+        )
 
     def details(self, **more: object) -> dict[str, object]:
         """What every track shows beside that, and more."""
@@ -195,6 +239,7 @@ class Request:
             **given,
             "band_rad": signal.search.limits,
             "band_why": signal.search.why,
+            **({"components": [tone.row() for tone in signal.tones]} if signal.tones else {}),
             **more,
         }
 
@@ -213,7 +258,7 @@ def prepared(samples: Samples, options: Options, *, search: SearchBand | None = 
             f"{FEWEST_CYCLES:g} are needed (give a longer record, a band, or lag_seconds)"
         )
     lag = min(LAG_CYCLES * cycle, max(SHORT_CYCLES * cycle, SHORT_SHARE * span))
-    signal = Signal(real, analytic_of(real), samples.rate, samples.start, offset, search, samples.factor)
+    signal = Signal(real, analytic_of(real), samples.rate, samples.start, offset, search, samples.factor, samples.wrong)
     plan = Plan(
         lag_seconds=lag if options.lag_seconds is None else options.lag_seconds,
         smoothing_seconds=cycle if options.smoothing_seconds is None else options.smoothing_seconds,

@@ -99,7 +99,7 @@ def replicated(trial: Trial, models: SignalModels, clean: Array, count: int) -> 
     samples, truth, truth_coarse = fine.samples(), trial.truth(fine), trial.truth(coarse)
     plain, corrected, between = (np.empty((count, trial.time.size)) for _ in range(3))
     for i in range(count):
-        noise = fine.noise * rng.normal(size=samples.size)
+        noise = fine.band_noise * rng.normal(size=samples.size)
         change, taken = fine.response(noise)
         moved = trial.truth(fine, change) - truth
         plain[i] = 0.0 if trial.efficient else trial.run(samples + noise) - clean

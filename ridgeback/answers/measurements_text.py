@@ -15,13 +15,13 @@ if TYPE_CHECKING:
 COMBINED = "combined"
 
 
-def measurements_text(found: Measurements, style: str, *, backbone: bool) -> str:
-    """All signals that were measured in the form asked for, tracks or backbones."""
+def measurements_text(found: Measurements, style: str, *, backbone: bool, every: bool = True) -> str:
+    """All signals that were measured in the form asked for, tracks or backbones; text of ``every`` row, or of some."""
     if style == "json":
         return json_text(as_json(found, backbone=backbone))
     if style == "csv":
         return as_csv(found, backbone=backbone)
-    parts = [one_text(one, backbone=backbone) for one in found.measured]
+    parts = [one_text(one, backbone=backbone, every=every) for one in found.measured]
     parts += [common_text(common) for common in found.combined] if backbone else []
     notes = [*found.notes, *(f"Failed, {reason}." for reason in found.failed)]
     return "\n".join(parts) + "".join(f"\n{note}" for note in notes) + ("\n" if notes else "")
@@ -125,12 +125,17 @@ def named(recording: Recording) -> dict[str, Any]:
     }
 
 
-def one_text(one: Measurement, *, backbone: bool) -> str:
-    """Heading, notes and table of one signal."""
+def one_text(one: Measurement, *, backbone: bool, every: bool = True) -> str:
+    """Heading, notes, summary and table of one signal."""
+    from ridgeback.answers.measurement_summary import summary, thinned
+
     rows = rows_of(one, backbone=backbone)
-    table = aligned(list(columns_of(rows)), rows) if rows else "no rows"
+    shown = rows if every else [rows[i] for i in thinned(len(rows))]
+    table = aligned(list(columns_of(rows)), shown) if rows else "no rows"
+    rest = "" if len(shown) == len(rows) else f"\n{len(shown)} of {len(rows)} rows; --all or -o FILE gives every one"
     notes = "".join(f"\n{note}" for note in (*one.notes, *misfit(one), *chance(one)))
-    return f"{heading(one)}{notes}\n\n{table}\n"
+    lines = "".join(f"\n{line}" for line in summary(one))
+    return f"{heading(one)}{notes}\n{lines}\n\n{table}{rest}\n"
 
 
 def common_text(common: Common) -> str:

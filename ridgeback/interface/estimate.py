@@ -49,6 +49,7 @@ def estimate(
     single: bool = False,
     bias: bool = True,
     remove_bias: bool = False,
+    components: int | None = None,
     oscillator: OscillatorLike | None = None,
     free: Sequence[str] | None = None,
     parameters: Mapping[str, Value] | None = None,
@@ -97,6 +98,9 @@ def estimate(
         Whether the bias, and with it the 95 % interval, is estimated.
     remove_bias : bool
         Whether the bias is taken off the values.
+    components : int, optional
+        Oscillations to tell apart: one in the band, and tones beside it, steady or damped, which are taken off (see
+        ``track.used.tones``); by default those that the samples show.
     oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr, optional
         What ``"model-fit"`` fits, in any of the forms that :func:`ridgeback.oscillator` takes.
     free : sequence of str, optional
@@ -153,6 +157,8 @@ def estimate(
             single=single,
             bias=bias,
             remove_bias=remove_bias,
+            components=components,
+            wrong=used.clipped if used.clipped.any() else None,
             family=model,
             progress=told,
         )

@@ -31,6 +31,7 @@ class Estimator:
     order: int | None = None
     band_limited: bool = False
     single: bool = False
+    components: int | None = None
     model: Model | None = None
 
     def given(self) -> dict[str, Any]:
@@ -45,6 +46,7 @@ class Estimator:
             "order": self.order,
             "band_limited": self.band_limited or None,
             "single": self.single or None,
+            "components": self.components,
             "remove_bias": self.remove_bias,
             "family": None if self.model is None else self.model.family(self.method),
         }
@@ -104,14 +106,31 @@ def estimator_options(command: Command) -> Command:
         order: int | None,
         band_limited: bool,
         single: bool,
+        components: int | None,
         **rest: Any,
     ) -> None:
-        estimator = Estimator(method, band, lag, remove_bias, window, smoothing, harmonics, order, band_limited, single)
+        estimator = Estimator(
+            *(method, band, lag, remove_bias, window, smoothing, harmonics, order, band_limited, single, components)
+        )
         command(*args, estimator=estimator, **rest)
 
     return added(wrapped, OPTIONS)
 
 
+def components_of(value: str) -> int | None:
+    """A number of components, None for "auto".
+
+    >>> components_of("auto"), components_of("2")
+    (None, 2)
+    """
+    if value == "auto":
+        return None
+    if value.isdecimal() and 1 <= int(value) <= MOST_COMPONENTS:
+        return int(value)
+    raise click.BadParameter(f"{value!r} is neither auto nor a number from 1 to {MOST_COMPONENTS}")
+
+
+MOST_COMPONENTS = 16
 OPTIONS = (
     click.option(
         "--method", default="auto", show_default=True, metavar="NAME", help="Estimator; a wrong name lists them all."
@@ -153,6 +172,14 @@ OPTIONS = (
         "--band-limited",
         is_flag=True,
         help="Limit the signal to its band first (wigner, pseudo-wigner, smoothed-pseudo-wigner): faster.",
+    ),
+    click.option(
+        "--components",
+        metavar="auto|N",
+        callback=lambda _, __, value: components_of(value),
+        default="auto",
+        show_default=True,
+        help="Oscillations to tell apart: one in the band, N - 1 tones beside it, which are taken off.",
     ),
     click.option("--single", is_flag=True, help="Compute these three in single precision."),
     click.option("--remove-bias", is_flag=True, help="Take the estimated bias off the values."),

@@ -12,7 +12,7 @@ from ridgeback.answers.measurements_text import asides, measurements_text, misfi
 from ridgeback.answers.monte_carlo import monte_carlo_options, monte_carlo_verb, trials_and_file
 from ridgeback.common.progress import showing
 from ridgeback.console.failure import PartialError, say
-from ridgeback.console.output import write_bytes, write_text
+from ridgeback.console.output import STDOUT, write_bytes, write_text
 from ridgeback.console.verb import Verb
 from ridgeback.options.estimator import Estimator, estimator_options
 from ridgeback.options.model import MODEL_FIT, Model, model_options
@@ -47,6 +47,7 @@ OF_A_FILE = ("column", "time_column", "rate", "span", "resample", "fill", "detre
     show_default=True,
     help="Backbones to average: of the runs and stretches of a channel, or of all channels too.",
 )
+@click.option("--all", "every", is_flag=True, help="Every row of the table in the terminal, not some thirty.")
 @plot_option("the signal, frequency, backbone and damping with their bands")
 @monte_carlo_options
 @format_option("text", "json", "csv", default="text")
@@ -60,6 +61,7 @@ def command(
     half_cycles: bool,
     backbone_wanted: bool,
     combine: str,
+    every: bool,
     plot: str | None,
     monte_carlo: str | None,
     snr: tuple[float, ...],
@@ -72,7 +74,8 @@ def command(
 
     Rows of time_s, omega_rad_s, frequency_hz, the amplitude of the fundamental and its rate of change a'/a
     (growth_rate_per_s), each with the standard deviation that noise causes; the bias, where the estimator knows it;
-    "valid" is false near the borders, where it does not see a whole window.
+    "valid" is false near the borders, where it does not see a whole window.  In the terminal a summary stands above
+    some thirty of the rows; --all or a file has every one.
 
     --backbone gives rows of amplitude (of the first harmonic, in the unit of the samples; the turning point with
     --half-cycles) with amplitude_standard_deviation, omega_rad_s, frequency_hz, omega_standard_deviation_rad_s,
@@ -143,7 +146,7 @@ def command(
         from ridgeback.reports.figures.measurement import plot_file
 
         write_bytes(plot, plot_file(found, plot.rpartition(".")[2].lower()))
-    write_text(output, measurements_text(found, style, backbone=backbone_wanted))
+    write_text(output, measurements_text(found, style, backbone=backbone_wanted, every=every or output != STDOUT))
     if style == "csv":
         tell(found)
     refuse_empty(found, backbone=backbone_wanted)

@@ -225,3 +225,12 @@ def test_a_function_handle_is_not_read() -> None:
     columns = from_mat(stream.getvalue() + handle, "run.mat")
     assert columns.names == ("u",)
     assert columns.note == "Not read, because it holds no plain numbers: f (function)."
+
+
+@pytest.mark.parametrize("name", ["SamplingRate", "fs", "Sample Rate"])
+def test_a_rate_among_the_attributes_of_a_group_is_used(tmp_path: Path, name: str) -> None:
+    with h5py.File(tmp_path / "run.h5", "w") as file:
+        group = file.create_group("run1")
+        group.attrs[name] = 20.0
+        group["u"] = U
+    assert read_recording(tmp_path / "run.h5", column="run1/u").rate == 20.0

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.files.text import parse_table
+from ridgeback.numeric.recording.reading import read_recording
 
 
 @pytest.mark.parametrize(
@@ -31,3 +35,62 @@ def test_what_only_a_programming_language_calls_a_number_is_none(cell: str) -> N
     table = parse_table(f"t,u\n0,1\n1,{cell}\n", source="run.csv")
     with pytest.raises(InputError, match=f"line 3, column u: '{cell}' is not a number"):
         table.column(1)
+
+
+VALUES = np.sin(0.3 * np.arange(40)).round(6)
+
+
+def rows(separator: str, comma: bool, step: float = 0.05) -> str:
+    """Rows of times and values."""
+    lines = [f"{step * i:.6g}{separator}{v:.6f}" for i, v in enumerate(VALUES)]
+    text = "\n".join(lines) + "\n"
+    return text.replace(".", ",") if comma else text
+
+
+PREAMBLE = "Manufacturer: X\nSerial;12\nSampling rate: 20 Hz\n\n"
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        ("Zeit [s];u [mm]\n" + rows(";", True)).encode(),
+        ("sep=;\r\nZeit [s];u [mm]\r\n" + rows(";", True).replace("\n", "\r\n")).encode("utf-8-sig"),
+        ("Time,u\n(s),(mm)\n" + rows(",", False)).encode(),
+        (PREAMBLE + "Zeit [s];u [mm]\n" + rows(";", True)).encode("cp1252"),
+        ("% time, u [mm]\n" + rows(",", False)).encode(),
+        ("Zeit [ms]\tu [mm]\n" + rows("\t", True, 50.0)).encode("utf-16"),
+        ("Zeit [\u00b5s]\tu [mm]\n" + rows("\t", True, 5e4)).encode("latin-1"),
+        ("Time /us;u / mm\n" + rows(";", False, 5e4)).encode(),
+        ("time_days,u [mm]\n" + rows(",", False, 0.05)).encode(),
+    ],
+)
+def test_tables_as_instruments_and_spreadsheets_write_them(tmp_path: Path, data: bytes) -> None:
+    path = tmp_path / "run.csv"
+    path.write_bytes(data)
+    found = read_recording(path)
+    assert np.array_equal(found.values, VALUES)
+    per_day = 86400.0 if b"days" in data else 1.0
+    assert found.rate * per_day == pytest.approx(20.0)
+    assert (found.name, found.units) == ("u", "mm")
+    assert any("lines before the table were left out" in note for note in found.notes) == (b"Serial" in data)
+
+
+def test_numbers_without_a_header_need_a_rate_or_a_column(tmp_path: Path) -> None:
+    path = tmp_path / "run.txt"
+    path.write_text(rows(" ", False))
+    assert np.array_equal(read_recording(path, time_column="1").values, VALUES)
+    with pytest.raises(InputError, match=r"--time-column.*--rate"):
+        read_recording(path)
+
+
+def test_a_workbook_is_read_as_its_first_sheet(tmp_path: Path) -> None:
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    book.active.append(["Time [s]", "u [mm]"])
+    for i, value in enumerate(VALUES):
+        book.active.append([0.05 * i, float(value)])
+    book.save(tmp_path / "run.xlsx")
+    assert np.array_equal(read_recording(tmp_path / "run.xlsx").values, VALUES)
+    (tmp_path / "bad.xlsx").write_bytes(b"PK nothing")
+    with pytest.raises(InputError, match="not a readable Excel workbook"):
+        read_recording(tmp_path / "bad.xlsx")

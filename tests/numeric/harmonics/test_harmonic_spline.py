@@ -84,6 +84,19 @@ def test_exact_where_the_model_holds_up_to_the_very_ends() -> None:
     assert np.abs(model.samples() - x).max() < 3e-5
 
 
+@given(ratio=st.floats(0.0, 0.1), phase=st.floats(0.0, 6.0), intervals=st.integers(1, 3))
+@settings(deadline=None, max_examples=15)
+def test_a_damped_oscillation_is_in_the_model_on_any_knots(ratio: float, phase: float, intervals: int) -> None:
+    rate, omega = ratio * 2 * np.pi, 2 * np.pi
+    t = T[:320]
+    x = np.exp(-rate * t) * np.cos(omega * t + phase)
+    guess = np.exp(-1.1 * rate * t)
+    for degree in (1, DEGREE):
+        model = fit_on(x, t, 1.01 * omega * t + phase, guess, np.linspace(0.0, t[-1], intervals + 1), (), degree)
+        assert np.abs(model.omega / omega - 1.0).max() < 1e-5
+        assert np.abs(model.growth + rate).max() < 1e-5 * omega
+
+
 def test_deviation_is_the_cramer_rao_bound_and_is_met() -> None:
     # The bound is computed from the Jacobian written out in full, at the truth; the trials are fits on the same knots.
     sigma, breaks = 0.1, np.array([0.0, 7.0, 14.0, 20.0])
@@ -121,7 +134,7 @@ def test_knots_go_where_the_phase_bends() -> None:
     phase = 2 * np.pi * 1.5 * T + 3.0 * np.exp(-T)
     x = np.cos(phase) + 0.001 * np.random.default_rng(5).normal(size=T.size)
     model = best_model(harmonic_splines(x, RATE, np.gradient(phase, T)))
-    assert np.diff(model.breaks)[0] < 0.8 * np.diff(model.breaks)[-1]
+    assert np.diff(model.breaks)[0] < 0.92 * np.diff(model.breaks)[-1]
 
 
 def test_more_noise_asks_for_fewer_knots() -> None:
@@ -136,7 +149,7 @@ def test_harmonics_of_the_data_are_found_and_steps_kept() -> None:
     x = np.cos(PHASE) + 0.1 * np.cos(3 * PHASE) + 0.02 * np.random.default_rng(2).normal(size=T.size)
     models = signal_models(x, RATE, OMEGA, half=40)
     assert models.best.multiples == (3,)
-    assert models.coarse.parameters < models.best.parameters < models.fine.parameters
+    assert models.coarse.parameters < models.best.parameters <= models.fine.parameters
     assert models.coarse.criterion <= min(models.best.criterion, models.fine.criterion)
     assert 0.0 < models.remainder < 0.2
     with pytest.raises(InputError, match=r"harmonic 2 is not in the model of the signal; it holds \(1, 3\)"):

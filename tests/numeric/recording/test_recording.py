@@ -69,7 +69,10 @@ def test_columns_by_name_and_number_and_rate_in_place_of_time(tmp_path: Path) ->
     assert read_recording(path, column="w").values[3] == pytest.approx(2 * VALUES[3])
     assert read_recording(path, column=3).name == "w"
     assert read_recording(path, column="2").name == "u"
-    given_rate = read_recording(path, column="u", rate=5.0)
+    with pytest.raises(InputError, match=r"time column t has steps of 0.05 s, 20 samples per second, not 5; leave"):
+        read_recording(path, column="u", rate=5.0)
+    counted = table(tmp_path / "counted.csv", "t,u", [f"{i},{v}" for i, v in enumerate(VALUES)])
+    given_rate = read_recording(counted, column="u", rate=5.0)
     assert given_rate.rate == 5.0
     assert given_rate.time[1] == 0.2
     assert "replaced" in given_rate.notes[0]
@@ -146,7 +149,12 @@ def with_cell(row: int, cell: str) -> list[str]:
         ("t,u", with_cell(0, "0,1"), {"column": "velocity"}, "no column velocity; it has t, u"),
         ("t,u", with_cell(0, "0,1"), {"column": 3}, "no column 3; it has t, u"),
         ("t,u", with_cell(0, "0,1"), {"column": "t"}, "column t is the time"),
-        ("a,b", with_cell(0, "0,1"), {"column": "b"}, "no time column among a, b; name it, or give the sampling rate"),
+        (
+            "a,b",
+            with_cell(0, "0,1"),
+            {"column": "b"},
+            r"no time column among a, b; name it \(--time-column\), or give the sampling rate",
+        ),
         ("t,u", with_cell(0, "0,1"), {"rate": 0.0}, "sampling rate 0.0 is not positive"),
         ("t,u", with_cell(0, "0,1"), {"rate": -2.0}, r"sampling rate -2\.0 is not positive"),
         ("u,u", with_cell(0, "0,1"), {"rate": 2.0, "column": "u"}, "has 2 columns u; name one by its number"),
@@ -177,7 +185,7 @@ def test_missing_file_is_an_operating_system_error_and_suffix_is_named(tmp_path:
     with pytest.raises(InputError, match=r"suffix '.pkl' is unknown; use one of .csv"):
         read_recording(tmp_path / "none.pkl")
     (tmp_path / "latin.csv").write_bytes(b"t,u\n0,\xff\n")
-    with pytest.raises(InputError, match="byte 6 is not UTF-8"):
+    with pytest.raises(InputError, match="line 2, column u: 'ÿ' is not a number"):
         read_recording(tmp_path / "latin.csv")
     (tmp_path / "x.wav").write_bytes(b"RIFFnothing")
     with pytest.raises(InputError, match="not a readable WAV"):

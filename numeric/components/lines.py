@@ -1,0 +1,85 @@
+"""Lines that stand out of what a model leaves of a signal, and how strong its noise is near the oscillation.
+
+The periodogram of white noise is exponentially distributed round the level of its neighbourhood: among n ordinates the
+largest exceeds level (ln n + SURE) with probability e^-SURE.  The level is the median of the neighbourhood over ln 2.
+Halves of a Hann window are used beside the whole, since another mode may have decayed long before the record ends.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy import fft
+from scipy.ndimage import median_filter
+
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.signal.search_band import half_tapers
+
+SURE = 8.0
+"""A line that is none has a probability of e^-8, 3 in 10,000."""
+NEIGHBOURS = 0.2
+"""Of the spectrum, whose median is the level."""
+FEWEST_NEIGHBOURS = 101
+LOWEST_CYCLES = 3.0
+FEWEST_BINS = 8
+"""Ordinates beside the oscillation from which on their mean says more than that of all."""
+BESIDE = 0.35
+"""Relative distance from the oscillation up to which noise matters."""
+SHRINK = 2.0
+"""A logarithm of a mean of n ordinates, of deviation 1 / sqrt(n), is shrunk to 0 like that of James and Stein."""
+
+
+def clearest_line(left: Array, rate: float, least: float = 0.0) -> float | None:
+    """Angular frequency of the line that stands out most of a residual, of amplitude ``least`` at least; else None.
+
+    >>> t, noise = np.arange(600) / 20.0, np.random.default_rng(1).normal(size=600)
+    >>> clearest_line(noise, 20.0) is None, round(clearest_line(noise + 0.4 * np.cos(14.0 * t), 20.0), 1)
+    (True, 14.0)
+    """
+    omega = TWO_PI * rate * fft.rfftfreq(left.size)
+    usable = omega >= TWO_PI * rate * LOWEST_CYCLES / left.size
+    width = max(FEWEST_NEIGHBOURS, round(NEIGHBOURS * omega.size)) | 1
+    best, beyond = None, 1.0
+    for taper in (np.hanning(left.size), *half_tapers(left.size)):
+        spectrum = np.abs(fft.rfft(left * taper)) ** 2
+        level = median_filter(spectrum, min(width, omega.size), mode="mirror") / math.log(2.0)
+        large = usable & (2.0 * np.sqrt(spectrum) > least * float(taper.sum()))
+        ratio = np.where(large, spectrum / np.maximum(level, np.finfo(float).tiny), 0.0)
+        ratio /= math.log(3.0 * omega.size) + SURE
+        at = int(ratio.argmax())
+        if ratio[at] > beyond:
+            best, beyond = float(omega[at]), float(ratio[at])
+    return best
+
+
+def colour(left: Array, rate: float, omega: float, taken: int) -> float:
+    """The noise's power near a frequency over its mean power: 1 for white noise, and where too little is known.
+
+    Parameters
+    ----------
+    left : array of float, shape (N,)
+        What a model leaves of the samples.
+    rate : float
+        Samples per time unit.
+    omega : float
+        The oscillation's frequency, rad per time unit.
+    taken : int
+        Coefficients of each of the model's splines: they take up the noise up to half as many ordinates away.
+
+    Examples
+    --------
+    >>> noise = np.random.default_rng(1).normal(size=2000)
+    >>> colour(noise, 20.0, 14.0, 8), round(colour(np.cumsum(noise), 20.0, 14.0, 8), 4) < 0.05
+    (1.0, True)
+    """
+    spectrum, at = np.abs(fft.rfft(left)) ** 2, fft.rfftfreq(left.size) * left.size
+    here = omega / TWO_PI / rate * left.size
+    off = np.abs(at - here)
+    beside = (off > 0.5 * taken + 1.0) & (off < BESIDE * here) & (at > 0)
+    count, mean = int(beside.sum()), float(spectrum[at > 0].mean())
+    if count < FEWEST_BINS or not mean > 0.0:
+        return 1.0
+    log = math.log(max(float(spectrum[beside].mean()) / mean, 1e-300))
+    return math.exp(log * max(0.0, 1.0 - SHRINK / max(count * log**2, 1e-300)))

@@ -1,0 +1,243 @@
+"""One oscillation out of a record: what shares its band is modelled with it and taken off, or said to be in the way.
+
+Models of one smooth oscillation are tried on more and more knots.  Where what such a model leaves shows a line, a tone
+at that line is fitted together with it, in turns (backfitting: Breiman and Friedman, J. Am. Stat. Assoc. 80 (1985)
+580), and kept where the criterion of both falls by GAIN below that of the best model of one: beats of two components
+take many knots to follow, their two components few parameters.  Parameters count about as in the criterion of Schwarz
+(Ann. Stat. 6 (1978) 461), which finds the true model where Akaike's finds the best predictor.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.components.lines import clearest_line, colour
+from ridgeback.numeric.components.spikes import spikes
+from ridgeback.numeric.components.tones import Tone, fitted_tone
+from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
+from ridgeback.numeric.harmonics.spline_fit import Known, SplineModel, akaike, fit_on
+from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.signal.search_band import strongest_frequency
+
+GAIN, STRICTER = 12.0, 3.0
+"""Fall of the criterion that is wanted, and what a parameter counts beyond Akaike's 2."""
+LEAST = 1e-3
+"""Of the oscillation's amplitude, that another component must have: what a model of a clean signal leaves is none."""
+MOST_TONES = 6
+TURNS, RESTED = 30, 0.02
+"""Of fitting in turns: most of them, and the fall of the criterion in one with which it ends."""
+ROUNDS = 3
+"""In which spikes are looked for."""
+OF_A_HARMONIC = 0.3
+"""Distance from a multiple of the oscillation, in its frequency, within which a line is taken for that harmonic's."""
+NEAR = 1.45
+"""Factor from the oscillation within which a line is in its band."""
+
+
+@dataclass(frozen=True)
+class Separated:
+    """The samples of one oscillation, with models of it.
+
+    ``x`` are the samples less the ``tones``, those that are no part of the motion (not ``sound``) replaced by the
+    model; ``spikes`` says how many were outside the noise.  ``reason`` is why no model of it can be trusted, if so.
+    """
+
+    x: Array
+    models: SignalModels
+    sound: Mask
+    tones: tuple[Tone, ...]
+    spikes: int
+    reason: str = ""
+
+
+def separated(
+    x: Array,
+    rate: float,
+    guide: Array,
+    *,
+    half: int,
+    multiples: tuple[int, ...] | None,
+    excluded: Mask | None = None,
+    most: int = MOST_TONES,
+) -> Separated:
+    """Model one oscillation and what is beside it.
+
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        Samples without their mean.
+    rate : float
+        Samples per time unit.
+    guide : array of float, shape (N,)
+        About the frequency of the oscillation, rad per time unit.
+    half : int
+        Half the window in which harmonics are chosen.
+    multiples : tuple of int, optional
+        The harmonics; by default those that the data show.
+    excluded : array of bool, shape (N,), optional
+        Samples that are known to be wrong, such as clipped ones.
+    most : int
+        Tones that are looked for at most.
+
+    Raises
+    ------
+    InputError
+        Where no model of the whole signal settles.
+
+    Examples
+    --------
+    >>> t = np.arange(900) / 15.0
+    >>> noise = 0.003 * np.random.default_rng(1).normal(size=900)
+    >>> x = np.exp(-0.06 * t) * np.cos(12.6 * t) + 0.02 * np.cos(14.0 * t) + noise
+    >>> found = separated(x, 15.0, np.full(900, 12.6), half=14, multiples=None)
+    >>> [(round(tone.omega, 1), tone.growth) for tone in found.tones], round(found.models.best.noise, 3)
+    ([(14.0, 0.0)], 0.003)
+    """
+    sound = np.ones(x.size, dtype=np.bool_) if excluded is None else ~excluded
+    filled, time = x, np.arange(x.size) / rate
+    if not sound.all():
+        bare = signal_models(x, rate, guide, half=half, multiples=(), known=Known(sound.astype(float)))
+        filled = np.where(sound, x, bare.best.samples())
+    models, tones = with_tones(filled, rate, guide, half, multiples, sound, most)
+    count = 0
+    for _ in range(ROUNDS):
+        left, cycle = residual(filled, models.best, tones), TWO_PI * rate / float(np.median(guide))
+        off = spikes(left, cycle, float(models.best.size.max())) & sound
+        if not off.any():
+            break
+        sound, count = sound & ~off, count + int(off.sum())
+        filled = np.where(sound, x, models.best.samples() + total(tones, time))
+        models, tones = with_tones(filled, rate, guide, half, multiples, sound, most)
+    left = residual(filled, models.best, tones)
+    omega = float(np.average(models.best.omega, weights=models.best.size**2))
+    known = models.coloured(colour(left, rate, omega, models.best.basis.count))
+    single = np.where(sound, filled - total(tones, time), models.best.samples())
+    return Separated(single, known, sound, tones, count, in_the_way(left, rate, models.best))
+
+
+def in_the_way(left: Array, rate: float, model: SplineModel) -> str:
+    """Why a model cannot be trusted: a line in its band that is left; empty where there is none."""
+    line = clearest_line(left, rate, LEAST * float(model.size.max()))
+    low, high = float(model.omega.min()) / NEAR, float(model.omega.max()) * NEAR
+    if line is None or not low < line < high:
+        return ""
+    return (
+        f"another component near {line / TWO_PI:.4g} cycles per unit shares the band, and no model of both fits; "
+        "give a --band or a --span in which there is one oscillation"
+    )
+
+
+def total(tones: tuple[Tone, ...], time: Array) -> Array:
+    """The sum of tones."""
+    return np.sum([tone.samples(time) for tone in tones], axis=0) if tones else np.zeros(time.size)
+
+
+def residual(x: Array, model: SplineModel, tones: tuple[Tone, ...]) -> Array:
+    """What a model and tones leave of samples."""
+    return x - model.samples() - total(tones, model.time)
+
+
+def with_tones(
+    x: Array, rate: float, guide: Array, half: int, multiples: tuple[int, ...] | None, sound: Mask, most: int
+) -> tuple[SignalModels, tuple[Tone, ...]]:
+    """Models of the oscillation, and the tones beside it, one after the other as long as they gain."""
+    time, tones = np.arange(x.size) / rate, ()
+    here: tuple[Tone, ...] = tones
+    known = Known(None if sound.all() else sound.astype(float))
+    models = signal_models(x, rate, guide, half=half, multiples=multiples, known=known)
+    for _ in range(most):
+        found = one_more(x, rate, models, here, known)
+        if found is None:
+            break
+        beside = np.concatenate([tone.tangent(time) for tone in found], axis=1)
+        try:
+            fewer = signal_models(
+                x - total(found, time), rate, guide, half=half, multiples=multiples, known=replace(known, beside=beside)
+            )
+        except InputError:
+            break
+        models, here = fewer, found
+    return models, here
+
+
+def one_more(
+    x: Array, rate: float, models: SignalModels, tones: tuple[Tone, ...], known: Known
+) -> tuple[Tone, ...] | None:
+    """The tones with one more beside the oscillation; None where none is worth its parameters."""
+    least = min(model.criterion + STRICTER * (model.parameters - model.basis.count) for model in models.others)
+    tried: list[float] = []
+    best: tuple[float, tuple[Tone, ...]] | None = None
+    if not suspicious(x, rate, models, tones):
+        return None
+    simple = tuple(plain(x - total(tones, models.best.time), models.best, known))
+    for model in (*simple, *models.others):
+        line = clearest_line(residual(x, model, tones), rate, LEAST * float(model.size.max()))
+        if line is None or any(abs(line - before) < TWO_PI * rate / x.size for before in tried):
+            continue
+        if is_harmonic(line, model):
+            continue
+        tried += [] if any(model is one for one in simple) else [line]
+        score, found = together(x, model, tones, line, known)
+        small = any(tone.amplitude < LEAST * float(model.size.max()) for tone in found)
+        if not small and (best is None or score < best[0]):
+            best = score, found
+    return best[1] if best is not None and best[0] < least - GAIN else None
+
+
+def suspicious(x: Array, rate: float, models: SignalModels, tones: tuple[Tone, ...]) -> bool:
+    """Whether the best model of one oscillation leaves a line, or needed all the knots that there are."""
+    best = min(models.others, key=lambda model: model.criterion)
+    line = clearest_line(residual(x, best, tones), rate, LEAST * float(best.size.max()))
+    return line is not None or best is models.others[-1]
+
+
+def plain(x: Array, like: SplineModel, known: Known) -> Iterator[SplineModel]:
+    """A plain damped oscillation at the strongest line: where beats lead the other models away from it."""
+    time, step = like.time, float(like.time[1] - like.time[0])
+    low, high = like.band
+    try:
+        omega = strongest_frequency(x, 1.0 / step, band=(low / step, min(high, math.pi) / step))
+    except InputError:
+        return
+    turned = x * np.exp(-1j * omega * time)
+    begin = turned[: max(8, time.size // 4)].mean()
+    phase, size = omega * time + float(np.angle(begin)), np.full(time.size, 2.0 * float(np.abs(begin)) + 1e-300)
+    yield fit_on(x, time, phase, size, like.breaks[[0, -1]], like.multiples, 1, known)
+
+
+def is_harmonic(line: float, model: SplineModel) -> bool:
+    """Whether a line lies at a multiple of the oscillation that the model holds."""
+    base = float(np.average(model.omega, weights=model.size**2))
+    return any(abs(line - h * base) < OF_A_HARMONIC * base for h in model.multiples)
+
+
+def together(
+    x: Array, model: SplineModel, tones: tuple[Tone, ...], line: float, known: Known
+) -> tuple[float, tuple[Tone, ...]]:
+    """Akaike's criterion of a model and its tones with one more, fitted in turns, and the tones."""
+    time, sound = model.time, known.sound_of(x.size)
+    found = (*tones, fitted_tone(residual(x, model, tones), time, line, sound))
+    score = math.inf
+    for _ in range(TURNS):
+        model = again(x - total(found, time), model, known)
+        for i, tone in enumerate(found):
+            others = (*found[:i], *found[i + 1 :])
+            new = fitted_tone(residual(x, model, others), time, tone.omega, sound, tone)
+            found = (*found[:i], new, *found[i + 1 :])
+        parameters = model.parameters - model.basis.count + sum(tone.tangent(time).shape[1] for tone in found)
+        off, floor = residual(x, model, found) * sound, 1e-14 * float(model.size.max())
+        before, score = score, akaike(off, model.band, count=model.count, parameters=parameters, floor=floor)
+        if before - score < RESTED:
+            break
+    return score + STRICTER * parameters, found
+
+
+def again(x: Array, model: SplineModel, known: Known) -> SplineModel:
+    """The same model of other samples, from where it was."""
+    return fit_on(x, model.time, model.phase, model.size, model.breaks, model.multiples, model.basis.degree, known)

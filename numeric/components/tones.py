@@ -1,0 +1,108 @@
+"""A tone beside an oscillation: steady, or damped at a rate of its own.
+
+    y = Re[Z e^((g + i w) t)],      g = 0 where the samples do not show one,
+
+fitted by Gauss-Newton from a line of a spectrum.  Its tangent, the derivatives by Z, g and w, is what a model of the
+oscillation beside it must leave free: that is how the error of either gets into that of the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.signal.samples import TWO_PI
+
+ITERATIONS = 12
+STEADY = 3.0
+"""Of its deviation, that g must exceed to be one."""
+MOST_GROWTH = 40.0
+"""Bound of g times the length of the record."""
+MAINS = (50.0, 60.0)
+MAINS_WITHIN = 2e-3
+
+
+@dataclass(frozen=True)
+class Tone:
+    """Its frequency (rad per time unit), growth rate, and complex amplitude at the first sample."""
+
+    omega: float
+    growth: float
+    size: complex
+
+    @property
+    def amplitude(self) -> float:
+        """At the first sample."""
+        return abs(self.size)
+
+    def samples(self, time: Array) -> Array:
+        """The tone at times from the first sample on."""
+        return np.asarray((self.size * np.exp((self.growth + 1j * self.omega) * time)).real)
+
+    def tangent(self, time: Array) -> Array:
+        """Derivatives by the real and the imaginary part of Z, by w, and by g where it has one, ``(N, 3 or 4)``."""
+        wave = np.exp((self.growth + 1j * self.omega) * time)
+        turning = time * self.size * wave
+        columns = [wave.real, -wave.imag, -turning.imag]
+        return np.stack(columns if self.growth == 0.0 else [*columns, turning.real], axis=1)
+
+    @property
+    def mains(self) -> bool:
+        """Whether it is steady and at a multiple of 50 or 60 cycles per unit."""
+        f = self.omega / TWO_PI
+        near = [abs(f / base - round(f / base)) * base for base in MAINS if round(f / base) >= 1]
+        return self.growth == 0.0 and bool(near) and min(near) < MAINS_WITHIN * f
+
+    def row(self) -> dict[str, float]:
+        """The tone in numbers, named as the columns of a backbone."""
+        return {
+            "frequency_hz": self.omega / TWO_PI,
+            "growth_rate_per_s": self.growth,
+            "amplitude_at_start": self.amplitude,
+        }
+
+    def said(self) -> str:
+        """The tone in words.
+
+        >>> Tone(2 * np.pi * 50.0, 0.0, 0.02).said()
+        'a steady tone at 50 (mains hum), amplitude 0.02'
+        """
+        kind = "a steady tone" if self.growth == 0.0 else f"a mode of growth rate {self.growth:.4g}"
+        hum = " (mains hum)" if self.mains else ""
+        return f"{kind} at {self.omega / TWO_PI:.6g}{hum}, amplitude {self.amplitude:.3g}"
+
+
+def fitted_tone(left: Array, time: Array, omega: float, sound: Array, start: Tone | None = None) -> Tone:
+    """The tone near a frequency that fits samples best, by least squares over the sound ones.
+
+    >>> t = np.arange(400) / 20.0
+    >>> found = fitted_tone(0.3 * np.exp(-0.1 * t) * np.cos(9.0 * t + 1.0), t, 9.1, np.ones(400))
+    >>> round(found.omega, 9), round(found.growth, 9), round(found.amplitude, 9)
+    (9.0, -0.1, 0.3)
+    """
+    tone = Tone(omega, 0.0, 0j) if start is None else start
+    steady, _ = iterated(left, time, tone, sound, free=False)
+    damped, deviation = iterated(left, time, steady if start is None else start, sound, free=True)
+    return damped if abs(damped.growth) > STEADY * deviation else steady
+
+
+def iterated(left: Array, time: Array, tone: Tone, sound: Array, *, free: bool) -> tuple[Tone, float]:
+    """Gauss-Newton for a tone, with a growth rate of its own if ``free``; and the deviation of that."""
+    span, growth, omega = float(time[-1]), tone.growth if free else 0.0, tone.omega
+    deviation = np.inf
+    for _ in range(ITERATIONS):
+        wave = np.exp((growth + 1j * omega) * time)
+        linear = np.stack([wave.real, -wave.imag], axis=1) * sound[:, None]
+        re, im = np.linalg.lstsq(linear, left * sound, rcond=None)[0]
+        tone = Tone(omega, growth if growth else (1e-300 if free else 0.0), complex(re, im))
+        jacobian = tone.tangent(time) * sound[:, None]
+        residual = (left - tone.samples(time)) * sound
+        step = np.linalg.lstsq(jacobian, residual, rcond=None)[0]
+        omega += float(np.clip(step[2], -0.5 / span, 0.5 / span))
+        if free:
+            growth = float(np.clip(growth + np.clip(step[3], -1.0 / span, 1.0 / span), -MOST_GROWTH / span, 2.0 / span))
+            inverse = np.linalg.pinv(jacobian.T @ jacobian)
+            deviation = float(np.sqrt(inverse[3, 3] * np.mean(residual**2)))
+    return Tone(omega, growth if free else 0.0, tone.size), deviation

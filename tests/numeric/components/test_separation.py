@@ -1,0 +1,111 @@
+"""What shares a band with an oscillation is found, and the intervals of the oscillation hold beside it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.components.lines import clearest_line, colour
+from ridgeback.numeric.components.separation import separated
+from ridgeback.numeric.components.tones import Tone, fitted_tone
+from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.harmonics.spline_basis import normal_equations, spline_basis
+
+RATE, OMEGA = 400.0, 40 * np.pi
+T = np.arange(800) / RATE
+
+
+def decay(seed: int, noise: float = 0.01, ratio: float = 0.01) -> Array:
+    """A damped oscillation in white noise."""
+    rng = np.random.default_rng(seed)
+    clean = np.exp(-ratio * OMEGA * T) * np.cos(OMEGA * T + rng.uniform(0, 6))
+    return np.asarray(clean + noise * rng.normal(size=T.size))
+
+
+def test_the_variance_beside_other_columns_is_that_of_the_whole_matrix() -> None:
+    rng = np.random.default_rng(1)
+    weights, beside = rng.normal(size=(T.size, 2)), rng.normal(size=(T.size, 3))
+    basis = spline_basis(T, np.array([0.0, 0.7, T[-1]]))
+    equations = normal_equations(basis, lambda part: weights[part.rows], 2)
+    alone = equations.variance(0, slopes=True)
+    equations = replace(equations, beside=beside)
+    every = np.arange(T.size)
+    values, slopes = (basis.rows_at(every, slopes=wanted).toarray() for wanted in (False, True))
+    dense = (values[:, :, None] * weights[:, None, :]).reshape(T.size, -1)
+    both, size = np.c_[dense, beside], dense.shape[1]
+    covariance = np.linalg.inv(both.T @ both)[:size:2, :size:2]
+    expected = np.einsum("nk,kl,nl->n", slopes, covariance, slopes)
+    assert_allclose(equations.variance(0, slopes=True), expected, rtol=1e-6)
+    few = basis.rows_at(every[::100], slopes=True)
+    assert_allclose(equations.variance_of(few, 0), expected[::100], rtol=1e-6)
+    assert np.all(equations.variance(0, slopes=True) > alone)
+
+
+@pytest.mark.parametrize(("at", "growth"), [(22.5, 0.0), (21.5, -0.5), (30.0, -3.0)])
+def test_a_component_beside_the_oscillation_is_found_for_what_it_is(at: float, growth: float) -> None:
+    other = 0.3 * np.exp(growth * T) * np.cos(2 * np.pi * at * T + 1.0)
+    found = separated(decay(2) + other, RATE, np.full(T.size, OMEGA), half=40, multiples=None)
+    (tone,) = found.tones
+    assert tone.omega / (2 * np.pi) == pytest.approx(at, abs=0.05)
+    assert tone.growth == pytest.approx(growth, abs=0.3)
+    assert (tone.growth == 0.0) == (growth == 0.0)
+    assert np.abs(tone.samples(T) - other).max() < 0.02
+    assert found.models.best.noise == pytest.approx(0.01, rel=0.1)
+    assert found.reason == ""
+
+
+def test_intervals_hold_beside_hum() -> None:
+    hits = []
+    for seed in range(5):
+        hum = 0.1 * np.cos(2 * np.pi * 22.5 * T + seed)
+        track = estimate(decay(seed) + hum, RATE)
+        assert track.interval is not None
+        hits.append(track.interval.holds(np.full(track.time.size, OMEGA)))
+        assert len(track.used.tones) == 1
+    assert np.mean(np.concatenate(hits)) > 0.85
+    assert estimate(decay(0), RATE).used.tones == ()
+
+
+def test_spikes_are_counted_and_do_not_bend_a_fit() -> None:
+    x = decay(3)
+    x[[100, 333, 600]] += [1.0, -1.5, 0.8]
+    track = estimate(x, RATE)
+    assert track.used.spikes == 3
+    assert track.used.noise == pytest.approx(0.01, rel=0.1)
+    assert estimate(decay(3), RATE).used.spikes == 0
+
+
+def test_clipped_samples_enter_no_model() -> None:
+    x = decay(4, noise=0.002, ratio=0.004)
+    flat = np.abs(x) >= 0.7
+    clipped = np.clip(x, -0.7, 0.7)
+    right = separated(clipped, RATE, np.full(T.size, OMEGA), half=40, multiples=None, excluded=flat)
+    assert right.models.best.multiples == ()
+    assert np.abs(right.models.best.size / np.exp(-0.004 * OMEGA * T) - 1.0).max() < 0.01
+    assert np.abs(right.x - x)[flat].max() < 0.02
+
+
+def test_noise_is_judged_near_the_oscillation() -> None:
+    rng = np.random.default_rng(5)
+    white = rng.normal(size=4000)
+    assert 0.8 < colour(white, RATE, OMEGA, 6) < 1.25
+    steps = np.cumsum(white)
+    spectrum = np.abs(np.fft.rfft(steps)) ** 2
+    near = spectrum[150:250].mean() / spectrum[1:].mean()
+    assert colour(steps, RATE, OMEGA, 6) == pytest.approx(near, rel=0.5)
+    assert all(clearest_line(np.random.default_rng(s).normal(size=500), RATE) is None for s in range(30))
+
+
+def test_a_tone_meets_its_bound() -> None:
+    true = Tone(50.0, -0.4, 0.2 * np.exp(1j))
+    bound = 0.01 * np.sqrt(np.diag(np.linalg.inv(true.tangent(T).T @ true.tangent(T))))
+    found = [
+        fitted_tone(true.samples(T) + 0.01 * np.random.default_rng(s).normal(size=T.size), T, 50.5, np.ones(T.size))
+        for s in range(40)
+    ]
+    assert np.std([tone.omega for tone in found]) == pytest.approx(bound[2], rel=0.3)
+    assert np.std([tone.growth for tone in found]) == pytest.approx(bound[3], rel=0.3)
