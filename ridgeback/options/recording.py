@@ -43,19 +43,22 @@ class Reading:
     rate: float | None = None
     run_column: str | None = None
     treatment: Treatment = field(default_factory=Treatment)
+    quantity: str = "displacement"
 
     def one(self, file: str) -> Recording:
         """The longest stretch of the one signal; the file's own problems are named by the reader."""
+        from ridgeback.numeric.recording.quantity import as_displacement
         from ridgeback.numeric.recording.reading import read_recording
 
         where: dict[str, Any] = {"column": self.column, "time_column": self.time_column, "rate": self.rate}
-        return read_recording(file, **where, **self.treatment.given())
+        return as_displacement(read_recording(file, **where, **self.treatment.given()), self.quantity)
 
     def all(self, files: Sequence[str]) -> tuple[Recording, ...]:
         """Every stretch of every channel of every run."""
+        from ridgeback.numeric.recording.quantity import as_displacement
         from ridgeback.numeric.recording.reading import read_recordings
 
-        return read_recordings(
+        found = read_recordings(
             files,
             columns=self.column,
             time_column=self.time_column,
@@ -63,6 +66,7 @@ class Reading:
             run_column=self.run_column,
             **self.treatment.given(),
         )
+        return tuple(as_displacement(one, self.quantity) for one in found)
 
 
 def treatment_options(command: Command) -> Command:
@@ -93,10 +97,11 @@ def reading_options(command: Command) -> Command:
         time_column: str | None,
         rate: float | None,
         run_column: str | None,
+        quantity: str,
         treatment: Treatment,
         **rest: Any,
     ) -> None:
-        command(*args, reading=Reading(column, time_column, rate, run_column, treatment), **rest)
+        command(*args, reading=Reading(column, time_column, rate, run_column, treatment, quantity), **rest)
 
     return added(wrapped, PLACE_OPTIONS)
 
@@ -113,6 +118,13 @@ PLACE_OPTIONS = (
         "--rate", type=POSITIVE, default=None, metavar="R", help="Samples per second, in place of a time column."
     ),
     click.option("--run-column", default=None, metavar="NAME", help="The column that numbers the runs."),
+    click.option(
+        "--quantity",
+        type=click.Choice(("displacement", "velocity", "acceleration")),
+        default="displacement",
+        show_default=True,
+        help="What was measured; a velocity or an acceleration is converted, each harmonic by its frequency.",
+    ),
 )
 TREATMENT_OPTIONS = (
     click.option(

@@ -1,0 +1,109 @@
+"""A recording of a velocity or an acceleration as one of the displacement, each harmonic weighted as it must be.
+
+A model of the whole signal has for its harmonic h the complex amplitude X = B e^(i h phi), X'/X = D = B'/B + i h omega.
+The derivative of a slowly changing wave U with U'/U = D is U' = D U, and U'' = (D^2 + D') U.  So
+
+    U = X / D  from a velocity,      U = X / (D^2 + D')  from an acceleration,
+
+with the D of U itself, which differs from that of X by F'/F, F the divisor: found in ROUNDS steps.  What the model
+leaves, noise, is divided by the divisor of the fundamental's mean frequency, so that it stays as strong beside it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import ComplexArray
+from ridgeback.numeric.harmonics.spline_fit import SplineModel
+from ridgeback.numeric.recording.recording import Recording
+from ridgeback.numeric.signal.decimation import checked
+from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, prepared
+
+ORDERS = {"displacement": 0, "velocity": 1, "acceleration": 2}
+"""How often the displacement is differentiated."""
+ROUNDS = 2
+
+
+def as_displacement(recording: Recording, quantity: str) -> Recording:
+    """The displacement of which a recording has the velocity or the acceleration.
+
+    Parameters
+    ----------
+    recording : Recording
+        The samples as they were measured.
+    quantity : str
+        ``"displacement"``, ``"velocity"`` or ``"acceleration"``.
+
+    Returns
+    -------
+    Recording
+        The same times, in the unit of the samples times the second, or its square.  Its mean is 0: a constant is
+        nothing that a derivative shows.
+
+    Raises
+    ------
+    InputError
+        For another quantity, and where no model of the whole signal settles.
+
+    Examples
+    --------
+    >>> t = np.arange(640) / 32.0
+    >>> u = np.exp((-0.05 + 7j) * t)
+    >>> found = as_displacement(Recording.from_arrays(((-0.05 + 7j) ** 2 * u).real, 32.0), "acceleration")
+    >>> bool(np.abs(found.values - u.real).max() < 1e-4)
+    True
+    """
+    if quantity not in ORDERS:
+        raise InputError(f"quantity {quantity!r} is unknown; use one of {', '.join(ORDERS)}")
+    order = ORDERS[quantity]
+    if order == 0:
+        return recording
+    x, rate = recording.values, recording.rate
+    wrong = recording.clipped if recording.clipped.any() else None
+    samples = replace(checked(x, rate, start=0.0, what="quantity", at_least=FEWEST_SAMPLES), wrong=wrong)
+    try:
+        request = prepared(samples, Options()).separated()
+        model = request.models.best
+    except InputError as error:
+        raise InputError(f"{recording.label}: the {quantity} cannot be converted to a displacement: {error}") from None
+    wave = sum((converted(model, h, order) for h in (1, *model.multiples)), np.zeros(x.size, dtype=np.complex128))
+    omega = float(np.average(model.omega, weights=model.size**2))
+    rest = (request.signal.x - model.samples(keep=lambda h: h > 0)) / (omega if order == 1 else -(omega**2))
+    unit = f"{recording.units} {'s' if order == 1 else 's^2'}".strip()
+    note = (
+        f"The {quantity} was converted to a displacement ({unit}), harmonic by harmonic along a model of the signal; "
+        "its mean is not known."
+    )
+    return replace(recording, values=wave.real + rest - rest.mean(), units=unit, notes=(note, *recording.notes))
+
+
+def converted(model: SplineModel, multiple: int, order: int) -> ComplexArray:
+    """A harmonic of the displacement, as a complex wave."""
+    wave, own = harmonic(model, multiple)
+    step = float(model.time[1] - model.time[0])
+    divisor = divided(own, order, step)
+    for _ in range(ROUNDS):
+        divisor = divided(own - np.gradient(divisor, step) / divisor, order, step)
+    return np.asarray(wave / divisor, dtype=np.complex128)
+
+
+def divided(turn: ComplexArray, order: int, step: float) -> ComplexArray:
+    """D, or D^2 + D'."""
+    return turn if order == 1 else np.asarray(turn**2 + np.gradient(turn, step))
+
+
+def harmonic(model: SplineModel, multiple: int) -> tuple[ComplexArray, ComplexArray]:
+    """The complex wave of a harmonic, of which the samples are the real part, and its logarithmic derivative."""
+    turning = model.growth + 1j * multiple * model.omega
+    wave = model.size * np.exp(1j * multiple * model.phase)
+    if multiple == 1:
+        return wave, turning
+    at, basis = 1 + 2 * model.multiples.index(multiple), model.basis
+    cosine, sine = model.coefficients[:, at], model.coefficients[:, at + 1]
+    share = basis.values(cosine) - 1j * basis.values(sine)
+    rise = basis.slopes(cosine) - 1j * basis.slopes(sine)
+    slow = np.where(share == 0.0, 0.0, rise / np.where(share == 0.0, 1.0, share))
+    return wave * share, turning + slow
