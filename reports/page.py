@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import re
 from importlib import resources
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -80,8 +81,18 @@ def _environment() -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
+    environment.filters["tied"] = tied
     environment.policies["json.dumps_kwargs"] = {"separators": (",", ":"), "allow_nan": False}
     return environment
+
+
+def tied(text: str) -> str:
+    """A text in which no line ends between a number and its unit.
+
+    >>> tied("within 0.1 % at 2 ns a value").count(chr(160))
+    2
+    """
+    return re.sub(r"(?<=[0-9π⁻⁰¹²³⁴⁵⁶⁷⁸⁹]) (?=(?:%|ns|µs|ms|s|Hz|rad|dB|terms)(?![a-z]))", "\u00a0", text)
 
 
 def _source(name: str) -> str:

@@ -59,8 +59,10 @@ class SetFormula:
 class SetHarmonics:
     """The table of harmonics as MathML cells."""
 
-    head: tuple[str, ...]
-    rows: tuple[tuple[str, tuple[str, ...]], ...]
+    head: tuple[tuple[str, str], ...]
+    """Markup, and how it is said, of each column."""
+    rows: tuple[tuple[str, str, tuple[str, ...]], ...]
+    """Markup, how it is said, and the cells of each row."""
     caption: str
 
 
@@ -94,15 +96,20 @@ def set_formula(formula: Formula) -> SetFormula:
 
 def set_harmonics(table: HarmonicTable) -> SetHarmonics:
     """The table of harmonics, set; a cell that cannot be set is left as text by the caller's template."""
-    head = tuple(_set(_power(table.variable, n)) for n in table.powers)
+    letter = table.variable.replace("\\varepsilon", "epsilon")
+    head = tuple((_set(_power(table.variable, n)), f"{letter} to the power {n}") for n in table.powers)
     rows = []
     for row in table.rows:
         multiple = "" if row.multiple == 1 else str(row.multiple)
         name = _set(rf"\{row.part} {multiple}\omega_0 t") if row.multiple else "mean"
-        rows.append((name, tuple(_set(cell) if cell else "" for cell in row.cells)))
+        said = f"{_SAID[row.part]} of {row.multiple} times omega 0 t" if row.multiple else "mean"
+        rows.append((name, said, tuple(_set(cell) if cell else "" for cell in row.cells)))
     return SetHarmonics(
         head, tuple(rows), "Exact coefficients of the motion u(t): a row for each harmonic, a column for each power."
     )
+
+
+_SAID = {"cos": "cosine", "sin": "sine", "": ""}
 
 
 def _power(variable: str, n: int) -> str:

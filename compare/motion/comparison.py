@@ -17,7 +17,7 @@ from ridgeback.compare.motion.motion import CHECKED, Motion, Setting, integrate_
 from ridgeback.compare.motion.overtones import Overtones, overtones
 from ridgeback.compare.motion.paper_statements import Evidence, statements
 from ridgeback.compare.motion.planes import spectrogram_image, wigner_plane
-from ridgeback.compare.motion.reconstruction import known_motion, reconstruct
+from ridgeback.compare.motion.reconstruction import KnownMotion, known_motion, reconstruct
 from ridgeback.compare.motion.results import (
     Amplitudes,
     BudgetRow,
@@ -91,9 +91,10 @@ def compare_decay(
     outcomes = estimates(motion, _within(progress, 0.2, 0.45), recipes)
     progress(0.45, "harmonics")
     tones = overtones(motion, outcomes)
-    rows = budget(motion, models, outcomes, _within(progress, 0.55, 0.85))
+    known = known_motion(motion)
+    rows = budget(motion, models, outcomes, known, _within(progress, 0.55, 0.85))
     progress(0.85, "time-frequency planes and findings")
-    return assemble(motion, models, outcomes, tones, rows)
+    return assemble(motion, models, outcomes, tones, rows, known)
 
 
 def _within(progress: Progress, low: float, high: float) -> Callable[[str], None]:
@@ -114,12 +115,12 @@ def assemble(
     outcomes: tuple[Outcome, ...],
     tones: Overtones,
     rows: tuple[BudgetRow, ...],
+    known: KnownMotion | None,
 ) -> DecayComparison:
     """Put the parts together: scores, pictures and statements are derived from them here."""
     curves = (*models, *(o.curve for o in outcomes if o.curve is not None))
     scores = _scores(motion, models, outcomes)
     made = reconstruct(motion)
-    known = known_motion(motion)
     bias = None if known is None else wigner_bias(motion, _named(curves, WIGNER), known)
     evidence = Evidence(motion, {c.name: c for c in curves}, {s.method: s for s in scores}, made, tones, bias)
     in_u, in_velocity, plane = _images(motion, curves)

@@ -18,7 +18,7 @@ from ridgeback.compare.motion.error_norms import relative_error, rms
 from ridgeback.compare.motion.estimate_curves import Outcome, attempt
 from ridgeback.compare.motion.model_curves import LINEAR
 from ridgeback.compare.motion.motion import Motion
-from ridgeback.compare.motion.reconstruction import KnownMotion, known_motion
+from ridgeback.compare.motion.reconstruction import KnownMotion
 from ridgeback.compare.motion.results import AmplitudeSource, BudgetRow, Curve
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.energy import is_linearly_damped
@@ -28,11 +28,14 @@ SLOW_FLOW = "multiple-scales"
 
 
 def budget(
-    motion: Motion, curves: Iterable[Curve], outcomes: Iterable[Outcome], progress: Callable[[str], None]
+    motion: Motion,
+    curves: Iterable[Curve],
+    outcomes: Iterable[Outcome],
+    known: KnownMotion | None,
+    progress: Callable[[str], None],
 ) -> tuple[BudgetRow, ...]:
-    """One row per model, expansion and successful estimate."""
+    """One row per model, expansion and successful estimate; biases are read on the synthetic motion ``known``."""
     rows = [_model_row(motion, curve) for curve in curves if curve.kind != "estimate"]
-    known = known_motion(motion)
     rows += [_estimate_row(motion, outcome, known, progress) for outcome in outcomes if outcome.curve is not None]
     return tuple(row for row in rows if row is not None)
 

@@ -61,7 +61,7 @@ def short_name(row: Row) -> str:
             return "exact ω₀ less μ²" if row.method == "averaged-damped" else "exact ω₀"
         case "linear":
             return "linear oscillator (3)"
-    name, _, _ = row.label.partition(", A(t)")
+    name = row.label.partition(", A(t)")[0].replace(", order", " of order")
     return f"{name[0].lower() if name[1:2].islower() and not name.startswith('Pad') else name[0]}{name[1:]}"
 
 

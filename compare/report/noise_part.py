@@ -11,9 +11,10 @@ from ridgeback.compare.noise.monte_carlo import monte_carlo
 from ridgeback.compare.noise.results import NoiseStudy
 from ridgeback.compare.noise.truth import Truth
 
-TRIALS = 5
+TRIALS = 4
 """Noisy records a point: enough for a figure, whose bands say how well each point is known."""
 NOISE_SECONDS = 120.0
+SNR_DB = (0.0, 20.0, 40.0)
 NOISE_METHODS = ("harmonic-least-squares", "pseudo-wigner", "wigner", "spectrogram", "zero-crossing")
 
 
@@ -44,6 +45,7 @@ def noise_part(truth: Callable[[], Truth], trials: int, progress: Progress) -> N
         study = monte_carlo(
             truth(),
             methods=NOISE_METHODS,
+            snr_db=SNR_DB,
             trials=trials,
             intervals=False,
             budget_seconds=NOISE_SECONDS,

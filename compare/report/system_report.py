@@ -15,7 +15,7 @@ from ridgeback.compare.benchmark.expansions import ORDERS as CONTENDING
 from ridgeback.compare.benchmark.expansions import theory
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.comparison import HIGH_ORDER, compare_decay
-from ridgeback.compare.motion.estimate_curves import LEAN
+from ridgeback.compare.motion.estimate_curves import LEAN, SHORT
 from ridgeback.compare.motion.model_curves import LOW_ORDERS
 from ridgeback.compare.motion.motion import Motion, Setting, integrate_motion, setting
 from ridgeback.compare.motion.paper_case import is_paper_case
@@ -47,6 +47,8 @@ CYCLE_STRENGTHS = np.linspace(0.2, 2.6, 13)
 ORDER, TARGET = 20, 1e-3
 FLOW_ORDER = 8
 BEYOND = 1.1
+UNNAMED = "equation"
+"""What an equation of the command line is called, which says nothing that the equation does not."""
 """The study goes at least this many times as far as the motion."""
 
 
@@ -136,6 +138,7 @@ def system_report(
         For a target outside 0 to 1, and for whatever cannot be derived, studied or integrated.
     """
     case = chosen if isinstance(chosen, Setting) else setting(chosen)
+    paper = is_paper_case(case)
     watch = Stopwatch(progress)
     with watch.stage("integrating the motion twice", 0.0, 0.1):
         motion = integrate_motion(case)
@@ -145,7 +148,9 @@ def system_report(
     with watch.stage("contenders", 0.2, 0.5) as inner:
         found = _contenders(motion, plan, inner, timed=timed)
     with watch.stage("along the motion", 0.5, 0.7) as inner:
-        decay = compare_decay(motion, derived=derived, orders=_drawn(derived, order), recipes=LEAN, progress=inner)
+        decay = compare_decay(
+            motion, derived=derived, orders=_drawn(derived, order), recipes=LEAN if paper else SHORT, progress=inner
+        )
     with watch.stage("estimators in noise", 0.7, 1.0) as inner:
         noise = noise_part(lambda: motion_truth(motion), trials, inner)
     progress(1.0, "done")
@@ -177,7 +182,7 @@ def system_report(
         benchmark=found,
         grid=accuracy.grid,
         described=described(case),
-        paper=is_paper_case(case),
+        paper=paper,
         timed=timed,
     )
 
@@ -185,7 +190,8 @@ def system_report(
 def described(case: Setting) -> Described:
     """Equation, parameters, start and sampling."""
     o = case.oscillator
-    return Described(o.title, o.equation_latex, parameters_line(case.case()), o.reference)
+    name = "" if o.title == UNNAMED else o.title
+    return Described(name, o.equation_latex, parameters_line(case.case()), o.reference)
 
 
 def _contenders(motion: Motion, plan: Plan, progress: Progress, *, timed: bool) -> Benchmark:

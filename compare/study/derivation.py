@@ -91,7 +91,7 @@ def frequency_formula(expansion: Expansion) -> Formula:
 
 
 def _meaning(expansion: Expansion) -> str:
-    return "limit cycle in eps" if expansion.variable == "eps" else f"{expansion.amplitude} amplitude"
+    return "limit cycle in ε" if expansion.variable == "eps" else f"{expansion.amplitude} amplitude"
 
 
 def _variable_latex(expansion: Expansion) -> str:

@@ -224,7 +224,7 @@ def _families(which: Shown, panel: Panel) -> Iterable[str]:
     s += [dot(x, y, 4.5, "s", _title(row)) for x, y, row in exact]
     words = [_numbers(which, panel, which.terms, "s")]
     words += _named(which, panel, which.terms, "s b", "series (14), by terms")
-    words += [text(x + 9, y + 4, "exact ω₀ at A(t) of (21)", "s") for x, y, _ in exact]
+    words += [text(x - 9, y + 4, "exact ω₀ at A(t) of (21)", "s", "end") for x, y, _ in exact]
     yield group([*s, group(words, "halo")], "fS")
 
 
@@ -235,7 +235,7 @@ def _named(which: Shown, panel: Panel, rows: Sequence[Row], style: str, name: st
         return []
     if last:
         x, y, _ = max(at, key=lambda p: p[1])
-        return [text(x + 9, min(y + 4, panel.bottom - 22), name, style)]
+        return [text(x + 9, min(y + 17, panel.bottom - 22), name, style)]
     x, y, _ = min(at, key=lambda p: p[1])
     return [text(max(x - 12, panel.left + 4), max(y - 10, panel.top + 12), name, style)]
 

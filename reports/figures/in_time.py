@@ -16,7 +16,7 @@ from ridgeback.compare.report.naming import short_name
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.apart import apart
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout, toggles
-from ridgeback.reports.drawing.marks import drawing, group, places, text
+from ridgeback.reports.drawing.marks import drawing, group, line, places, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
 from ridgeback.reports.figures.accuracy_cost import LETTERS, STYLE, per_cent_tick
@@ -148,9 +148,10 @@ def _draw(
         inside = np.where(_within(upper, d.omega * clock.factor), d.omega * clock.factor, np.nan)
         marks.append(group([upper.curve(found.time, inside, d.style)], f"f{d.letter}"))
         marks.append(group([lower.curve(found.time, d.error, d.style)], f"f{d.letter}"))
-    marks += _beside(found, drawn, lower) if not narrow else _on_curves(found, drawn, lower)
+    marks += _beside(found, drawn, lower) if not narrow else _below(drawn, lower)
     marks += [group(_upper_names(found, decay, drawn, upper, clock), "halo")]
-    return drawing(NARROW if narrow else WIDE, 512, "narrow" if narrow else "wide", label, marks)
+    height = lower.bottom + (58.0 + 17.0 * ((len(drawn) + 1) // 2) if narrow else 40.0)
+    return drawing(NARROW if narrow else WIDE, height, "narrow" if narrow else "wide", label, marks)
 
 
 def _within(panel: Panel, values: Array) -> Array:
@@ -206,21 +207,13 @@ def _beside(found: Benchmark, drawn: Sequence[Drawn], panel: Panel) -> list[str]
     return marks
 
 
-def _on_curves(found: Benchmark, drawn: Sequence[Drawn], panel: Panel) -> list[str]:
-    """The narrow drawing names what it can beside the curves, each clear of the others."""
-    marks: list[str] = []
-    taken: list[tuple[float, float]] = []
+def _below(drawn: Sequence[Drawn], panel: Panel) -> list[str]:
+    """The narrow drawing names the curves below, two a line, each behind a piece of its own."""
+    marks = []
     for i, d in enumerate(drawn):
-        spots = [0.12 + 0.1 * ((2 * i + j) % 7) for j in range(7)]
-        for share in spots:
-            at = int(share * found.time.size)
-            if not np.isfinite(d.error[at]):
-                continue
-            x = panel.x(float(found.time[at]))
-            y = float(panel.y.clipped(np.array([d.error[at]]))[0]) - 4
-            if all(abs(y - b) > 13 or abs(x - a) > 90 for a, b in taken):
-                taken.append((x, y))
-                name = short_name(d.row).replace("harmonic least squares", "least squares")
-                marks.append(group([group([text(x, y, name, STYLE[d.letter])], "halo")], f"f{d.letter}"))
-                break
+        x, y = 4.0 + 184.0 * (i % 2), panel.bottom + 58.0 + 17.0 * (i // 2)
+        name = short_name(d.row).replace("harmonic least squares", "least squares")
+        parts = [line(x, y - 4, x + 20, y - 4, d.style), text(x + 26, y, name, STYLE[d.letter])]
+        parts.append(text(x + 176, y, per_cent(d.row.relative_rms_error), STYLE[d.letter], "end"))
+        marks.append(group(parts, f"f{d.letter}"))
     return marks

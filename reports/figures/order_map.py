@@ -202,7 +202,10 @@ def _observed(grid: ErrorGrid, panel: Panel, *, narrow: bool) -> Iterable[str]:
     high = min(high, low + 8)
     left = panel.right + (18 if narrow else 46)
     x = Scale(low, max(high, low + 2), left, (NARROW if narrow else WIDE) - 10)
-    for value in range(int(x.low), int(x.high) + 1, 1 if not narrow else max(1, int(x.high - x.low) // 2)):
+    step = 1 + int(x.high - x.low) // (3 if not narrow else 2)
+    for value in range(int(x.low), int(x.high) + 1):
+        if value % step:
+            continue
         name = f"n+{value}" if value > 0 else f"n{value}".replace("-", "−") if value else "n"
         yield line(x(value), panel.top, x(value), panel.bottom, "g")
         yield text(x(value), panel.bottom + 19, name, "m sm", "middle")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ridgeback.common.numbers import decibels, minus, number
 from ridgeback.compare.motion.results import Curve, DecayComparison, Image, SignedPlane
@@ -17,6 +18,8 @@ from ridgeback.reports.drawing.scale import Scale
 from ridgeback.reports.figures.clock import Clock, shown
 
 SIZE = (500.0, 372.0)
+APART, CLEAR_DB = 0.35, 3.0
+"""A multiple is a ridge where its level is so much above that this share of the fundamental away, on both sides."""
 MOST = 7
 """Highest multiple of the fundamental that is marked."""
 
@@ -39,20 +42,26 @@ def planes(decay: DecayComparison) -> Figure:
 
 
 def _strong(decay: DecayComparison) -> list[int]:
-    """Multiples of the fundamental that stand in the spectrogram: within 50 dB of its maximum on their ridge."""
+    """Multiples of the fundamental that are ridges of the spectrogram: leakage of a stronger one falls off sideways."""
     image = decay.spectrogram_u
     known = decay.reference.valid & np.isfinite(decay.reference.omega)
     omega = np.interp(image.time, decay.reference.time[known], decay.reference.omega[known])
     found = []
     for multiple in range(1, MOST + 1):
         if multiple * float(omega.max()) < float(image.omega[-1]):
-            rows = np.abs(image.omega[:, None] - multiple * omega[None, :]).argmin(axis=0)
-            here = image.level_db[rows, np.arange(image.time.size)]
-            between = np.abs(image.omega[:, None] - (multiple + 0.5) * omega[None, :]).argmin(axis=0)
-            beside = image.level_db[between, np.arange(image.time.size)]
-            if float(np.median(here)) > image.floor_db + 8 and (multiple == 1 or float(np.median(here - beside)) > 4):
+            here, below, above = (
+                image.level_db[_nearest(image.omega, (multiple + shift) * omega), np.arange(image.time.size)]
+                for shift in (0.0, -APART, APART)
+            )
+            stands_out = float(np.median(here - np.maximum(below, above))) > CLEAR_DB
+            if float(np.median(here)) > image.floor_db + 8 and (multiple == 1 or stands_out):
                 found.append(multiple)
     return found
+
+
+def _nearest(axis: Array, values: Array) -> NDArray[np.intp]:
+    """Rows of an axis nearest to values."""
+    return np.asarray(np.abs(axis[:, None] - values[None, :]).argmin(axis=0))
 
 
 def _caption(decay: DecayComparison, strong: Sequence[int]) -> str:

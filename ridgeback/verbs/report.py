@@ -90,7 +90,7 @@ class Source:
 @click.option(
     "--trials",
     type=click.IntRange(0, 1000),
-    default=5,
+    default=4,
     show_default=True,
     metavar="N",
     help="Noisy records a point of the noise study; 0 leaves it out, else at least 2.",

@@ -131,10 +131,22 @@ def test_every_curve_is_scored_once(paper):
 
 
 def test_planes_are_levels_below_their_maximum(paper):
-    for image in (paper.spectrogram_u, paper.spectrogram_velocity, paper.wigner_u):
+    for image in (paper.spectrogram_u, paper.spectrogram_velocity):
         assert image.level_db.shape == (image.omega.size, image.time.size)
         assert image.level_db.max() == pytest.approx(0.0, abs=1e-12)
         assert image.level_db.min() >= image.floor_db
+
+
+def test_the_wigner_plane_keeps_its_sign_and_peaks_at_the_fundamental(paper):
+    """Half-way both signs are there (fringes), and the largest value lies on the reference to a few per cent."""
+    plane = paper.wigner_u
+    assert plane.values.shape == (plane.omega.size, plane.time.size)
+    assert np.abs(plane.values).max() == pytest.approx(1.0, abs=1e-12)
+    assert plane.values.min() < -0.05
+    middle = int(np.argmin(np.abs(plane.time - 10.0)))
+    found = plane.omega[int(np.argmax(plane.values[:, middle]))]
+    reference = np.interp(10.0, paper.reference.time, paper.reference.omega)
+    assert found == pytest.approx(reference, rel=0.03)
 
 
 def test_multiple_scales_follows_a_small_decay():
