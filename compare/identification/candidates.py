@@ -33,16 +33,21 @@ class DampingLaw(StrEnum):
     LINEAR = "linear"
     QUADRATIC = "linear + quadratic"
     CUBIC = "linear + cubic"
+    COULOMB = "linear + coulomb"
+    """Dry friction."""
     VAN_DER_POL = "van der Pol"
     """That of the van der Pol oscillator, which no other candidate has."""
 
 
 LAWS = (DampingLaw.LINEAR, DampingLaw.QUADRATIC, DampingLaw.CUBIC)
 """The laws that are tried with every potential."""
+ALL_LAWS = (*LAWS, DampingLaw.COULOMB)
+"""Those, and what is tried when it is asked for."""
 LAW_TEXT = {
     DampingLaw.LINEAR: "2 mu u'",
     DampingLaw.QUADRATIC: "2 mu u' + beta |u'| u'",
     DampingLaw.CUBIC: "2 mu u' + gamma u'^3",
+    DampingLaw.COULOMB: "2 mu u' + F sign(u')",
 }
 VAN_DER_POL = "van-der-pol"
 BACKBONE = "backbone-polynomial"
@@ -102,11 +107,13 @@ def level_at(flow: Flow, log_amplitude: float) -> float:
     return float(np.interp(log_amplitude, known, flow.level))
 
 
-def rates_of(law: DampingLaw, values: Array) -> tuple[float, float, float]:
-    """(2 mu, beta L k, gamma L^2 k^2) of a law from its fitted rates."""
+def rates_of(law: DampingLaw, values: Array) -> tuple[float, float, float, float]:
+    """(2 mu, beta L k, gamma L^2 k^2, F/(L k)) of a law from its fitted rates."""
     first = float(values[0])
     second = float(values[1]) if values.size > 1 else 0.0
-    return (first, second, 0.0) if law == DampingLaw.QUADRATIC else (first, 0.0, second)
+    if law == DampingLaw.COULOMB:
+        return first, 0.0, 0.0, second
+    return (first, second, 0.0, 0.0) if law == DampingLaw.QUADRATIC else (first, 0.0, second, 0.0)
 
 
 def least_rates(rates: int) -> tuple[float, ...]:
@@ -115,12 +122,14 @@ def least_rates(rates: int) -> tuple[float, ...]:
 
 
 def damping_parameters(law: DampingLaw, rates: Array, speed: float) -> tuple[Described, ...]:
-    """mu, and beta or gamma, from the rates at the ``speed`` L k."""
+    """mu, and beta, gamma or F, from the rates at the ``speed`` L k."""
     mu: Described = ("mu", 0.5 * float(rates[0]), "1/T", "linear damping")
     if law == DampingLaw.LINEAR:
         return (mu,)
     if law == DampingLaw.QUADRATIC:
         return (mu, ("beta", float(rates[1]) / speed, "1/U", "quadratic damping"))
+    if law == DampingLaw.COULOMB:
+        return (mu, ("F", float(rates[1]) * speed, "U/T^2", "dry friction"))
     return (mu, ("gamma", float(rates[1]) / speed**2, "T/U^2", "cubic damping"))
 
 
@@ -175,7 +184,7 @@ def backbone_model(terms: int, law: DampingLaw) -> Model:
         X = np.geomspace(1.5, 3e-3, FINE)
         k, bend, (h0, h2, h3) = float(theta[0]), theta[1 : 1 + bends], theta[1 + bends : 4 + bends]
         r = rates_of(law, theta[4 + bends : -1])
-        growth = -0.5 * (r[0] + r[1] * 8 / (3 * math.pi) * X + 0.75 * r[2] * X**2)
+        growth = -0.5 * (r[0] + r[1] * 8 / (3 * math.pi) * X + 0.75 * r[2] * X**2 + r[3] * 4 / (math.pi * X))
         growth = np.minimum(growth, -1e-9 * k)
         omega = k * np.polynomial.polynomial.polyval(X**2, np.concatenate(([1.0], bend)))
         cosine = np.array([h0 * X, np.ones_like(X), h2 * X, h3 * X**2])

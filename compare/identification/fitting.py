@@ -155,7 +155,7 @@ def bends(model: Model, data: Data) -> Shape:
 
 
 def first_rates(model: Model, data: Data) -> list[float]:
-    """Loss rates from the measured growth rate: its weighted mean, or a line in a or a^2."""
+    """Loss rates from the measured growth rate: its weighted mean, or a line in a, a^2 or 1/a."""
     if not model.rates:
         return []
     b = data.measured
@@ -165,6 +165,8 @@ def first_rates(model: Model, data: Data) -> list[float]:
         columns.append(8 / (3 * np.pi) * a)
     elif model.law == DampingLaw.CUBIC:
         columns.append(0.75 * a**2)
+    elif model.law == DampingLaw.COULOMB:
+        columns.append(4 / (np.pi * a))
     weight = 1 / np.maximum(b.growth_rate_sd, 1e-3 * np.abs(loss).max() + 1e-12)
     matrix = np.array(columns).T * weight[:, None]
     solution, *_ = np.linalg.lstsq(matrix, loss * weight, rcond=None)

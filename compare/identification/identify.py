@@ -10,6 +10,7 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.identification.candidates import (
+    ALL_LAWS,
     BACKBONE,
     LAWS,
     NAMES,
@@ -68,7 +69,7 @@ def identify(
     candidates
         Names of oscillator classes, of :data:`NAMES`.
     laws
-        Damping laws that are tried, of :data:`LAWS`.
+        Damping laws that are tried, of :data:`ALL_LAWS`.
     kind
         Information criterion: ``bic`` or ``aicc``.
     span
@@ -128,14 +129,14 @@ def checked(
     ridgeback.common.errors.InputError: criterion 'aic' is unknown; use one of bic, aicc
     """
     names = tuple(dict.fromkeys(candidates))
-    for what, given, known in (("candidate", names, NAMES), ("damping law", tuple(laws), LAWS)):
+    for what, given, known in (("candidate", names, NAMES), ("damping law", tuple(laws), ALL_LAWS)):
         wrong = [name for name in given if name not in known]
         if wrong or not given:
             said = f"{what} {wrong[0]!r} is unknown" if wrong else f"no {what} is named"
             raise InputError(f"{said}; use one of {', '.join(known)}")
     if kind not in CRITERIA:
         raise InputError(f"criterion {kind!r} is unknown; use one of {', '.join(CRITERIA)}")
-    return names, tuple(law for law in LAWS if law in laws)
+    return names, tuple(law for law in ALL_LAWS if law in laws)
 
 
 def rank(data: Data, names: tuple[str, ...], laws: tuple[DampingLaw, ...], kind: str, progress: Progress) -> Ranked:

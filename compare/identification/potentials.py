@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -62,7 +62,7 @@ def linear_orbits(_: Shape) -> ScaledOrbits:
     cosine = np.zeros((HARMONICS + 1, A.size))
     cosine[1] = A
     ones = np.ones_like(A)
-    return as_scaled(OrbitTable(A, ones, 0.5 * A**2, cosine, 4 / (3 * math.pi) * A**3, 0.375 * A**4))
+    return as_scaled(OrbitTable(A, ones, 0.5 * A**2, cosine, 4 / (3 * math.pi) * A**3, 0.375 * A**4, 2 * A))
 
 
 def pendulum_orbits(shape: Shape) -> ScaledOrbits:
@@ -124,6 +124,7 @@ def halves_orbits(shape: Shape) -> ScaledOrbits:
             one.cosine * A,
             one.cubic[0] * A**3,
             one.quartic[0] * A**4,
+            one.width[0] * A,
         )
     )
 
@@ -138,7 +139,7 @@ def stop_orbits(shape: Shape, *, side: int) -> ScaledOrbits:
         return scaled
     # u -> -u with the phase counted from the new peak: even harmonics change their sign
     signs = np.array([-1.0 if m % 2 == 0 else 1.0 for m in range(scaled.cosine.shape[0])])
-    return ScaledOrbits(A, scaled.omega, scaled.action, scaled.cosine * signs[:, None], scaled.cubic, scaled.quartic)
+    return replace(scaled, cosine=scaled.cosine * signs[:, None])
 
 
 def _k(k: float) -> tuple[str, float, str, str]:

@@ -28,7 +28,8 @@ _NEWTON_STEPS = 12
 class OrbitTable:
     """Orbits by peak amplitude; u = sum over m of ``cosine[m, orbit] cos(m phi)``, phi counted from the peak.
 
-    ``cubic`` and ``quartic`` are the means of |u'|^3 and u'^4 over a cycle; that of u'^2 is omega J.
+    ``cubic`` and ``quartic`` are the means of |u'|^3 and u'^4 over a cycle; that of u'^2 is omega J, and that of |u'|
+    is omega/pi times ``width``, the distance of the turning points, which a cycle passes twice.
     """
 
     peak: Array
@@ -37,6 +38,7 @@ class OrbitTable:
     cosine: Array
     cubic: Array
     quartic: Array
+    width: Array
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -97,6 +99,7 @@ def orbit_table(dynamics: Dynamics, peak: ArrayLike, *, harmonics: int = HARMONI
         _harmonics(u, share, harmonics),
         np.mean(share * speed**3, axis=1),
         np.mean(share * speed**4, axis=1),
+        A - B,
     )
 
 
@@ -159,4 +162,5 @@ def bilinear_table(
     rows[0] *= 0.5
     speed = np.sqrt(np.maximum(2 * (potential(oscillator, A)[:, None] - potential(oscillator, u)), 0.0))
     powers = [np.mean(speed**n, axis=1) for n in (2, 3, 4)]
-    return OrbitTable(A, omega, powers[0] / omega, rows, powers[1], powers[2])
+    width = A - bilinear_waveform(oscillator, A, np.array([math.pi]))[:, 0]
+    return OrbitTable(A, omega, powers[0] / omega, rows, powers[1], powers[2], width)

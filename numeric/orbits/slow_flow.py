@@ -1,8 +1,8 @@
 """The slow flow of a lightly damped oscillator as a table, and the motion along it by quadrature.
 
-Averaging a damping force 2 mu u' + beta |u'| u' + gamma u'^3 over an undamped orbit gives the loss of action
+Averaging a damping 2 mu u' + beta |u'| u' + gamma u'^3 + F sign(u') over an undamped orbit gives the loss of action
 
-    R = -J'/J = 2 mu + (beta <|u'|^3> + gamma <u'^4>) / (omega0 J),          phi' = sqrt(omega0(J)^2 - mu^2),
+    R = -J'/J = 2 mu + (beta <|u'|^3> + gamma <u'^4> + F <|u'|>) / (omega0 J),     phi' = sqrt(omega0(J)^2 - mu^2),
 
 (Bogoliubov and Mitropolsky 1961; the mu^2 is exact for the linear oscillator), so that time and phase at each level of
 action are integrals, t = int d ln J / R and phi = int omega d ln J / R: no differential equation is left to solve.
@@ -99,29 +99,31 @@ def refine(table: OrbitTable, peak: Array) -> ScaledOrbits:
     True
     """
     A = table.peak
-    columns = [table.omega, table.action / A**2, table.cubic / A**3, table.quartic / A**4, *(table.cosine / A)]
+    powers = [table.action / A**2, table.cubic / A**3, table.quartic / A**4, table.width / A]
+    columns = [table.omega, *powers, *(table.cosine / A)]
     first = np.zeros(table.cosine.shape[0])
     first[1] = 1.0
-    limit = np.array([1.0, 0.5, 4 / (3 * math.pi), 0.375, *first])
+    limit = np.array([1.0, 0.5, 4 / (3 * math.pi), 0.375, 2.0, *first])
     values = np.vstack((limit, np.array(columns).T))
     fine = CubicSpline(np.concatenate(([0.0], A)), values)(peak).T
     return ScaledOrbits(
         peak,
         fine[0],
         fine[1] * peak**2,
-        fine[4:] * peak,
+        fine[5:] * peak,
         fine[2] * peak**3,
         fine[3] * peak**4,
+        fine[4] * peak,
     )
 
 
 def as_scaled(table: OrbitTable) -> ScaledOrbits:
     """A table that is fine enough as it is."""
-    return ScaledOrbits(table.peak, table.omega, table.action, table.cosine, table.cubic, table.quartic)
+    return ScaledOrbits(table.peak, table.omega, table.action, table.cosine, table.cubic, table.quartic, table.width)
 
 
-def decay_flow(orbits: ScaledOrbits, *, k: float, length: float, rates: tuple[float, float, float]) -> Flow:
-    """Return the slow flow of scaled orbits under damping forces 2 mu u' + beta |u'| u' + gamma u'^3.
+def decay_flow(orbits: ScaledOrbits, *, k: float, length: float, rates: tuple[float, ...]) -> Flow:
+    """Return the slow flow of scaled orbits under damping forces 2 mu u' + beta |u'| u' + gamma u'^3 + F sign(u').
 
     Parameters
     ----------
@@ -131,8 +133,8 @@ def decay_flow(orbits: ScaledOrbits, *, k: float, length: float, rates: tuple[fl
         Natural frequency, rad per time unit.
     length : float
         The unit of u.
-    rates : (float, float, float)
-        2 mu, beta L k and gamma L^2 k^2, per time unit.
+    rates : tuple of float
+        2 mu, beta L k, gamma L^2 k^2 and, with dry friction, F/(L k), per time unit.
 
     Returns
     -------
@@ -150,6 +152,8 @@ def decay_flow(orbits: ScaledOrbits, *, k: float, length: float, rates: tuple[fl
     """
     power = orbits.omega * orbits.action
     loss = rates[0] + (rates[1] * orbits.cubic + rates[2] * orbits.quartic) / power
+    if len(rates) > 3:
+        loss = loss + rates[3] * orbits.width / (math.pi * orbits.action)
     omega = k * orbits.omega
     loss = np.maximum(loss, LEAST_RATE * omega)
     fundamental = orbits.cosine[1]

@@ -10,7 +10,7 @@ from ridgeback.common.names import chosen, plain
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.identification import identify as identification
 from ridgeback.compare.identification import prediction
-from ridgeback.compare.identification.candidates import LAWS, NAMES
+from ridgeback.compare.identification.candidates import ALL_LAWS, LAWS, NAMES
 from ridgeback.compare.identification.preparation import prepared
 from ridgeback.compare.identification.ranking import CRITERIA
 from ridgeback.compare.identification.results import Identification, Prediction
@@ -18,7 +18,7 @@ from ridgeback.interface.signals import SignalLike, as_recording
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
-DAMPING = tuple(law.split(" + ")[-1] for law in LAWS)
+DAMPING = tuple(law.split(" + ")[-1] for law in ALL_LAWS)
 
 
 def identify(
@@ -42,8 +42,8 @@ def identify(
         The signal, as for :func:`ridgeback.estimate`.
     candidates : iterable of str or Oscillator, optional
         Classes to try, by name or alias; by default all.
-    damping : {"linear", "quadratic", "cubic"}, optional
-        Linear damping alone, or with one more term; by default what the criterion prefers.
+    damping : {"linear", "quadratic", "cubic", "coulomb"}, optional
+        Linear damping alone, or with one more term; by default what the criterion prefers of the first three.
     criterion : {"bic", "aicc"}
         What ranks them.
     span : (float, float), optional
@@ -137,7 +137,7 @@ def how(
     """The settings in the words of the fits."""
     return {
         "candidates": NAMES if candidates is None else tuple(candidate_name(one) for one in candidates),
-        "laws": LAWS if damping is None else (LAWS[DAMPING.index(chosen(damping, DAMPING, "damping"))],),
+        "laws": LAWS if damping is None else (ALL_LAWS[DAMPING.index(chosen(damping, DAMPING, "damping"))],),
         "kind": chosen(criterion, CRITERIA, "criterion"),
     }
 

@@ -42,9 +42,10 @@ def names(text: str | None) -> tuple[str, ...] | None:
 )
 @click.option(
     "--damping",
-    type=click.Choice(("linear", "quadratic", "cubic")),
+    type=click.Choice(("linear", "quadratic", "cubic", "coulomb")),
     default=None,
-    help="Linear damping alone, or with one more term.  Default: what the criterion prefers.",
+    help="Linear damping alone, or with one more term (coulomb: dry friction).  Default: what the criterion prefers "
+    "of the first three.",
 )
 @click.option(
     "--criterion", type=click.Choice(("bic", "aicc")), default="bic", show_default=True, help="What ranks them."

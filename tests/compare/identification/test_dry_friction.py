@@ -1,0 +1,31 @@
+"""Dry friction in a decay: found with its parameter from a motion integrated from switch to switch."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import ridgeback
+from ridgeback.numeric.motion.dynamics import duffing
+from ridgeback.numeric.orbits.orbit_table import orbit_table
+from ridgeback.numeric.orbits.slow_flow import decay_flow, refine
+
+
+def test_friction_is_found_beside_linear_damping() -> None:
+    run = ridgeback.simulate("u'' + 0.006*u' + 0.004*sign(u') + u + 2/5*u**3 = 0", (1.0, 0.0), duration=90.0, rate=1.0)
+    values = run.u + 0.002 * np.random.default_rng(2).normal(size=run.u.size)
+    best = ridgeback.identify(values, 1.0, candidates=["duffing-hardening"], damping="coulomb").best
+    assert best.damping_law == "linear + coulomb"
+    for name, true in (("F", 0.004), ("mu", 0.003)):
+        found = best.parameter(name)
+        assert abs(found.value - true) < 4.0 * found.standard_deviation + 0.03 * true
+
+
+def test_the_growth_rate_of_dry_friction_is_that_of_averaging() -> None:
+    """-2 F/(pi a) + 23 F e a/(16 pi), by multiple scales, of u'' + u + e u^3 in the first harmonic."""
+    e, friction = 0.3, 0.01
+    orbits = refine(orbit_table(duffing(eps=e), np.linspace(0.05, 1.0, 40)), np.geomspace(0.1, 0.2, 201))
+    flow = decay_flow(orbits, k=1.0, length=1.0, rates=(0.0, 0.0, 0.0, friction))
+    averaged = ridgeback.derive("u'' + F*sign(u') + u + 3/10*u**3 = 0", 8)
+    expected = averaged.growth_rate_at(flow.amplitude, friction)
+    assert flow.growth[1:-1] == pytest.approx(expected[1:-1], rel=1e-5)
