@@ -30,9 +30,10 @@ CELLS = 4 * (4 * 615 + 40)
 PATIENCE = 120.0
 
 
-def module(*arguments: str) -> subprocess.Popen[bytes]:
+def module(*arguments: str, quiet: bool = False) -> subprocess.Popen[bytes]:
     """A Python module as a process of its own."""
-    return subprocess.Popen([sys.executable, "-m", *arguments], stderr=subprocess.DEVNULL)  # noqa: S603
+    errors = subprocess.DEVNULL if quiet else None
+    return subprocess.Popen([sys.executable, "-m", *arguments], stderr=errors)  # noqa: S603
 
 
 def study(folder: Path, name: str, *more: str) -> subprocess.Popen[bytes]:
@@ -64,12 +65,12 @@ def main() -> int:
         blocks, table = done(folder / "alone.db"), (folder / "alone.csv").read_bytes()
         file = folder / "scheduler.json"
         place = ("--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(file))
-        processes = [module("distributed.cli.dask_scheduler", *place)]
+        processes = [module("distributed.cli.dask_scheduler", *place, quiet=True)]
         try:
             while not file.exists() and time.monotonic() - began < alone + PATIENCE:
                 time.sleep(0.1)
             worker = ("--scheduler-file", str(file), "--nthreads", "1", "--no-dashboard", "--no-nanny")
-            processes += [module("distributed.cli.dask_worker", *worker) for _ in range(2)]
+            processes += [module("distributed.cli.dask_worker", *worker, quiet=True) for _ in range(2)]
             address = json.loads(file.read_text(encoding="utf-8"))["address"]
             began = time.monotonic()
             run = study(folder, "cluster", "--scheduler", address)
@@ -84,6 +85,8 @@ def main() -> int:
             for process in reversed(processes):
                 process.kill()
         rows = table.count(b"\n") - 1
+        if run.returncode:
+            return run.returncode
         same = (folder / "cluster.csv").read_bytes() == table
         print(f"{rows} cells in {blocks} blocks; one process {alone:.1f} s, two workers {spent:.1f} s")
         print(

@@ -18,8 +18,18 @@ from ridgeback.compare.motion.error_norms import relative_error
 from ridgeback.compare.motion.estimate_curves import SMOOTHED, WIGNER, WIGNER_OF_VELOCITY
 from ridgeback.compare.motion.model_curves import CLOSED_FORM, LOW_ORDERS, expansion_name
 from ridgeback.compare.motion.motion import Motion
-from ridgeback.compare.motion.order_analysis import MOST, Orders, Ripple, ripple
-from ridgeback.compare.motion.overtones import Overtone, Overtones, ratio_error, slope
+from ridgeback.compare.motion.order_analysis import Orders, Ripple, ripple
+from ridgeback.compare.motion.overtones import (
+    FOLDING_DB,
+    Overtone,
+    Overtones,
+    even_sentence,
+    folded_sentence,
+    folding,
+    ratio_error,
+    seen,
+    slope,
+)
 from ridgeback.compare.motion.reconstruction import model_phase, relative_rms
 from ridgeback.compare.motion.results import BiasCause, Curve, Reconstruction, Score, Statement, WignerBias
 from ridgeback.numeric.arrays import Array, Mask
@@ -108,18 +118,20 @@ def _oscillation(e: Evidence) -> Statement:
     )
 
 
+SLOPE_OFF = 0.02
+"""Relative distance of a slope's ratio from the order that still counts as eq. (25)."""
+
+
 def _spectrogram(e: Evidence) -> Statement:
     levels = e.overtones.of_u
-    visible = [m for m in range(2, MOST + 1) if levels.level_db(m) > -60]
-    listed = ", ".join(f"{m} at {decibels(levels.level_db(m))}" for m in visible) or "none above −60 dB"
-    even = max(levels.level_db(m) for m in range(2, MOST + 1, 2))
+    listed = ", ".join(f"{m} at {decibels(levels.level_db(m))}" for m in seen(e.motion, levels)) or "none seen"
     return Statement(
         figure=2,
         title="Time-frequency plane of the oscillation",
         paper="A fundamental of high energy and five weaker components whose slope increases with their order.",
         measured=(
             f"The fundamental holds {100 * levels.share[1]:.2f} % of the energy{_offset(levels)}; overtones re the "
-            f"fundamental: {listed}. The strongest even multiple is at {decibels(even)}.{_slopes(e)}"
+            f"fundamental: {listed}. {even_sentence(e.motion, levels)}{_slopes(e)}"
         ),
     )
 
@@ -134,12 +146,15 @@ def _slopes(e: Evidence) -> str:
     base = slope(e.motion.reference_curve(), low, high)
     if base is None or abs(base) * (high - low) < LEAST_CHANGE * float(e.motion.known_omega.mean()):
         return ""
-    parts = []
-    for one in e.overtones.tracked:
-        own = slope(one.track, low, high)
-        if own is not None:
-            parts.append(f"harmonic {one.multiple} rises {own / base:.3f} times as fast as the fundamental")
-    return f" In the interior {', '.join(parts)}: slopes proportional to the order, eq. (25)." if parts else ""
+    found = {
+        one.multiple: own / base for one in e.overtones.tracked if (own := slope(one.track, low, high)) is not None
+    }
+    if not found:
+        return ""
+    parts = [f"harmonic {m} rises {ratio:.3f} times as fast as the fundamental" for m, ratio in found.items()]
+    off = max(abs(ratio / m - 1.0) for m, ratio in found.items())
+    verdict = "as eq. (25) has it" if off < SLOPE_OFF else "which is not the order, as eq. (25) would have it"
+    return f" In the interior {', '.join(parts)}: within {relative(off)} of the order, {verdict}."
 
 
 def _derivative(e: Evidence) -> Statement:
@@ -148,18 +163,13 @@ def _derivative(e: Evidence) -> Statement:
     gains = [f"{m} by {v.level_db(m) - u.level_db(m):.1f} dB (20 log {m} = {20 * np.log10(m):.1f})" for m in multiples]
     raised = f"Differentiation raises harmonic {', '.join(gains)}. " if gains else ""
     run = e.motion.trajectory
-    top = max((m for m in range(1, MOST + 1) if v.level_db(m) > -60), default=1)
-    highest = top * float(e.motion.known_omega.max())
-    nyquist = np.pi * run.rate
-    verdict = "so nothing visible is aliased" if highest < nyquist else "so it is aliased"
+    fastest = float(e.motion.known_omega.max()) / (2.0 * np.pi)
+    found = folding(seen(e.motion, v, least_db=FOLDING_DB), fastest, run.rate)
     return Statement(
         figure=3,
         title="Time-frequency plane of the derivative",
         paper="The higher harmonics stand out more, by the factor ω² in the power spectrum; two are aliased.",
-        measured=(
-            f"{raised}The highest multiple above −60 dB, {top}, reaches {e.hertz(highest)} with the Nyquist frequency "
-            f"at {e.hertz(nyquist)}, {verdict}."
-        ),
+        measured=(f"{raised}{folded_sentence(found, fastest, run.rate, e.hertz)}"),
     )
 
 

@@ -12,22 +12,6 @@ from ridgeback.compare.studies.systems import System
 
 
 @dataclass(frozen=True)
-class Subject:
-    """One oscillator of a study with its amplitudes.
-
-    Parameters
-    ----------
-    system : System
-        The oscillator with all its parameters.
-    amplitudes : tuple of float
-        Peak amplitudes in the unit of u, values of eps of a limit cycle, or initial displacements of a decay.
-    """
-
-    system: System
-    amplitudes: tuple[float, ...]
-
-
-@dataclass(frozen=True)
 class Signal:
     """How the motion is sampled, and the noise that is added.
 
@@ -65,6 +49,25 @@ class Signal:
 
 
 @dataclass(frozen=True)
+class Subject:
+    """One oscillator of a study with its amplitudes.
+
+    Parameters
+    ----------
+    system : System
+        The oscillator with all its parameters.
+    amplitudes : tuple of float
+        Peak amplitudes in the unit of u, values of eps of a limit cycle, or initial displacements of a decay.
+    signal : Signal
+        How its motion is sampled, and the noise.
+    """
+
+    system: System
+    amplitudes: tuple[float, ...]
+    signal: Signal = Signal()
+
+
+@dataclass(frozen=True)
 class Plan:
     """A whole study.
 
@@ -81,7 +84,7 @@ class Plan:
     tolerances : tuple of float
         Relative errors that are asked for.
     signal : Signal
-        Sampling and noise, for questions about motions.
+        Sampling and noise of oscillators that have none of their own.
     title : str
         What the study is called.
 
@@ -113,9 +116,9 @@ class Plan:
 
 def plan_from(record: Mapping[str, Any]) -> Plan:
     """The plan that ``to_dict`` gave, also after a passage through JSON."""
-    values, signal = _tuples(record), _tuples(record["signal"])
+    values = _tuples(record)
     values["subjects"] = tuple(_subject(entry) for entry in record["subjects"])
-    return Plan(**{**values, "signal": Signal(**signal)})
+    return Plan(**{**values, "signal": Signal(**_tuples(record["signal"]))})
 
 
 def _tuples(record: Mapping[str, Any]) -> dict[str, Any]:
@@ -125,7 +128,7 @@ def _tuples(record: Mapping[str, Any]) -> dict[str, Any]:
 def _subject(record: Mapping[str, Any]) -> Subject:
     system = dict(record["system"])
     system["parameters"] = tuple((name, text) for name, text in system["parameters"])
-    return Subject(System(**system), tuple(record["amplitudes"]))
+    return Subject(System(**system), tuple(record["amplitudes"]), Signal(**_tuples(record["signal"])))
 
 
 def flattened(record: Any, path: str = "") -> Iterator[tuple[str, Any]]:

@@ -12,7 +12,7 @@ from typing import Any
 from ridgeback.common.errors import InputError
 from ridgeback.common.show.optional import MissingLibraryError, optional
 
-PATIENCE = 30.0
+PATIENCE = 120.0
 """Seconds to wait for the scheduler, and for its first worker."""
 
 

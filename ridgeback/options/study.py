@@ -17,7 +17,7 @@ from ridgeback.options.plot import plot_option
 from ridgeback.options.shared import Decorated, added
 from ridgeback.options.system import Choice, named_by
 
-EXAMPLES = ("paper", "five-oscillators", "noise", "crossing")
+EXAMPLES = ("paper", "five-oscillators", "noise", "crossing", "estimators")
 KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\.[A-Za-z0-9_-]{1,60}){0,5}", re.ASCII)
 STORE = ".db"
 

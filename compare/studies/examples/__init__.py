@@ -9,7 +9,7 @@ from importlib.resources import files
 
 from ridgeback.common.errors import InputError
 
-NAMES = ("paper", "five-oscillators", "noise", "crossing")
+NAMES = ("paper", "five-oscillators", "noise", "crossing", "estimators")
 
 
 def example(name: str) -> str:

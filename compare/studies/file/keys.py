@@ -13,7 +13,7 @@ T = TypeVar("T")
 
 KEYS: Mapping[str, tuple[str, ...]] = {
     "study": ("title", "ask"),
-    "oscillator": ("name", "system", "equation", "about", "potential", "parameters", "amplitudes"),
+    "oscillator": ("name", "system", "equation", "about", "potential", "parameters", "amplitudes", "signal"),
     "grid": ("amplitudes", "damping", "orders", "methods", "tolerances"),
     "signal": ("duration", "periods", "rate", "samples_per_period", "snr_db", "trials", "seed"),
 }

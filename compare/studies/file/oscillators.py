@@ -13,6 +13,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.studies.file.axes import exact_values, floats, shown
 from ridgeback.compare.studies.file.keys import KEYS, given, text_of
 from ridgeback.compare.studies.file.places import LocatedError, Source
+from ridgeback.compare.studies.file.signals import own_signal
 from ridgeback.compare.studies.plan import Subject
 from ridgeback.compare.studies.systems import System, checked
 from ridgeback.symbolic.systems.parameters import unknown_parameter
@@ -37,8 +38,9 @@ def subjects(source: Source, table: Mapping[str, Any]) -> Iterator[Subject]:
             if found is None:
                 raise InputError("is missing; give amplitudes = { from = 0.1, to = 3, count = 30 }, for instance")
             amplitudes = floats(found, low=0.0)
+        signal = own_signal(source, table.get("signal", {}), entry.get("signal", {}), f"{path}.signal")
         for system in systems(source, entry, path, grid):
-            yield Subject(system, amplitudes)
+            yield Subject(system, amplitudes, signal)
 
 
 def systems(source: Source, entry: Mapping[str, Any], path: str, grid: Mapping[str, Any]) -> Iterator[System]:

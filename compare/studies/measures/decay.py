@@ -95,10 +95,10 @@ def errors_of(case: Case, curve: Curve, floor: float) -> Outcome:
 def tasks(plan: Plan) -> Iterator[Task]:
     """Blocks by case, then theory at once and estimates by ratio and trials."""
     theory = tuple(method for method in plan.methods if method in PREDICTIONS)
-    signal = plan.signal
     seen = tuple(method for method in plan.methods if method not in PREDICTIONS)
     for subject in plan.subjects:
-        system, rate = subject.system, signal.sampling(subject.system)
+        system, signal = subject.system, subject.signal
+        rate = signal.sampling(system)
         for amplitude in subject.amplitudes:
             for duration in signal.durations(system):
                 if theory:

@@ -149,3 +149,18 @@ def test_a_linear_range_is_exact_and_holds_both_ends(start: Fraction, stop: Frac
 @given(st.text(max_size=30))
 def test_a_literal_is_a_value_and_never_runs(text: str) -> None:
     assert isinstance(literal(text), bool | int | float | str | list | dict | object)
+
+
+def test_an_oscillator_may_have_a_signal_of_its_own() -> None:
+    own = TEXT.replace("k = 2 }", "k = 2 }\nsignal = { duration = 9, rate = 8, trials = 4 }")
+    shared = own.replace("seed = 3", "seed = 3\nperiods = 20")
+    first, _, last = plan_of(shared).subjects
+    assert (first.signal.lengths, first.signal.periods, first.signal.trials, first.signal.seed) == ((9.0,), False, 4, 3)
+    assert (last.signal.lengths, last.signal.periods, last.signal.seed) == ((20.0,), True, 3)
+    for wrong, message in (
+        ("trials = 1", "oscillator.1.signal.trials: 1 is not"),
+        ("trial = 4", "oscillator.1.signal: "),
+    ):
+        with pytest.raises(InputError) as refusal:
+            plan_of(shared.replace("trials = 4", wrong), name="s.toml")
+        assert str(refusal.value).startswith("s.toml, line 17, " + message)
