@@ -49,7 +49,7 @@ MODES: dict[str, tuple[str, ...]] = {
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    time = np.arange(400) / 20.0
+    time = np.arange(240) / 12.0
     rows = zip(time, np.exp(-0.05 * time) * np.cos(6.0 * time), strict=True)
     (tmp_path / "run.csv").write_text("t,u\n" + "".join(f"{t!s},{u!s}\n" for t, u in rows))
     (tmp_path / "file.toml").write_text("[study]\n")
@@ -79,7 +79,6 @@ BASES = {
     "estimate": (
         "run.csv --method hilbert",
         "run.csv --method smoothed-pseudo-wigner",
-        "run.csv --method harmonic-least-squares",
     ),
 }
 """Commands to which every option of their verb is added."""
@@ -89,7 +88,7 @@ VALUES = {
     "growth": "1", "resummed": "pade", "transient": "1/2", "until": "3", "points": "4", "style": "json", "name": "w",
     "mode": "fma", "language": "c", "real": "float32", "terms": "2", "fit": "minimax", "degree": "3", "tolerance": "1",
     "up_to": "1/2", "initial": "1/2,0", "duration": "3", "rate": "8", "digits": "40", "column": "2", "time_column": "1",
-    "run_column": "1", "span": "1,18", "resample": "18", "fill": "1", "detrend": "linear", "band": "4,9", "lag": "3",
+    "run_column": "1", "span": "1,18", "resample": "11", "fill": "1", "detrend": "linear", "band": "4,9", "lag": "3",
     "window": "hann", "smoothing": "2", "harmonics": "2", "harmonic": "2", "combine": "all", "snr": "10", "seed": "3",
     "system": "linear", "free": "k", "workers": "2", "budget": "1h", "monte_carlo": "2",
 }  # fmt: skip
