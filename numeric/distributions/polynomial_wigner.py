@@ -37,7 +37,7 @@ DESIGNS: Mapping[int, tuple[tuple[int, float], ...]] = MappingProxyType(
     {2: ((1, 0.5),), 4: ((2, 0.25),), 6: ((2, _C), (1, -(2.0 ** (1.0 / 3.0)) * _C))}
 )
 """Pairs (b_k, c_k) for each order."""
-STRETCH_BYTES = 256_000_000
+STRETCH_BYTES = 192_000_000
 """Lag products that are held at a time."""
 
 

