@@ -9,6 +9,7 @@ from typing import Any
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.benchmark import benchmark as benchmarks
 from ridgeback.compare.benchmark.expansions import ORDERS
+from ridgeback.compare.benchmark.outsiders import outsiders
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.motion import setting
 from ridgeback.numeric.tracking.track import Track
@@ -45,7 +46,8 @@ def benchmark(
     orders : sequence of int
         Orders of the expansion.
     estimators : mapping, optional
-        Estimators of your own that take part: name to a function ``(x, rate)`` that returns a Track.
+        Estimators of your own that take part: name to a function ``(x, rate)`` that returns a Track.  Those of
+        installed packages, by the entry point ``ridgeback.estimators``, take part in any case.
     progress : bool or callable, optional
         ``True`` shows a bar; a function is told the share done and the step.
 
@@ -68,7 +70,8 @@ def benchmark(
     chosen = setting(
         as_oscillator(oscillator, parameters=parameters, about=about), initial=initial, duration=duration, rate=rate
     )
-    own = {name: partial(_at, rate=chosen.rate, method=method) for name, method in (estimators or {}).items()}
+    given = {**outsiders(), **(estimators or {})}
+    own = {name: partial(_at, rate=chosen.rate, method=method) for name, method in given.items()}
     with showing(progress) as told:
         return benchmarks.benchmark(chosen, orders=orders, estimators=own, progress=told)
 

@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from ridgeback.compare.benchmark.estimates import along
+from ridgeback.compare.benchmark.outsiders import outsiders
 from ridgeback.compare.benchmark.own_correction import corrected
 from ridgeback.compare.noise.monte_carlo import SCOPED
 from ridgeback.compare.studies.measures.along import Case
@@ -18,10 +19,13 @@ from ridgeback.numeric.tracking.track import Track
 
 OWN_BIAS = "own-bias"
 """Behind a method's name: the bias that it shows on the signal of its own track is taken off."""
+OUTSIDERS = outsiders()
+"""Estimators of other packages, which a worker must have, too."""
 ESTIMATES = (
     *ESTIMATORS,
     *(f"{SCOPED}/{scope}" for scope in tuple(Scope)),
     *(f"{name}/{OWN_BIAS}" for name in ESTIMATORS if name != SCOPED),
+    *OUTSIDERS,
 )
 
 
@@ -41,8 +45,10 @@ def noisy(x: Array, snr_db: float, seed: int, trial: int) -> Array:
 
 def estimated(case: Case, method: str, x: Array) -> Array:
     """omega0 on the samples of a motion by an estimator that sees ``x`` alone.  Raises InputError as it does."""
-    name, _, how = method.partition("/")
     rate = case.motion.trajectory.rate
+    if method in OUTSIDERS:
+        return along(OUTSIDERS[method](x, rate), case.time)
+    name, _, how = method.partition("/")
     run = partial(_plain, rate=rate, method=name, scope=how if how and how != OWN_BIAS else None)
     track = run(x)
     if how == OWN_BIAS:
