@@ -87,7 +87,7 @@ def readable(found: StudyResult) -> str:
     if found.failures:
         lines += ["", f"{found.failed} cells have no value and are left out:"]
         shown = found.failures[:SHOWN_FAILURES]
-        lines += [f"  {f.cells} of {f.oscillator} (and others like it): {f.reason}" for f in shown]
+        lines += [f"  {f.cells}, the first of {f.oscillator}: {f.reason}" for f in shown]
         lines += [f"  {len(found.failures) - len(shown)} more reasons"] if len(found.failures) > len(shown) else []
     return "\n".join(lines) + "\n"
 

@@ -116,7 +116,7 @@ MEASURE = Measure(
         Column("method", "", "way to omega0(t)"),
         Column("amplitude", "unit of the unknown", "initial displacement, at rest"),
         Column("duration", "time unit", "length of the record"),
-        Column("snr_db", "dB", "variance of the signal over that of the noise; inf is none"),
+        Column("snr_db", "dB", "variance of the signal over that of the noise; inf, or nothing, is no noise"),
         Column("order", "1", "highest power kept, or number of terms of the paper's series"),
         Column("trial", "1", "number of the noisy record"),
     ),

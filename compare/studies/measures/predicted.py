@@ -15,18 +15,19 @@ from ridgeback.compare.motion.error_budget import damped
 from ridgeback.compare.motion.model_curves import slow_flow_amplitude
 from ridgeback.compare.studies.measures.along import Case, Curve
 from ridgeback.compare.studies.systems import System
+from ridgeback.compare.study.derived import without_damping
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.paper_model import series_frequency
+from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
-from ridgeback.symbolic.flow.ordering import undamped
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.resummation.by_name import KINDS, resum
 
 SOURCES: tuple[Source, ...] = ("energy", "action")
 """Where A(t) comes from: the instantaneous energy (21), or the averaged action."""
-SERIES = ("lindstedt", "series", *KINDS)
+SERIES = ("lindstedt", "energy-integral", "series", *KINDS)
 PLAIN = ("multiple-scales", "closed-form/energy", "averaged-action", "linear")
 PREDICTIONS = (*(f"{name}/{source}" for name in SERIES for source in SOURCES), *PLAIN)
 """``lindstedt`` and its resummations by order, ``series`` is the paper's (14) by its number of terms."""
@@ -86,6 +87,11 @@ def _amplitude(case: Case, source: str) -> Array:
     raise InputError(f"{case.motion.dynamics.name} has no A(t) from the {source}: {', '.join(found)} only")
 
 
+def _by_energy(case: Case, source: str, order: int, highest: int) -> Array:
+    series = energy_integral(without_damping(case.system.oscillator()).oscillator, highest)
+    return np.asarray(series.truncated(order)(_amplitude(case, source)), dtype=float)
+
+
 def _truncated(case: Case, source: str, order: int, highest: int) -> Array:
     series = _series(case.system, highest)
     if series.variable == "eps":
@@ -99,7 +105,9 @@ def _resummed(kind: str) -> Callable[[Case, str, int, int], Array]:
     def along(case: Case, source: str, order: int, highest: int) -> Array:
         x = _amplitude(case, source)
         series = _series(case.system, highest).truncated(order)
-        formula = resum(undamped(case.system.oscillator()), series, kind, up_to=Fraction(float(np.nanmax(x))))
+        formula = resum(
+            without_damping(case.system.oscillator()).oscillator, series, kind, up_to=Fraction(float(np.nanmax(x)))
+        )
         return np.asarray(formula(x), dtype=float)
 
     return along
@@ -142,6 +150,7 @@ def _linear(case: Case) -> Array:
 
 _SERIES: Mapping[str, Callable[[Case, str, int, int], Array]] = {
     "lindstedt": _truncated,
+    "energy-integral": _by_energy,
     "series": _terms,
     **{kind: _resummed(kind) for kind in KINDS},
 }
@@ -154,7 +163,7 @@ _PLAIN: Mapping[str, Callable[[Case], Array]] = {
 
 @lru_cache(maxsize=16)
 def _series(system: System, order: int) -> Expansion:
-    return lindstedt(undamped(system.oscillator()), order)
+    return lindstedt(without_damping(system.oscillator()).oscillator, order)
 
 
 @lru_cache(maxsize=64)
