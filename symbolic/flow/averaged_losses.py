@@ -119,6 +119,7 @@ def undamped(oscillator: Oscillator, names: Sequence[str]) -> Oscillator:
 def losses_of(name: str, force: sympy.Expr) -> tuple[Loss, ...]:
     """The losses in a force, one for each power of u'.
 
+    >>> from ridgeback.symbolic.systems.oscillator import U, V
     >>> [(loss.exponent, loss.right) for loss in losses_of("own", U + V * abs(V) / 3 + 2 * sympy.sign(V))]
     [(0, 2), (2, 1/3)]
     """

@@ -24,7 +24,7 @@ def absolute(e: sympy.Expr) -> sympy.Expr:
     Raises InputError for an argument that vanishes elsewhere than at u = 0 or u' = 0.
 
     >>> absolute(-3 * U**3)
-    3*Abs(u)**3
+    3*u**2*Abs(u)
     """
     return sympy.Mul(*(_power_of(sympy.Abs, factor) for factor in _factors(e, "abs")))
 

@@ -56,7 +56,7 @@ def find(name: str) -> Oscillator:
     >>> find("raleigh")
     Traceback (most recent call last):
         ...
-    ridgeback.common.errors.InputError: no system 'raleigh'; did you mean rayleigh? (ridgeback systems lists all)
+    ridgeback.common.errors.InputError: no system 'raleigh'; did you mean rayleigh ...
     """
     known = _spellings()
     found = known.get(_key(name))

@@ -81,7 +81,7 @@ def over_leading(force: sympy.Expr, leading: sympy.Expr) -> Natural:
 
     >>> found = over_leading(sympy.sqrt(2) * U**3 + U**5, sympy.sqrt(2))
     >>> found.force, found.values
-    (c1**u**5 + u**3, {'c1*': sqrt(2)/2})
+    (c1**u**5/2 + u**3, {'c1*': sqrt(2)})
     """
     names: dict[sympy.Expr, sympy.Symbol] = {}
     named = sympy.Add(*(_named(term, names) for term in _terms(force, leading)))

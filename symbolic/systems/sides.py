@@ -75,7 +75,7 @@ def whole(right: sympy.Expr, left: sympy.Expr) -> sympy.Expr:
     """The even continuation of two functions of the distance, such as a potential: ``right`` for u > 0, else ``left``.
 
     >>> whole(U**3, U**3), whole(3 * U**2, U**2)
-    (Abs(u)**3, u**2*sign(u) + 2*u**2)
+    (u**2*Abs(u), u**2*sign(u) + 2*u**2)
     """
     size = sympy.Abs(U)
     one, other = (e.xreplace({U: size}) for e in (right, left))
