@@ -8,7 +8,7 @@ import pytest
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import frozen, frozen_mask
 from ridgeback.numeric.motion.cycle_frequency import Events, cycle_frequency, is_symmetric
-from ridgeback.numeric.motion.dynamics import duffing, helmholtz_duffing, linear, pendulum, van_der_pol
+from ridgeback.numeric.motion.dynamics import Dynamics, duffing, helmholtz_duffing, linear, pendulum, van_der_pol
 from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
 from ridgeback.numeric.motion.roots import bracketed_newton
 from ridgeback.numeric.motion.trajectory import Trajectory, integrate
@@ -139,6 +139,9 @@ def test_symmetry_is_found():
     assert is_symmetric(pendulum(1.0, 0.1))
     assert is_symmetric(van_der_pol(2.0))
     assert not is_symmetric(helmholtz_duffing())
+    rounded = Dynamics("rounded", force=lambda u, _: 3.0 * (u / 3.0 + 0.1) - 0.3, natural_frequency=1.0)
+    assert rounded.force(0.3, 0.0) != -rounded.force(-0.3, 0.0)  # odd but for rounding
+    assert is_symmetric(rounded)
 
 
 def test_without_dynamics_the_result_is_the_same_within_its_uncertainty():
