@@ -13,7 +13,18 @@ from ridgeback.compare.study.results import Checked, Formula, HarmonicTable
 from ridgeback.reports.text.mathml import FormulaError, formula_latex, formula_mathml, mathml
 
 PartKind = Literal[
-    "figure", "table", "formula", "text", "lines", "claims", "harmonics", "code", "downloads", "provenance", "fold"
+    "figure",
+    "table",
+    "formula",
+    "text",
+    "lines",
+    "claims",
+    "harmonics",
+    "code",
+    "downloads",
+    "provenance",
+    "fold",
+    "equations",
 ]
 
 

@@ -13,6 +13,10 @@ from ridgeback.reports.figures.identification import (
 )
 from ridgeback.reports.figures.recording import backbone_figure, plane_figure, signal_figure, tracks_figure
 from ridgeback.reports.parts import Part, Section, fold, set_formula
+from ridgeback.reports.text.equation import equation_mathml
+
+EQUATIONS = 4
+"""Classes whose equation is set."""
 
 
 def recording_sections(report: Report) -> tuple[Section, ...]:
@@ -40,6 +44,7 @@ def _made(report: Report) -> Section | None:
     parts = [
         Part("text", found.verdict),
         Part("figure", candidates_figure(found)),
+        Part("equations", [(c.title, equation_mathml(c.equation), c.equation) for c in found.candidates[:EQUATIONS]]),
         Part("table", parameter_table(found.best)),
         fold("All classes, ranked", Part("table", ranking_table(found))),
     ]

@@ -126,6 +126,53 @@
     set();
   }
 
+  // each drawing as a file: the styles that the page gives it written into it, its numbers as they are read
+  const STYLES = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "opacity",
+    "font-size", "font-weight", "font-family", "text-anchor", "paint-order", "stop-color", "display", "vector-effect"];
+  const inlined = svg => {
+    const copy = svg.cloneNode(true), from = [svg, ...$$("*", svg)], to = [copy, ...$$("*", copy)];
+    from.forEach((e, i) => {
+      const style = getComputedStyle(e);
+      to[i].setAttribute("style", STYLES.map(name => name + ":" + style.getPropertyValue(name)).join(";"));
+    });
+    const box = svg.viewBox.baseVal;
+    copy.setAttribute("xmlns", NS);
+    copy.setAttribute("width", box.width);
+    copy.setAttribute("height", box.height);
+    copy.style.background = getComputedStyle(document.body).backgroundColor;
+    return new XMLSerializer().serializeToString(copy);
+  };
+  const save = (name, url) => {
+    const link = document.createElement("a");
+    link.download = name;
+    link.href = url;
+    link.click();
+  };
+  const uri = (kind, text) => "data:" + kind + ";charset=utf-8," + encodeURIComponent(text);
+  const table = d => [[d.name, ...d.series.map(s => s[0])].map(n => '"' + n.replaceAll('"', '""') + '"').join(","),
+    ...d.at.map((x, i) => [x, ...d.series.map(s => s[2][i] ?? "")].join(","))].join("\n") + "\n";
+  $$("button[data-save]").forEach(button => {
+    const figure = button.closest("figure");
+    button.parentElement.hidden = false;
+    button.addEventListener("click", () => {
+      if (button.dataset.save === "csv") { save(figure.id + ".csv", uri("text/csv", table(data(figure)))); return; }
+      const drawn = $$(".drawing > svg", figure).filter(s => s.getBoundingClientRect().width);
+      drawn.forEach((svg, i) => {
+        const name = figure.id + (drawn.length > 1 ? "-" + (i + 1) : ""), text = inlined(svg);
+        if (button.dataset.save === "svg") { save(name + ".svg", uri("image/svg+xml", text)); return; }
+        const image = new Image(), box = svg.viewBox.baseVal;
+        image.onload = () => {
+          const canvas = document.createElement("canvas");
+          canvas.width = 2 * box.width;
+          canvas.height = 2 * box.height;
+          canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+          save(name + ".png", canvas.toDataURL("image/png"));
+        };
+        image.src = uri("image/svg+xml", text);
+      });
+    });
+  });
+
   // copying, and sorting of tables by their columns
   $$("button[data-copy],.tab button").forEach(b => {
     b.hidden = false;

@@ -298,6 +298,26 @@ def test_sliders_move_value_error_and_curve(browser: Browser, pages: dict[str, P
     assert browser.complaints() == []
 
 
+def test_a_figure_is_saved_as_a_file_of_its_own(browser: Browser, pages: dict[str, Path]) -> None:
+    """The SVG stands without the page's style sheet, and the CSV holds what the readout says."""
+    browser.open(pages["full"])
+    saved = browser.evaluate("""(() => {
+      const got = [];
+      HTMLAnchorElement.prototype.click = function () { got.push([this.download, decodeURIComponent(this.href)]); };
+      document.querySelectorAll('#motion [data-save=svg], #motion [data-save=csv]').forEach(b => b.click());
+      return got;
+    })()""")
+    assert [name for name, _ in saved] == ["motion.svg", "motion.csv"]
+    drawing = saved[0][1].partition(",")[2]
+    assert drawing.startswith("<svg")
+    assert "stroke:rgb(" in drawing
+    assert "var(--" not in drawing
+    rows = saved[1][1].partition(",")[2].splitlines()
+    assert rows[0] == '"t","θ","amplitude"'
+    assert float(rows[1].split(",")[1]) == pytest.approx(synthetic.make_decay().u[0], rel=1e-5)
+    assert browser.complaints() == []
+
+
 def test_tables_sort_by_a_column(browser: Browser, pages: dict[str, Path]) -> None:
     browser.open(pages["full"])
     browser.evaluate("document.querySelectorAll('details').forEach(d => d.open = true)")

@@ -1,0 +1,36 @@
+"""An equation of a class as it is written in text, set as mathematics."""
+
+from __future__ import annotations
+
+import re
+
+from ridgeback.reports.text.mathml import FormulaError, mathml
+
+GREEK = ("alpha", "beta", "gamma", "delta", "epsilon", "eps", "mu", "nu", "omega", "theta", "phi")
+FUNCTIONS = ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log")
+
+
+def equation_latex(text: str) -> str:
+    """LaTeX of an equation such as ``u'' + 2 mu u' + k^2 u = 0``; words that are no symbol stay words.
+
+    >>> equation_latex("u'' + 2*mu*u' + k**2*u + c3*u**3 = 0").replace(chr(92), "~")
+    '~ddot{u} + 2 ~mu ~dot{u} + k^{2} u + c_{3} u^{3} = 0'
+    """
+    latex = text.replace("**", "^").replace("*", " ")
+    latex = re.sub(r"([A-Za-z]+)''", r"\\ddot{\1}", latex)
+    latex = re.sub(r"([A-Za-z]+)'", r"\\dot{\1}", latex)
+    latex = re.sub(r"(?<![\\\\A-Za-z{])([A-Za-z]+)(\d+)(?![A-Za-z])", r"\1_{\2}", latex)
+    latex = re.sub(r"\^(\d+)", r"^{\1}", latex)
+    for name in (*GREEK, *FUNCTIONS):
+        latex = re.sub(rf"(?<![\\\\A-Za-z]){name}(?![A-Za-z])", rf"\\{'varepsilon' if name == 'eps' else name}", latex)
+    return latex
+
+
+def equation_mathml(text: str) -> str:
+    """One ``<math>`` element; empty where the text holds words that are no symbols."""
+    if set(re.findall(r"[A-Za-z]{2,}", text)) - {*GREEK, *FUNCTIONS}:
+        return ""
+    try:
+        return mathml(equation_latex(text))
+    except FormulaError:
+        return ""
