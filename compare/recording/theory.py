@@ -19,6 +19,8 @@ from ridgeback.symbolic.systems.oscillator import Oscillator
 
 POINTS = 200
 """Orbits between which omega0 is interpolated."""
+MANY = 100.0
+"""Standard deviations beyond which their number says no more."""
 APART = 2.0
 """Standard deviations from which on two backbones are said to differ."""
 
@@ -68,12 +70,11 @@ class TheoryBackbone:
         """The judgement in words."""
         if self.agreement is Agreement.UNCOVERED:
             return f"{self.title} oscillates at none of the measured amplitudes."
-        size = f"{offset(self.mean)} on average ({per_cent(self.rms)} rms)"
+        part = "" if self.covered == 1 else f" over the {100 * self.covered:.0f} % of it at which that oscillates"
+        size = f"{offset(self.mean)} on average ({per_cent(self.rms)} rms){part}"
         if self.agreement is Agreement.DIFFERS:
-            return (
-                f"The measured backbone lies {size} against {self.title}, {number(self.deviations, 2)} of its standard "
-                "deviations: they differ."
-            )
+            many = number(self.deviations, 2) if self.deviations < MANY else f"over {MANY:g}"
+            return f"The measured backbone lies {size} against {self.title}, {many} of its deviations: they differ."
         return f"The measured backbone lies {size} against {self.title}, within {APART:g} of its standard deviations."
 
 
