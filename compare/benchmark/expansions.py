@@ -62,13 +62,16 @@ def amplitudes(motion: Motion) -> Mapping[Source, Array]:
     return found
 
 
-def theory(motion: Motion, orders: Iterable[int], step: Callable[[str], None]) -> Iterator[Contender]:
-    """Every contender from theory that this motion has."""
+def theory(
+    motion: Motion, orders: Iterable[int], step: Callable[[str], None], *, known: Expansion | None = None
+) -> Iterator[Contender]:
+    """Every contender from theory that this motion has; ``known`` is the series, where it is derived already."""
     sources = amplitudes(motion)
     oscillator = motion.setting.oscillator
     step("expansions, derived and generated")
     try:
-        expansion = backbone_series(without_damping(oscillator).oscillator, max(orders))
+        rest = without_damping(oscillator).oscillator
+        expansion = backbone_series(rest, max(orders)) if known is None else known.truncated(max(orders))
     except InputError as error:
         yield refused("lindstedt", "perturbation expansion", "expansion", str(error))
     else:

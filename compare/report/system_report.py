@@ -146,7 +146,7 @@ def system_report(
         plan, derived = _plan(motion, order, orders, amplitudes, target, trials)
         accuracy = _accuracy(derived, plan)
     with watch.stage("contenders", 0.2, 0.5) as inner:
-        found = _contenders(motion, plan, inner, timed=timed)
+        found = _contenders(motion, plan, derived, inner, timed=timed)
     with watch.stage("along the motion", 0.5, 0.7) as inner:
         decay = compare_decay(
             motion, derived=derived, orders=_drawn(derived, order), recipes=LEAN if paper else SHORT, progress=inner
@@ -194,14 +194,14 @@ def described(case: Setting) -> Described:
     return Described(name, o.equation_latex, parameters_line(case.case()), o.reference)
 
 
-def _contenders(motion: Motion, plan: Plan, progress: Progress, *, timed: bool) -> Benchmark:
+def _contenders(motion: Motion, plan: Plan, derived: Derived, progress: Progress, *, timed: bool) -> Benchmark:
     steps = iter(range(1, 100))
 
     def step(label: str) -> None:
         progress(min(next(steps) / 14, 0.99), label)
 
     orders = [o for o in plan.orders if o in CONTENDING or len(plan.orders) < len(CONTENDING)]
-    rows = [*theory(motion, orders, step), *estimates(motion, {}, step)]
+    rows = [*theory(motion, orders, step, known=derived.expansion), *estimates(motion, {}, step)]
     found = assembled(motion, rows)
     return found if timed else untimed(found)
 
