@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from ridgeback.compare.motion.paper_case import paper_case
+from ridgeback.console import browser
 from ridgeback.console.failure import PartialError
 from ridgeback.options.system import Choice
 from ridgeback.verbs import report
@@ -157,3 +158,44 @@ def test_an_overdamped_motion_is_refused_by_name(ridgeback: Ridgeback, tmp_path:
     done = ridgeback("report", "--set", "mu=20", "-o", str(tmp_path / "x.html"))
     assert done.code == 2
     assert "overdamped" in done.err
+
+
+def test_a_title_of_ones_own_and_no_measured_times(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    words = [
+        "report",
+        "--equation",
+        "u'' + 2*mu*u' + u + u**3/4 = 0",
+        "--set",
+        "mu=1/100",
+        "--initial",
+        "0.5,0",
+        *SMALL,
+    ]
+    done = ridgeback(*words, "--title", "My <b>spring</b>", "--no-timings", "-o", str(page))
+    assert (done.code, done.err) == (0, "")
+    text = page.read_text(encoding="utf-8")
+    assert "My &lt;b&gt;spring&lt;/b&gt;" in text
+    assert " a value</dd>" not in text
+    assert "<dt>time, " not in text
+    assert "not timed" in text
+
+
+def test_a_page_is_not_printed_where_there_is_no_browser(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(OSError, match="no browser to print with"):
+        browser.print_to_pdf("page.html", str(tmp_path / "page.pdf"))
+
+
+def test_what_a_browser_prints_is_moved_to_its_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A stand-in for the browser that writes what it was asked to, or nothing."""
+    script = tmp_path / "chromium"
+    script.write_text('#!/bin/sh\nfor word; do case $word in --print-to-pdf=*) echo pdf > "${word#*=}";; esac; done\n')
+    script.chmod(0o755)
+    monkeypatch.setattr(browser, "chromium", lambda: str(script))
+    browser.print_to_pdf("page.html", str(tmp_path / "page.pdf"))
+    assert (tmp_path / "page.pdf").read_text() == "pdf\n"
+    script.write_text("#!/bin/sh\n")
+    with pytest.raises(OSError, match="printed nothing"):
+        browser.print_to_pdf("page.html", str(tmp_path / "other.pdf"))
+    assert not (tmp_path / "other.pdf").exists()
