@@ -34,7 +34,7 @@ CASES: tuple[Case, ...] = (
     refused("estimate decay.csv --rate -1", "'-1'", "give a positive"),
     refused("estimate decay.csv --rate nan", "'nan'", "write a decimal"),
     refused("estimate decay.csv --rate 1e400", "'1e400'", "give a smaller"),
-    refused("estimate decay.csv --rate 5", "20 samples per second, not 5", "leave --rate out"),
+    refused("estimate decay.csv --rate 5", "32 samples per second, not 5", "leave --rate out"),
     refused("estimate decay.csv --resample 0", "'0'", "give a positive"),
     refused("estimate decay.csv --resample 1e12", "resampling to 1e+12 gives 12468750000013", "use a lower"),
     refused("estimate decay.csv --resample 0.001", "resampling from 32 to 0.001", "use at least"),
