@@ -204,6 +204,9 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
     told = (*beside_notes(track), *recording.notes)
     if track.used.doubt:
         return Measurement(recording, track, None, (f"No interval and no amplitude: {track.used.doubt}.", *told))
+    wanted = found.request is not None and found.request.options.bias and track.no_interval is not None
+    if wanted and models_of(found, claimed=False) is None:
+        return Measurement(recording, track, None, (f"No amplitude: {track.no_interval}.", *told))
     try:
         used = as_tracked(recording, found.samples)
         curve = backbone(
@@ -232,10 +235,10 @@ def beside_notes(track: Track) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def models_of(found: Estimation) -> SignalModels | None:
-    """The models of all of the signal, where the track claims an interval that rests on them."""
+def models_of(found: Estimation, *, claimed: bool = True) -> SignalModels | None:
+    """The models of all of the signal, where the track claims an interval that rests on them, if that is asked for."""
     request = found.request
-    if request is None or found.track.interval is None:
+    if request is None or (claimed and found.track.interval is None):
         return None
     try:
         return request.models

@@ -95,9 +95,8 @@ def backbone(
     notes = [f"The mean of the samples, {offset:.4g}, was removed.", *measured.notes]
     if track.used.span is not None:
         begin, end = track.used.span
-        notes.insert(
-            0, f"The amplitude stands above the noise from t = {begin:.6g} to {end:.6g}; the rest is left out."
-        )
+        what = track.used.span_why or "the amplitude stands above the noise"
+        notes.insert(0, f"{what[0].upper()}{what[1:]} from t = {begin:.6g} to {end:.6g}; the rest is left out.")
     return assemble(
         measured.points,
         crowding=measured.crowding,

@@ -25,6 +25,8 @@ ROUGH = 1.5
 NEAR, MOSTLY = 1.6, 0.5
 """Where the search band's guide strays from its centre by more than this factor there is nothing to guide it, unless
 most of the power is there: a long chirp."""
+TURN, FOLLOWED = 0.1, 0.3
+"""Relative change of the frequency per cycle that can be followed, and the least share of a record in which it is."""
 TRIES = 24
 """Places over a window at which its end is tried."""
 
@@ -69,6 +71,21 @@ def clear_stretch(request: Request) -> slice | None:
         near = x.size - (last * half + 2 * half + 1)
         end = x.size - smooth_from(x[::-1], rate, guide[::-1], shape, half=half, near=max(0, near), typical=typical)
     return slice(begin, end) if end - begin > 2 * half else None
+
+
+def followed_stretch(request: Request) -> slice | None:
+    """The longest run of samples in which the search band's guide changes by at most TURN a cycle.
+
+    None where that is all of them, or hardly any: of a chirp that runs away, the part that a model can follow.
+    """
+    guide, rate = request.signal.search.guide, request.signal.rate
+    change = np.abs(np.gradient(np.log(guide))) * rate * TWO_PI / guide
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], change <= TURN, [False]]).astype(int)))
+    if not edges.size:
+        return None
+    longest = int(np.argmax(edges[1::2] - edges[::2]))
+    begin, end = int(edges[2 * longest]), int(edges[2 * longest + 1])
+    return slice(begin, end) if FOLLOWED * guide.size <= end - begin < guide.size else None
 
 
 def smooth_from(x: Array, rate: float, guide: Array, shape: Shape, *, half: int, near: int, typical: float) -> int:

@@ -13,7 +13,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.arrays import Mask
 from ridgeback.numeric.estimators.auto import for_auto, for_least_squares
-from ridgeback.numeric.estimators.clear_stretch import clear_stretch
+from ridgeback.numeric.estimators.clear_stretch import clear_stretch, followed_stretch
 from ridgeback.numeric.estimators.global_harmonics import by_harmonic_splines, with_spline_interval
 from ridgeback.numeric.estimators.higher_harmonics import harmonic_with_interval, locked_track
 from ridgeback.numeric.estimators.memory import check_memory, without_room
@@ -270,7 +270,7 @@ def estimation(
         raise (error if noise.found else InputError(f"{noise.reason}; {name}: {error}")) from None
     progress(0.5, f"bias and interval of {name}")
     track = known_well(without_bias(with_bias(found, ESTIMATORS[name], request), remove_bias))
-    track = replace(track, used=replace(track.used, span=span_of(request, samples)))
+    track = replace(track, used=replace(track.used, span=span_of(request, samples), span_why=request.signal.span_why))
     progress(1.0, "done")
     if harmonic > 1:
         track = of_harmonic(harmonic, request, track.held_against(noise).of_oscillation(), remove_bias)
@@ -286,11 +286,31 @@ def without_bias_of(request: Request) -> Request:
 def in_its_stretch(request: Request, samples: Samples) -> Request:
     """The request for the samples whose amplitude stands above the noise."""
     stretch = clear_stretch(request)
-    if stretch is None:
+    if stretch is not None:
+        return part_of(request, samples, stretch, "the amplitude stands above the noise")
+    if not request.options.bias or has_model(request):
         return request
+    followed = followed_stretch(request)
+    if followed is None:
+        return request
+    part = part_of(request, samples, followed, "the frequency changes slowly enough to be followed")
+    return part if has_model(part) else request
+
+
+def has_model(request: Request) -> bool:
+    """Whether a model of all of the samples settles."""
+    try:
+        return request.models is not None
+    except InputError:
+        return False
+
+
+def part_of(request: Request, samples: Samples, stretch: slice, why: str) -> Request:
+    """The request for some of the samples, and the reason that they are those."""
     first = samples.start + stretch.start / samples.rate
     wrong = None if samples.wrong is None else samples.wrong[stretch]
-    return prepared(replace(samples, x=samples.x[stretch], start=first, wrong=wrong), request.options)
+    part = prepared(replace(samples, x=samples.x[stretch], start=first, wrong=wrong), request.options)
+    return replace(part, signal=replace(part.signal, span_why=why))
 
 
 def with_motion_of(request: Request, samples: Samples) -> Samples:

@@ -53,6 +53,8 @@ class Choices:
     span : (float, float), optional
         First and last time of the stretch in which the amplitude stands above the noise, where that is not all of the
         record: the track is of that stretch.
+    span_why : str
+        What holds in that stretch and not beside it.
     tones : tuple of Tone
         What was found beside the oscillation and taken off.
     spikes : int
@@ -83,6 +85,7 @@ class Choices:
     one_sided_borders: bool = False
     decimated_by: int = 1
     span: tuple[float, float] | None = None
+    span_why: str = ""
     tones: tuple[Tone, ...] = ()
     spikes: int = 0
     doubt: str = ""

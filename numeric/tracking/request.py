@@ -88,6 +88,8 @@ class Signal:
     tones: tuple[Tone, ...] = ()
     """What was found beside the oscillation and is off the samples."""
     spikes: int = 0
+    span_why: str = ""
+    """What holds of these samples and not of the rest of the record."""
     doubt: str = ""
     """Why no model of the samples can be trusted, if so."""
 
