@@ -20,6 +20,7 @@ from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.backbone.combined import CombinedBackbone, combine
 from ridgeback.numeric.backbone.damping import growth_columns
 from ridgeback.numeric.backbone.half_cycles import HalfCycles, half_cycles
+from ridgeback.numeric.components.tones import Tone
 from ridgeback.numeric.estimators.amplitude import amplitude_of, estimate_amplitude
 from ridgeback.numeric.estimators.estimate import Estimation, estimation
 from ridgeback.numeric.harmonics.signal_model import SignalModels
@@ -27,6 +28,8 @@ from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.signal.decimation import Samples, every, every_flag
 from ridgeback.numeric.tracking.track import NORMAL_95, AmplitudeTrack, Track
 
+STEADY = 0.05
+"""Relative change of the amplitude over a record of a tone that is called steady."""
 COMBINE = ("runs", "all", "none")
 Row = dict[str, float | bool]
 
@@ -220,7 +223,7 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
     except InputError as error:
         reason = str(error) if track.presence is None or track.presence.found else track.presence.reason
         return Measurement(recording, track, None, (*told, f"No amplitude: {reason}."))
-    return Measurement(recording, track, curve, (*told, *curve.notes))
+    return Measurement(recording, track, curve, (*hum_notes(curve), *told, *curve.notes))
 
 
 def beside_notes(track: Track) -> tuple[str, ...]:
@@ -233,6 +236,16 @@ def beside_notes(track: Track) -> tuple[str, ...]:
         what = "sample lies" if track.used.spikes == 1 else "samples lie"
         notes.append(f"{track.used.spikes} {what} far outside the noise (spikes); they enter no fit.")
     return tuple(notes)
+
+
+def hum_notes(curve: Backbone) -> tuple[str, ...]:
+    """That the oscillation is no decay but mains hum: of constant amplitude, at a multiple of 50 or 60 Hz."""
+    a = curve.amplitude
+    steady = float(np.ptp(a)) < STEADY * float(a.max())
+    tone = Tone(float(np.median(curve.omega)), 0.0, complex(float(a.max())))
+    if not (steady and tone.mains):
+        return ()
+    return (f"The strongest component is no decay: {tone.said()}; give a --band round the oscillation that you mean.",)
 
 
 def models_of(found: Estimation, *, claimed: bool = True) -> SignalModels | None:

@@ -49,6 +49,8 @@ TAILS = tuple(unit for unit in SECONDS if unit.isascii())
 HEADS = ("t", "time", "times", "zeit", "elapsed")
 BRACKETED = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]\s*")
 AFTER_A_SLASH = re.compile(r"(.*\S)\s+/\s*(\S+)\s*")
+DEGREES = ("deg", "degs", "degree", "degrees", "°", "grad")
+"""Units of angles of which 360 are a turn."""
 ALL = "all"
 SHOWN = 12
 """Column names that a message lists."""

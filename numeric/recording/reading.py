@@ -21,6 +21,7 @@ def read_recording(
     fill: float | None = None,
     detrend: str = "none",
     span: tuple[float, float] | None = None,
+    unit: str = "",
 ) -> Recording:
     r"""Read one signal from a CSV (.csv, .txt, .tsv, .dat), NPZ, NPY, WAV, MAT or HDF5 (.h5, .hdf5) file.
 
@@ -45,6 +46,8 @@ def read_recording(
         ``"none"``, ``"linear"`` or ``"slow"``.
     span : (float, float), optional
         First and last time to keep, such as the free decay after a release.
+    unit : str, optional
+        Of the samples, in place of the one in the header; angles in degrees are converted to radians.
 
     Returns
     -------
@@ -77,6 +80,7 @@ def read_recording(
         fill=fill,
         detrend=detrend,
         span=span,
+        unit=unit,
     )
     return longest_of(found)
 
@@ -92,6 +96,7 @@ def read_recordings(
     fill: float | None = None,
     detrend: str = "none",
     span: tuple[float, float] | None = None,
+    unit: str = "",
 ) -> tuple[Recording, ...]:
     """Read every stretch of every channel of every run: of several files, or by the values of a ``run_column``.
 
@@ -117,6 +122,8 @@ def read_recordings(
         ``"none"``, ``"linear"`` or ``"slow"``.
     span : (float, float), optional
         First and last time to keep, such as the free decay after a release.
+    unit : str, optional
+        Of the samples, in place of the one in the header; angles in degrees are converted to radians.
 
     Returns
     -------
@@ -139,7 +146,7 @@ def read_recordings(
     >>> [(recording.name, recording.stretch, recording.values.size) for recording in found]
     [('u', 0, 50), ('w', 1, 20), ('w', 2, 29)]
     """
-    treatment = Treatment(resample, fill, detrend, span)
+    treatment = Treatment(resample, fill, detrend, span, unit)
     files = [paths] if isinstance(paths, str | Path) else paths
     names = [Path(path).name for path in files]
     found: list[Recording] = []

@@ -16,6 +16,7 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask, frozen, frozen_mask
 from ridgeback.numeric.files.column_choice import (
+    DEGREES,
     is_time,
     name_and_units,
     signal_indices,
@@ -252,7 +253,8 @@ def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> l
     columns = signal.columns
     header = columns.names[signal.index]
     name, units = name_and_units(header)
-    values = columns.values(signal.index)
+    units = treatment.unit or units or columns.units
+    values, units, turned = in_radians(columns.values(signal.index), units)
     time, note = stamps(signal, values.size, rate)
     names = (header if signal.clock is None else columns.names[signal.clock], header)
     whole = stamped(time, values[signal.rows], signal.rows, columns, names, fewest=FEWEST_SAMPLES)
@@ -263,14 +265,14 @@ def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> l
             f"{columns.source}, column {header} is constant at {samples.values[0]:g}; there is no oscillation in it"
         )
     pieces, notes = treated(samples, columns, header, treatment)
-    remarks = tuple(text for text in (columns.note, note, span_note(whole, samples), *notes) if text)
+    remarks = tuple(text for text in (columns.note, note, turned, span_note(whole, samples), *notes) if text)
     return [
         Recording(
             time=piece.samples.time,
             values=piece.values,
             rate=piece.samples.rate,
             name=name,
-            units=units or columns.units,
+            units=units,
             source=columns.source,
             sha256=signal.sha256,
             notes=(*remarks, *piece.notes),
@@ -282,6 +284,17 @@ def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> l
         )
         for number, piece in enumerate(pieces, start=1)
     ]
+
+
+def in_radians(values: Array, units: str) -> tuple[Array, str, str]:
+    """Angles in degrees as angles in radians, the unit that they have then, and a note; others as they are.
+
+    >>> in_radians(np.array([180.0]), "deg")[1:]
+    ('rad', 'angles in deg were converted to rad')
+    """
+    if units.lower() not in DEGREES:
+        return values, units, ""
+    return np.radians(values), "rad", f"angles in {units} were converted to rad"
 
 
 def span(begin: float, end: float) -> str:

@@ -63,6 +63,8 @@ class Treatment:
     fill: float | None = None
     detrend: str = "none"
     span: tuple[float, float] | None = None
+    unit: str = ""
+    """Of the samples, in place of the one that their column states."""
 
     def __post_init__(self) -> None:
         if self.span is not None and not self.span[0] < self.span[1]:

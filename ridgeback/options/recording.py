@@ -27,10 +27,17 @@ class Treatment:
     fill: float | None = None
     detrend: str = "none"
     span: tuple[float, float] | None = None
+    unit: str | None = None
 
     def given(self) -> dict[str, Any]:
         """What was asked for, by the names of the readers' arguments."""
-        said = {"resample": self.resample, "fill": self.fill, "detrend": self.detrend, "span": self.span}
+        said = {
+            "resample": self.resample,
+            "fill": self.fill,
+            "detrend": self.detrend,
+            "span": self.span,
+            "unit": self.unit,
+        }
         return {name: value for name, value in said.items() if value not in (None, "none")}
 
 
@@ -79,9 +86,10 @@ def treatment_options(command: Command) -> Command:
         fill: float | None,
         detrend: str,
         span: tuple[float, float] | None,
+        unit: str | None,
         **rest: Any,
     ) -> None:
-        command(*args, treatment=Treatment(resample, fill, detrend, span), **rest)
+        command(*args, treatment=Treatment(resample, fill, detrend, span, unit), **rest)
 
     return added(wrapped, TREATMENT_OPTIONS)
 
@@ -133,6 +141,12 @@ TREATMENT_OPTIONS = (
         default=None,
         metavar="T0,T1",
         help="Use the samples from time T0 to T1 only: the free decay, without what comes before and after.",
+    ),
+    click.option(
+        "--unit",
+        default=None,
+        metavar="UNIT",
+        help='Of the samples, in place of the header\'s; "deg" is converted to radians.',
     ),
     click.option(
         "--resample",

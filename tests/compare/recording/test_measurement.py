@@ -124,3 +124,22 @@ def test_a_long_record_is_measured_at_the_rate_of_its_decimated_track(monkeypatc
     assert curve.time.min() > 0.9
     assert np.abs(curve.amplitude / (2.0 * np.exp(-0.1 * curve.time)) - 1.0).max() < 3e-4
     assert np.abs(curve.growth_rate + 0.1).max() < 5e-3
+
+
+def test_hum_that_is_stronger_than_any_decay_is_named() -> None:
+    t = np.arange(2000) / 1000.0
+    x = np.cos(2 * np.pi * 50.0 * t + 1.0) + 0.01 * np.random.default_rng(1).normal(size=t.size)
+    assert "no decay: a steady tone at" in measure(Recording.from_arrays(x, 1000.0)).notes[0]
+    decaying = measure(Recording.from_arrays(np.exp(-0.5 * t) * x, 1000.0))
+    assert not any("no decay" in note for note in decaying.notes)
+
+
+def test_the_reason_stands_first_where_nothing_is_claimed() -> None:
+    """Two oscillations whose frequencies cross: no model of one, and none of one with tones."""
+    t = np.arange(600) / 40.0
+    x = np.cos(2 * np.pi * (3.0 * t + 0.06 * t**2)) + 0.9 * np.cos(2 * np.pi * (5.0 * t - 0.06 * t**2))
+    found = measure(Recording.from_arrays(x + 0.01 * np.random.default_rng(2).normal(size=t.size), 40.0))
+    assert found.track is not None
+    assert found.track.interval is None
+    assert found.backbone is None
+    assert found.notes[0].startswith("No ")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -9,6 +11,7 @@ from scipy.integrate import solve_ivp
 from ridgeback.common.errors import InputError
 from ridgeback.compare.recording.measurements import measure
 from ridgeback.numeric.recording.quantity import as_displacement
+from ridgeback.numeric.recording.reading import read_recording
 from ridgeback.numeric.recording.recording import Recording
 
 RATE = 25.0
@@ -46,3 +49,14 @@ def test_the_acceleration_of_a_duffing_oscillator_gives_its_backbone_and_damping
 def test_another_quantity_is_refused() -> None:
     with pytest.raises(InputError, match="'jerk' is unknown; use one of displacement, velocity, acceleration"):
         as_displacement(Recording.from_arrays(np.cos(8 * T), RATE), "jerk")
+
+
+def test_degrees_are_believed(tmp_path: Path) -> None:
+    rows = "".join(f"{t},{20 * np.cos(8 * t)}\n" for t in T)
+    (tmp_path / "stated.csv").write_text("t,angle [deg]\n" + rows)
+    (tmp_path / "bare.csv").write_text("t,angle\n" + rows)
+    stated, given = read_recording(tmp_path / "stated.csv"), read_recording(tmp_path / "bare.csv", unit="deg")
+    for found in (stated, given):
+        assert found.units == "rad"
+        assert np.abs(found.values - np.radians(20) * np.cos(8 * T)).max() < 1e-12
+        assert any("angles in deg were converted to rad" in note for note in found.notes)
