@@ -36,6 +36,8 @@ ROUNDS = 3
 """In which spikes are looked for."""
 OF_A_HARMONIC = 0.3
 """Distance from a multiple of the oscillation, in its frequency, within which a line is taken for that harmonic's."""
+MANY, CLOSE = 8, 3.0
+"""Intervals between knots and cycles in each, from which on models that still gain show no end of it."""
 NEAR = 1.45
 """Factor from the oscillation within which a line is in its band."""
 
@@ -118,7 +120,7 @@ def separated(
     omega = float(np.average(models.best.omega, weights=models.best.size**2))
     known = models.coloured(colour(left, rate, omega, models.best.basis.count))
     single = np.where(sound, filled - total(tones, time), models.best.samples())
-    return Separated(single, known, sound, tones, count, in_the_way(left, rate, models.best))
+    return Separated(single, known, sound, tones, count, in_the_way(left, rate, models.best) or unfinished(models))
 
 
 def in_the_way(left: Array, rate: float, model: SplineModel) -> str:
@@ -130,6 +132,17 @@ def in_the_way(left: Array, rate: float, model: SplineModel) -> str:
     return (
         f"another component near {line / TWO_PI:.4g} cycles per unit shares the band, and no model of both fits; "
         "give a --band or a --span in which there is one oscillation"
+    )
+
+
+def unfinished(models: SignalModels) -> str:
+    """Why models cannot be trusted that go on gaining to the finest knots; empty where they do not."""
+    best = min(models.others, key=lambda model: model.criterion)
+    if best is not models.others[-1] or best.breaks.size - 1 < MANY or best.cycles > CLOSE:
+        return ""
+    return (
+        f"models of one oscillation go on gaining down to a knot every {best.cycles:.2g} cycles, as they do with "
+        "several components or jumps; give a --band or a --span in which there is one oscillation"
     )
 
 
