@@ -226,6 +226,8 @@ def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progr
     refuse({**studied, "--target": scope.target}, "belongs to the study of a system, not to a recording")
     if not motion.choice.made and motion.choice.assignments:
         raise click.UsageError("--set needs a SYSTEM whose parameters it sets; name one, or leave it out")
+    if not motion.choice.made:
+        refuse({"--title": motion.title}, "names a SYSTEM beside the recording")
     reading = Reading(source.column, source.time_column, motion.rate, treatment=source.treatment)
     return recording_report(
         reading.one(source.file),

@@ -92,6 +92,7 @@ def test_the_papers_case_can_be_varied() -> None:
         ("report --recording run.csv --initial 1,0", ("--initial", "simulation")),
         ("report --recording run.csv --order 4", ("--order", "study")),
         ("report --recording run.csv --set k=2", ("--set", "SYSTEM")),
+        ("report --recording run.csv --title mine", ("--title", "SYSTEM")),
         ("report --set k=1 --set k=2", ("k", "twice")),
         ("report --set q=1", ("'q'", "mu")),
         ("report --initial 4,0", ("4", "3.14159")),
