@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from ridgeback.answers.atlas_table import atlas_verb
 from ridgeback.answers.estimator_table import estimator_options, estimators_verb
 from ridgeback.answers.study_file import is_study_file, study_file_verb
 from ridgeback.answers.study_tables import FORMATS as TABLES
@@ -40,6 +41,10 @@ BESIDE_AN_EXAMPLE = (
     ),
     *("orders", "amplitudes", "method", "certified", "estimators", "trials", "seed", "checkpoint", "style"),
 )
+BESIDE_AN_ATLAS = (
+    *("system", "equation", "about", "potential", "settings", "store", "workers", "scheduler", "dry", "against"),
+    *("plot", "amplitudes", "method", "certified", "estimators", "trials", "seed", "checkpoint"),
+)
 
 
 @click.command("study", cls=Verb, short_help="Error of expansions over order and amplitude.")
@@ -66,6 +71,12 @@ BESIDE_AN_EXAMPLE = (
     is_flag=True,
     help="Prove every error in ball arithmetic, and put the resummations of the series beside it.",
 )
+@click.option(
+    "--atlas",
+    is_flag=True,
+    help="Instead: where the series of every oscillator of the catalogue converges, what stops it, and its proved "
+    "errors inside.",
+)
 @estimator_options
 @format_option("text", "json", "csv", "markdown", "parquet", "netcdf", "zarr", default="text")
 @output_option
@@ -78,6 +89,7 @@ def command(
     amplitudes: tuple[float, ...] | None,
     method: str | None,
     certified: bool,
+    atlas: bool,
     estimators: bool,
     trials: int | None,
     seed: int,
@@ -94,6 +106,7 @@ def command(
     ridgeback study pendulum --orders 8,16 --amplitudes 1,2,3 --certified
     ridgeback study van-der-pol --orders 4,8 --amplitudes 0.1,0.5,1 --format csv
     ridgeback study van-der-pol --orders 8,16 --amplitudes 0.5,1,2 --certified
+    ridgeback study --atlas --orders 4,8,16,32 --format markdown -o atlas.md
     ridgeback study --estimators --checkpoint estimators.json
     ridgeback study --example five-oscillators > five.toml
     ridgeback study five.toml --workers 2 --format csv -o cells.csv
@@ -113,7 +126,12 @@ def command(
         refuse_unused("a study file", "method", "seed", "equation", "about", "potential")
         study_file_verb(str(choice.system), run, style=style, output=output)
         return
-    choice, orders = with_parameters(choice, run), orders or (2, 4, 8, 16)
+    choice = with_parameters(choice, run)
+    if atlas:
+        refuse_unused("--atlas", *BESIDE_AN_ATLAS)
+        atlas_verb(orders, style=style, output=output)
+        return
+    orders = orders or (2, 4, 8, 16)
     if style in TABLES:
         raise click.UsageError(f"--format {style} belongs to a study file; ridgeback study --example paper prints one")
     if estimators:

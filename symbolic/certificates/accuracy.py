@@ -148,6 +148,7 @@ def accuracy(
     amplitudes: Sequence[Fraction],
     *,
     reference: Sequence[arb | None] | None = None,
+    resummed: bool = True,
 ) -> tuple[Accuracy, ...]:
     """Return the certified relative errors of the series and its resummations at given amplitudes.
 
@@ -161,6 +162,8 @@ def accuracy(
         Peak amplitudes, in the unit of u; of a limit cycle values of its small parameter.
     reference : sequence of arb or None, optional
         omega0 there in balls, None where there is no enclosure; by default those of ``exact_frequency``.
+    resummed : bool, optional
+        Whether the resummations are wanted beside the series.
 
     Returns
     -------
@@ -176,9 +179,10 @@ def accuracy(
     """
     exact = [_enclosed(oscillator, a) for a in amplitudes] if reference is None else reference
     pairs = list(zip(amplitudes, exact, strict=True))
+    formulas = resummations(oscillator, order) if resummed else (_series(oscillator, order),)
     return tuple(
         Accuracy(formula, tuple(_error(formula, amplitude, omega) for amplitude, omega in pairs))
-        for formula in resummations(oscillator, order)
+        for formula in formulas
     )
 
 

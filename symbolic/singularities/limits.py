@@ -28,6 +28,7 @@ from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.singularities.darboux import Estimate, Point, nearest_singularities
 from ridgeback.symbolic.singularities.dlog_pade import dlog_singularities
+from ridgeback.symbolic.singularities.zeros import zero_inside
 
 Series: TypeAlias = Expansion | BallExpansion
 
@@ -131,12 +132,23 @@ class Limits:
             return "omega0 is constant through this order: no limit shows."
         if self.radius is None or self.uncertainty is None:
             return f"The range of convergence is not known: {self.why}."
-        first = self.singularities[0]
         return (
-            f"The series converges for |{self.variable}| < {_with_error(self.radius, self.uncertainty)} (estimated: "
-            f"{first.kind} of the {first.of} at {self._place(first)}); truncated at order {self.order} it errs by less "
-            f"than about {100 * TOLERANCE:g} % up to {self.variable} = {self.range_of_use:.3g} or further."
+            f"The series converges for |{self.variable}| < {self.circle} (estimated: {self.nearest}); truncated at "
+            f"order {self.order} it errs by less than about {100 * TOLERANCE:g} % up to {self.variable} = "
+            f"{self.range_of_use:.3g} or further."
         )
+
+    @property
+    def circle(self) -> str:
+        """The radius with its uncertainty, as text; empty where it is not known."""
+        unknown = self.radius is None or self.uncertainty is None
+        return "" if unknown else _with_error(self.radius or 0.0, self.uncertainty or 0.0)
+
+    @property
+    def nearest(self) -> str:
+        """The singularity that sets the radius: what it is, of which function, and where; empty where none is known."""
+        first = next(iter(self.singularities), None)
+        return "" if first is None else f"{first.kind} of the {first.of} at {self._place(first)}"
 
     def _place(self, s: Singularity) -> str:
         x = self.variable if self.step == 1 else f"{self.variable}{_POWERS.get(self.step, f'^{self.step}')}"
@@ -182,12 +194,12 @@ def limits(expansion: Series, *, longer: Series | None = None) -> Limits:
         found = _chosen(expansion, series)
     if found is None:
         return _unknown(expansion, f"{len(series)} coefficients do not settle the nearest singularity; raise the order")
-    of, estimate = found
+    of, estimate, method = found
     if not all(_SMALLEST < abs(point.place) < 1 / arb(_SMALLEST) for point in estimate.points):
         return _unknown(expansion, "the nearest singularity is beyond the range of floats; scale the unknown")
     exact = isinstance(longer or expansion, Expansion)
     second = dlog_singularities(_function(series, of), estimate) if exact else None
-    singularities = _singularities(estimate, of, f"recurrence of {len(estimate.points) + 1} terms")
+    singularities = _singularities(estimate, of, method)
     radius = singularities[0].modulus ** (1 / step) * float(unit)
     return Limits(
         variable=expansion.variable,
@@ -198,7 +210,7 @@ def limits(expansion: Series, *, longer: Series | None = None) -> Limits:
         singularities=singularities,
         second_route=() if second is None else _singularities(second, of, "D-log Pade"),
         range_of_use=radius * _usable(series[: expansion.order // step + 1], singularities[0].modulus) ** (1 / step),
-        why=f"the last of {len(series)} coefficients of the {of}, {estimate.degree} powers of 1/n",
+        why=f"{len(series)} coefficients of the {of}, {method}",
     )
 
 
@@ -280,20 +292,36 @@ def _function(series: list[Any], of: str) -> list[Any]:
     return series if of == "frequency" else truncated.reciprocal(series)
 
 
-def _chosen(expansion: Series, series: list[Any]) -> tuple[str, Estimate] | None:
+Found: TypeAlias = tuple[str, Estimate, str]
+"""The function that is singular, the estimate, and its method."""
+
+
+def _chosen(expansion: Series, series: list[Any]) -> Found | None:
     """The function whose singularities are plain, by the rule above, with its estimate."""
     factor = _LOGARITHMS if expansion.variable == "A" and expansion.amplitude not in ("peak", "trough") else 1
     period, frequency = (_settled(_function(series, of), factor) for of in ("period", "frequency"))
-    found = []
+    found: list[Found] = []
     if period is not None and not _has_pole(period):
-        found.append(("period", period))
+        found.append(("period", period, _method(period)))
+        vanishes = _vanishing(series, period, factor) if expansion.variable == "A" else None
+        found += [("frequency", vanishes, "zero of the truncated period")] if vanishes is not None else []
     if frequency is not None and not (_has_pole(frequency) and expansion.variable != "A"):
         plain = expansion.variable != "A" or _has_pole(frequency) or (period is not None and _has_pole(period))
-        found += [("frequency", frequency)] if plain else []
+        found += [("frequency", frequency, _method(frequency))] if plain else []
     return min(found, key=_preference(expansion), default=None)
 
 
-def _preference(expansion: Series) -> Callable[[tuple[str, Estimate]], float]:
+def _method(estimate: Estimate) -> str:
+    return f"recurrence of {len(estimate.points) + 1} terms, {estimate.degree} powers of 1/n"
+
+
+def _vanishing(series: list[Any], period: Estimate, factor: int) -> Estimate | None:
+    """A zero of the period before it is singular."""
+    zero = zero_inside(_function(series, "period"), abs(period.points[0].place))
+    return None if zero is None else replace(zero, place_error=factor * zero.place_error)
+
+
+def _preference(expansion: Series) -> Callable[[Found], float]:
     """Nearest first for amplitudes, where the two functions differ; least uncertain first for limit cycles."""
     if expansion.variable == "A":
         return lambda found: float(abs(found[1].points[0].place))
