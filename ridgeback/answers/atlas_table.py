@@ -20,7 +20,7 @@ frequency in the peak amplitude A (of a limit cycle in eps), the place and the k
 relative error of the series, truncated after the order that heads the column, at half and at nine tenths of the radius.
 Radii and places are estimated from the last of 48 to 96 coefficients, with the uncertainty that neighbouring estimates
 show; where none is printed it is below the last digit. Errors are proved: the series is held against an enclosure of
-the exact frequency in ball arithmetic, by the energy, by validated integration, or, of limit cycles, by interval Newton.
+the exact frequency in ball arithmetic, by the energy, by validated integration, or by interval Newton (limit cycles).
 Made by `ridgeback study --atlas --orders {orders} --format markdown`.
 """
 
