@@ -31,6 +31,8 @@ FIRST_BITS: Final = 128
 FIRST_WIDTH: Final = 60
 """The first neighbourhood is 2**-60 of the peak."""
 GUARD_BITS: Final = 32
+MOST_BITS: Final = 1500
+"""Precision beyond which a proof is given up: the tube about the motion grows too much."""
 PASSAGES: Final = 7
 """Passages at most before a proof is given up."""
 BITS_PER_DEGREE: Final = 2.1
@@ -135,6 +137,8 @@ def enclose_cycle(force: sympy.Expr, guess: float, *, unit: float, bits: int = 1
     attempt = _Attempt(arb(guess), arb(guess) * arb(2) ** -FIRST_WIDTH, FIRST_BITS)
     turns, why = turns_of(force), "the motion cannot be followed through a cycle"
     for _ in range(PASSAGES):
+        if attempt.working > MOST_BITS:
+            break
         with ctx.workprec(attempt.working):
             try:
                 found = _newton(force, unit, attempt, turns)
@@ -147,7 +151,10 @@ def enclose_cycle(force: sympy.Expr, guess: float, *, unit: float, bits: int = 1
                     return cycle
             why = "the slope of the return map is not told from 1" if found.slope.overlaps(arb(1)) else "no inclusion"
             attempt = _next(found, bits)
-    raise InputError(f"no proof of a limit cycle with its peak near {guess:.9g} in {PASSAGES} passages: {why}")
+    raise InputError(
+        f"no proof of a limit cycle with its peak near {guess:.9g} in {PASSAGES} passages of at most {MOST_BITS} bits: "
+        f"{why}"
+    )
 
 
 def _newton(force: sympy.Expr, unit: float, attempt: _Attempt, turns: int) -> _Newton:

@@ -16,7 +16,7 @@ from flint import arb, arb_poly
 
 from ridgeback.common.recurrences import Input
 from ridgeback.symbolic.cycles.field import BALLS, Field
-from ridgeback.symbolic.cycles.taylor_step import Step, disc, over, step_from, within
+from ridgeback.symbolic.cycles.taylor_step import Step, changed, disc, over, step_from, within
 from ridgeback.symbolic.enclosure.walk import UndecidedError
 
 MOST_STEPS: Final = 4000
@@ -29,10 +29,11 @@ NEWTON_STEPS: Final = 40
 
 @dataclass(frozen=True)
 class Tube:
-    """Every motion that starts within e of the middle one stays within grown * e + added of it."""
+    """Every motion that starts within e of the middle one stays within grown * e + added, u' weighed in ``unit``."""
 
     grown: arb
     added: arb
+    unit: arb
 
     def radius(self, width: arb) -> arb:
         """The distance for a width of the start, from above."""
@@ -40,11 +41,12 @@ class Tube:
 
     def after(self, step: Step) -> Tube:
         """The tube throughout a step."""
-        return Tube((self.grown * step.factor).upper(), (self.added * step.factor + step.added).upper())
+        factor = step.factor * changed(self.unit, step.unit)
+        return Tube((self.grown * factor).upper(), (self.added * factor + step.added).upper(), step.unit)
 
-    def rounded(self, u: arb, v: arb, unit: arb) -> Tube:
+    def rounded(self, u: arb, v: arb) -> Tube:
         """The tube about the middle of a state known in balls."""
-        return Tube(self.grown, (self.added + u.rad() + v.rad() / unit).upper())
+        return Tube(self.grown, (self.added + u.rad() + v.rad() / self.unit).upper(), self.unit)
 
 
 @dataclass(frozen=True)
@@ -74,13 +76,13 @@ class Turn:
     def between(self, width: arb) -> tuple[arb, arb]:
         """Times in the step between which u' changes its sign, once, for all motions of a width."""
         error = self.tube.radius(width)
-        pull = abs(self.field.value(*box(self.step, self.place, self.place, error, self.field.unit)))
+        pull = abs(self.field.value(*box(self.step, self.place, self.place, error, self.step.unit)))
         if not pull > 0:
             raise UndecidedError
-        reach = (2 * (error * self.field.unit + abs(self.step.v(self.place))) / pull).upper()
+        reach = (2 * (error * self.step.unit + abs(self.step.v(self.place))) / pull).upper()
         low, high = (self.place - reach).lower(), (self.place + reach).upper()
-        ends = [sign(self.step.v(t) + arb(0, error * self.field.unit)) for t in (low, high)]
-        turning = sign(-self.field.value(*box(self.step, low, high, error, self.field.unit)))
+        ends = [sign(self.step.v(t) + arb(0, error * self.step.unit)) for t in (low, high)]
+        turning = sign(-self.field.value(*box(self.step, low, high, error, self.step.unit)))
         if low < 0 or high > self.step.length or 0 in ends or ends != [-turning, turning]:
             raise UndecidedError
         return low, high
@@ -88,7 +90,7 @@ class Turn:
     def at(self, width: arb) -> tuple[arb, arb]:
         """Balls of the time and of u for all motions that start within ``width`` of the middle one."""
         low, high = self.between(width)
-        u, _ = box(self.step, low, high, self.tube.radius(width), self.field.unit)
+        u, _ = box(self.step, low, high, self.tube.radius(width), self.step.unit)
         return self.before + low.union(high), u
 
 
@@ -155,16 +157,16 @@ def passage(field: Field, peak: arb, *, width: arb, degree: int, turns: int) -> 
     ...     bool(abs(time - arb.pi()) < 1e-25), bool(abs(trough + 1) < 1e-25), found.loss.contains(0)
     (True, True, True)
     """
-    u, v, time, loss, tube = peak, arb(0), arb(0), arb(0), Tube(arb(1), arb(0))
+    u, v, time, loss, tube = peak, arb(0), arb(0), arb(0), Tube(arb(1), arb(0), field.unit)
     longest = float((peak / abs(field.value(peak, v))).sqrt())  # of the first step: about one radian
     found: list[Turn] = []
     course = -1  # the sign of u'
     for number in range(MOST_STEPS):
-        step = step_from(field, u, v, degree=degree, error=tube.radius(width), longest=longest)
+        step = step_from(field, u, v, unit=tube.unit, degree=degree, error=tube.radius(width), longest=longest)
         tube = tube.after(step)
         error, end = tube.radius(width), step.length
         u, v = step.end()
-        now = sign(v + arb(0, error * field.unit))
+        now = sign(v + arb(0, (error * step.unit).upper()))
         if now == course:
             _check_course(field, step, arb(0), end, error, course, from_rest=number == 0)
         elif now == -course and number > 0:
@@ -180,7 +182,7 @@ def passage(field: Field, peak: arb, *, width: arb, degree: int, turns: int) -> 
             raise UndecidedError
         loss = loss + _loss(field, step, end, error)
         time = time + end
-        tube = tube.rounded(u, v, field.unit)
+        tube = tube.rounded(u, v)
         u, v, longest = u.mid(), v.mid(), math.inf
     raise UndecidedError
 
@@ -189,11 +191,11 @@ def _check_course(
     field: Field, step: Step, start: arb, end: arb, error: arb, course: int, *, from_rest: bool = False, depth: int = 0
 ) -> None:
     """Raise UndecidedError unless u' is proved to have one sign from start to end (but at rest at 0)."""
-    u, v = box(step, start, end, error, field.unit)
+    u, v = box(step, start, end, error, step.unit)
     if sign(v) == course:
         return
     pull = sign(-field.value(u, v))
-    slack = arb(0, (error * field.unit).upper())
+    slack = arb(0, (error * step.unit).upper())
     first = pull if from_rest else sign(step.v(start) + slack)
     if pull and first == course == sign(step.v(end) + slack):
         return
@@ -227,6 +229,6 @@ def _loss(field: Field, step: Step, end: arb, error: arb) -> arb:
     ratio = end.upper() / step.circle
     size = abs(field.complex_slope(disc(step.u, step.circle), disc(step.v, step.circle)))
     tail = size * ratio**count / (1 - ratio)
-    near = within(step.u, step.length, error), within(step.v, step.length, error * field.unit)
-    spread = error * (abs(field.curve_uv(*near)) + field.unit * abs(field.curve_vv(*near)))
+    near = within(step.u, step.length, error), within(step.v, step.length, error * step.unit)
+    spread = error * (abs(field.curve_uv(*near)) + step.unit * abs(field.curve_vv(*near)))
     return polynomial(end) + arb(0, ((tail + spread) * end).upper())

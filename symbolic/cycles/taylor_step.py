@@ -33,6 +33,10 @@ OUTER: Final = 0.65
 INNER: Final = 0.15
 """The longest step, likewise."""
 TRIES: Final = 30
+UNITS: Final = 64.0
+"""How far the unit of u' may depart from that of the field, up and down."""
+PATIENCE: Final = 8
+"""Steps within which a change of the unit must pay."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +49,8 @@ class Step:
         p and its derivative; the coefficients of p are exact.
     length : arb
         Exact.
+    unit : arb
+        s, the velocity per unit of u in which u' is weighed here.
     factor, added : arb
         A motion within e of p at the start is within factor * e + added of it throughout, in the norm
         max(|u|, |u'|/unit), provided that this is less than ``tube``.
@@ -57,6 +63,7 @@ class Step:
     u: arb_poly
     v: arb_poly
     length: arb
+    unit: arb
     factor: arb
     added: arb
     tube: arb
@@ -67,7 +74,7 @@ class Step:
         return self.u(self.length), self.v(self.length)
 
 
-def step_from(field: Field, u0: arb, v0: arb, *, degree: int, error: arb, longest: float = math.inf) -> Step:
+def step_from(field: Field, u0: arb, v0: arb, *, unit: arb, degree: int, error: arb, longest: float = math.inf) -> Step:
     """Make a step from an exact state whose neighbours within ``error`` are wanted, too.
 
     Parameters
@@ -76,6 +83,8 @@ def step_from(field: Field, u0: arb, v0: arb, *, degree: int, error: arb, longes
         The equation.
     u0, v0 : arb
         Exact.
+    unit : arb
+        Of the norm in which ``error`` is given; the step may choose another.
     degree : int
         N, of the polynomial.
     error : arb
@@ -99,7 +108,7 @@ def step_from(field: Field, u0: arb, v0: arb, *, degree: int, error: arb, longes
     >>> from ridgeback.symbolic.cycles.field import field_of
     >>> from ridgeback.symbolic.systems.oscillator import U
     >>> with ctx.workprec(80):
-    ...     step = step_from(field_of(U, arb(1)), arb(1), arb(0), degree=30, error=arb("1e-20"))
+    ...     step = step_from(field_of(U, arb(1)), arb(1), arb(0), unit=arb(1), degree=30, error=arb("1e-20"))
     ...     bool(abs(step.end()[0] - step.length.cos()) < step.added)
     True
     """
@@ -107,12 +116,35 @@ def step_from(field: Field, u0: arb, v0: arb, *, degree: int, error: arb, longes
     p = arb_poly(u)
     radius = convergence_radius(u)
     length = arb(_short(min(INNER * radius, longest)))
+    best = _best_unit(field, u0, v0, unit, float(length))
+    error = error * changed(unit, best)
     for _ in range(TRIES):
-        made = _bounded(field, p, defects, length, arb(_short(OUTER * radius)), error)
+        made = _bounded(field, p, defects, length, arb(_short(OUTER * radius)), error, best)
         if made is not None:
             return made
         length, radius = length / 2, radius * 0.75
     raise UndecidedError
+
+
+def changed(before: arb, after: arb) -> arb:
+    """By how much a distance may grow when u' is weighed in another unit.
+
+    >>> changed(arb(2), arb(1)), changed(arb(1), arb(2))
+    (2.00000000000000, 1.00000000000000)
+    """
+    return arb.max(arb(1), before / after).upper()
+
+
+def _best_unit(field: Field, u: arb, v: arb, unit: arb, length: float) -> arb:
+    """The unit with the least logarithmic norm here, s^2 + f_u' s = |f_u|, if the change pays within a few steps."""
+    pull, loss, old = (float(x.mid()) for x in (abs(field.slope_u(u, v)), field.slope_v(u, v), unit))
+    if not (math.isfinite(pull) and math.isfinite(loss)):
+        raise UndecidedError
+    best = (math.sqrt(loss * loss + 4 * pull) - loss) / 2
+    low, high = (float(field.unit.mid()) * factor for factor in (1 / UNITS, UNITS))
+    best = min(max(best, low), high)
+    gain = (max(old, pull / old - loss) - max(best, pull / best - loss)) * length * PATIENCE
+    return arb(_short(best)) if gain > math.log(max(1.0, old / best)) else unit
 
 
 def _polynomial(field: Field, u0: arb, v0: arb, degree: int) -> tuple[list[arb], list[arb]]:
@@ -157,7 +189,9 @@ def _short(x: float) -> float:
     return math.ldexp(math.floor(mantissa * 256), exponent - 8)
 
 
-def _bounded(field: Field, p: arb_poly, defects: list[arb], length: arb, circle: arb, error: arb) -> Step | None:
+def _bounded(
+    field: Field, p: arb_poly, defects: list[arb], length: arb, circle: arb, error: arb, unit: arb
+) -> Step | None:
     """The step of this length; None where f is not known to be analytic or the motion leaves the tube."""
     v = p.derivative()
     size = abs(field.complex_value(disc(p, circle), disc(v, circle)))
@@ -168,23 +202,23 @@ def _bounded(field: Field, p: arb_poly, defects: list[arb], length: arb, circle:
     defect = _size_at(defects, length) + tail
     tube = (4 * error + defect).upper()
     for _ in range(TRIES):
-        rate = _rate(field, within(p, length, tube), within(v, length, tube * field.unit))
+        rate = _rate(field, within(p, length, tube), within(v, length, tube * unit), unit)
         if not rate.is_finite():
             return None
         factor = (rate * length).exp().upper()
-        added = (defect * length / field.unit * factor).upper()
+        added = (defect * length / unit * factor).upper()
         if factor * error + added < tube:
-            return Step(p, v, length, factor, added, tube, circle)
+            return Step(p, v, length, unit, factor, added, tube, circle)
         if factor > 1e6:
             return None
         tube = (2 * (factor * error + added)).upper()
     return None
 
 
-def _rate(field: Field, u: arb, v: arb) -> arb:
+def _rate(field: Field, u: arb, v: arb, unit: arb) -> arb:
     """The logarithmic norm of the Jacobian over a box, from above."""
-    along = abs(field.slope_u(u, v)) / field.unit - field.slope_v(u, v)
-    return arb.max(along.upper(), field.unit)
+    along = abs(field.slope_u(u, v)) / unit - field.slope_v(u, v)
+    return arb.max(along.upper(), unit)
 
 
 def disc(p: arb_poly, radius: arb) -> acb:

@@ -20,7 +20,7 @@ from ridgeback.symbolic.cycles.enclose import Cycle, enclose_cycle
 from ridgeback.symbolic.cycles.field import field_of
 from ridgeback.symbolic.cycles.found import Unproved, limit_cycles
 from ridgeback.symbolic.cycles.passage import passage
-from ridgeback.symbolic.cycles.taylor_step import step_from
+from ridgeback.symbolic.cycles.taylor_step import changed, step_from
 from ridgeback.symbolic.enclosure.walk import UndecidedError
 from ridgeback.symbolic.expansion.ball_expansion import holds
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -150,19 +150,19 @@ def test_a_step_holds_the_motions_of_its_tube(start: float, speed: float, offset
     """The neighbour, integrated from its own start to much higher precision, is where the tube says."""
     force, error = U - (1 - U**2) * V, arb("1e-3")
     with ctx.workprec(100):
-        step = step_from(field_of(force, arb(1)), arb(start), arb(speed), degree=50, error=error)
+        step = step_from(field_of(force, arb(1)), arb(start), arb(speed), unit=arb(1), degree=50, error=error)
         near = (arb(start) + error * arb(offset)).mid(), (arb(speed) - error * arb(offset)).mid()
     with ctx.workprec(200):
         fine = field_of(force, arb(1))
         u, v, time = near[0], near[1], arb(0)
         while time < step.length:
-            small = step_from(fine, u, v, degree=90, error=arb(0))
+            small = step_from(fine, u, v, unit=arb(1), degree=90, error=arb(0))
             t = small.length if small.length < step.length - time else step.length - time
             u, v, time = small.u(t).mid(), small.v(t).mid(), time + t
         end = step.end()
-        reach = step.factor * error + step.added
+        reach = step.factor * error * changed(arb(1), step.unit) + step.added
         assert abs(end[0] - u) < reach
-        assert abs(end[1] - v) < reach
+        assert abs(end[1] - v) < reach * step.unit
 
 
 def test_a_passage_serves_all_smaller_widths() -> None:
