@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from ridgeback.answers.true_cycles import cycle_lines
+from ridgeback.answers.at import cycle_lines
 from ridgeback.console.tables import aligned
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ridgeback.answers.at import cycle_rows
 from ridgeback.answers.expansion_text import heading, joined, limit_rows, near, power, range_of_use
-from ridgeback.answers.true_cycles import cycle_rows
 from ridgeback.console.output import json_text
 from ridgeback.console.tables import aligned, csv_text
 from ridgeback.options.demand import Demand
