@@ -138,7 +138,8 @@ def in_the_way(left: Array, rate: float, model: SplineModel) -> str:
 def unfinished(models: SignalModels) -> str:
     """Why models cannot be trusted that go on gaining to the finest knots; empty where they do not."""
     best = min(models.others, key=lambda model: model.criterion)
-    if best is not models.others[-1] or best.breaks.size - 1 < MANY or best.cycles > CLOSE:
+    exact = best.noise < LEAST * float(best.size.max())
+    if exact or best is not models.others[-1] or best.breaks.size - 1 < MANY or best.cycles > CLOSE:
         return ""
     return (
         f"models of one oscillation go on gaining down to a knot every {best.cycles:.2g} cycles, as they do with "
