@@ -22,7 +22,15 @@ from ridgeback.symbolic.systems.losses import by_reciprocals, with_named_losses
 from ridgeback.symbolic.systems.natural_units import Normalised, in_natural_units
 from ridgeback.symbolic.systems.parameters import Parameters, Value, merged, reciprocal, symbol_of
 from ridgeback.symbolic.systems.potential import force_potential, potential_of
-from ridgeback.symbolic.systems.sides import Half, check_restores, halves, is_kinked, kink_advice, without_velocity
+from ridgeback.symbolic.systems.sides import (
+    Half,
+    check_restores,
+    halves,
+    is_kinked,
+    kink_advice,
+    no_linear_force,
+    without_velocity,
+)
 from ridgeback.symbolic.systems.structure import (
     damping_name,
     divided,
@@ -38,10 +46,6 @@ __all__ = ["Kind", "Oscillator", "U", "V", "Value", "W"]
 
 Kind: TypeAlias = Literal["conservative", "reversible", "damped", "limit-cycle"]
 """``reversible``: orbits close by a symmetry under (u, t) -> (-u, -t), without an energy."""
-
-
-class NoLinearForceError(InputError):
-    """There is no natural frequency: the frequency vanishes, or grows without bound, with the amplitude."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -321,7 +325,7 @@ class Oscillator:
         With another stiffness on each side, half a cycle takes pi/k1 and half pi/k2: k = 2 k1 k2 / (k1 + k2).
         """
         if not self.is_linear_at_rest:
-            raise NoLinearForceError(_no_linear_force(self.name))
+            raise no_linear_force(self.name)
         if not self.is_kinked:
             return positive_root(self.stiffness)
         one, other = (positive_root(side.coefficient) for side in self.halves if side is not None)
@@ -398,11 +402,3 @@ class Oscillator:
 
 def _rebuilt(cls: type[Oscillator], values: dict[str, Any]) -> Oscillator:
     return cls(**values)
-
-
-def _no_linear_force(name: str) -> str:
-    return (
-        f"{name}: there is no linear restoring force at u = 0, so the frequency is no constant at small amplitudes "
-        "(u'' + u**3 = 0 has omega proportional to A) and no natural frequency exists; derive gives the series in "
-        "powers of A, and derive --at 1 encloses it; for anything else add a linear term k**2*u"
-    )

@@ -17,6 +17,19 @@ MOST_ORDERS: Final = 16
 """A force that begins with a higher power of u than this is none."""
 
 
+class NoLinearForceError(InputError):
+    """There is no natural frequency: the frequency vanishes, or grows without bound, with the amplitude."""
+
+
+def no_linear_force(name: str) -> NoLinearForceError:
+    """What is said where a natural frequency is asked for and there is none."""
+    return NoLinearForceError(
+        f"{name}: there is no linear restoring force at u = 0, so the frequency is no constant at small amplitudes "
+        "(u'' + u**3 = 0 has omega proportional to A) and no natural frequency exists; derive gives the series in "
+        "powers of A, and derive --at 1 encloses it; for anything else add a linear term k**2*u"
+    )
+
+
 def is_kinked(force: sympy.Expr, *unknowns: sympy.Symbol) -> bool:
     """Whether abs, sign or a broken power of u or u' stands in a force.
 

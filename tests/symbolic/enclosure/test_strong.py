@@ -16,7 +16,8 @@ from ridgeback.symbolic.enclosure.enclosure import enclose, enclose_in
 from ridgeback.symbolic.enclosure.no_linear_part import strong_well
 from ridgeback.symbolic.enclosure.power_law import PowerLaw, power_law
 from ridgeback.symbolic.systems.description import from_text, read_description
-from ridgeback.symbolic.systems.oscillator import NoLinearForceError, Oscillator
+from ridgeback.symbolic.systems.oscillator import Oscillator
+from ridgeback.symbolic.systems.sides import NoLinearForceError
 
 SIZES = st.fractions(Fraction(1, 20), 20, max_denominator=60)
 
