@@ -17,20 +17,13 @@ import sympy
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.grammar.at_origin import brief, sign_at_origin, value_at_origin
 from ridgeback.symbolic.grammar.parse import Equation, U, V, W, names, parse_equation, to_sympy
+from ridgeback.symbolic.systems import sides
 from ridgeback.symbolic.systems.equation_latex import equation_latex
 from ridgeback.symbolic.systems.losses import by_reciprocals, with_named_losses
 from ridgeback.symbolic.systems.natural_units import Normalised, in_natural_units
 from ridgeback.symbolic.systems.parameters import Parameters, Value, merged, reciprocal, symbol_of
 from ridgeback.symbolic.systems.potential import force_potential, potential_of
-from ridgeback.symbolic.systems.sides import (
-    Half,
-    check_restores,
-    halves,
-    is_kinked,
-    kink_advice,
-    no_linear_force,
-    without_velocity,
-)
+from ridgeback.symbolic.systems.sides import Half
 from ridgeback.symbolic.systems.structure import (
     damping_name,
     divided,
@@ -294,7 +287,7 @@ class Oscillator:
     @cached_property
     def is_kinked(self) -> bool:
         """Whether the force has a kink at u = 0: abs, sign or a broken power of u."""
-        return is_kinked(self.substituted_force, U)
+        return sides.is_kinked(self.substituted_force, U)
 
     @cached_property
     def is_linear_at_rest(self) -> bool:
@@ -306,7 +299,7 @@ class Oscillator:
     @property
     def has_rough_losses(self) -> bool:
         """Whether energy is lost or gained beside a kink, in u or u', so that averaging is what there is."""
-        return is_kinked(self.substituted_force) and not self.is_conservative
+        return sides.is_kinked(self.substituted_force) and not self.is_conservative
 
     @property
     def by_sides(self) -> bool:
@@ -316,7 +309,7 @@ class Oscillator:
     @cached_property
     def halves(self) -> tuple[Half | None, Half | None]:
         """The restoring force f(u, 0) on each side of rest, u > 0 first, parameters inserted."""
-        return halves(without_velocity(self.substituted_force))
+        return sides.halves(sides.without_velocity(self.substituted_force))
 
     @cached_property
     def natural_frequency(self) -> sympy.Expr:
@@ -325,7 +318,7 @@ class Oscillator:
         With another stiffness on each side, half a cycle takes pi/k1 and half pi/k2: k = 2 k1 k2 / (k1 + k2).
         """
         if not self.is_linear_at_rest:
-            raise no_linear_force(self.name)
+            raise sides.no_linear_force(self.name)
         if not self.is_kinked:
             return positive_root(self.stiffness)
         one, other = (positive_root(side.coefficient) for side in self.halves if side is not None)
@@ -353,7 +346,7 @@ class Oscillator:
                 "measure the unknown from the equilibrium"
             )
         if self.by_sides:
-            check_restores(self.name, self.halves)
+            sides.check_restores(self.name, self.halves)
             return
         slope = self.force.diff(U)
         sign = sign_at_origin(slope, self.parameters)
@@ -371,8 +364,10 @@ class Oscillator:
         >>> own.normalised.force, own.normalised.damping
         (2*mu*u' + sin(u), 1/400)
         """
-        if is_kinked(self.substituted_force):
-            raise InputError(f"{self.name}: {kink_advice(self.substituted_force, conservative=self.is_conservative)}")
+        if sides.is_kinked(self.substituted_force):
+            raise InputError(
+                f"{self.name}: {sides.kink_advice(self.substituted_force, conservative=self.is_conservative)}"
+            )
         k, kept = self.natural_frequency, [name for name in (self.damping, self.small) if name]
         symbols = {name: symbol_of(name) for name in kept}
         force = self._inserted(self.force, keep=kept).subs({V: k * V, **{s: k * s for s in symbols.values()}})
