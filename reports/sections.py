@@ -8,7 +8,7 @@ import numpy as np
 
 from ridgeback.common.numbers import listing, number
 from ridgeback.compare.benchmark.results import Benchmark
-from ridgeback.compare.motion.results import DecayComparison
+from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.report.naming import short_name
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.study.results import Derivation
@@ -73,7 +73,7 @@ def _time(report: Report) -> Section | None:
     return Section("time", "Frequency in time", _time_title(found, decay), (Part("figure", in_time(found, decay)),))
 
 
-def _time_title(found: Benchmark, decay: DecayComparison) -> str:
+def _time_title(found: Benchmark, decay: MotionComparison) -> str:
     """Where along the motion the drawn contenders err most, told for those that agree."""
     drawn = along(found, decay)
     said = []

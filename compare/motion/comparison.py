@@ -22,9 +22,9 @@ from ridgeback.compare.motion.results import (
     Amplitudes,
     BudgetRow,
     Curve,
-    DecayComparison,
     Image,
     Integrator,
+    MotionComparison,
     Score,
     SignedPlane,
 )
@@ -38,14 +38,14 @@ SIGNED_TOP = 2.3
 """The same for the Wigner distribution: fundamental, ridge and the cross term with the third harmonic."""
 
 
-def compare_decay(
+def compare_motion(
     chosen: Setting | Motion,
     *,
     derived: Derived | None = None,
     orders: Iterable[int] = (*LOW_ORDERS, HIGH_ORDER),
     recipes: Sequence[Recipe] = RECIPES,
     progress: Progress = silent,
-) -> DecayComparison:
+) -> MotionComparison:
     """Hold models, expansions and estimates of omega0(t) against the cycle frequency of an integrated motion.
 
     Parameters
@@ -63,7 +63,7 @@ def compare_decay(
 
     Returns
     -------
-    DecayComparison
+    MotionComparison
         Complete; an estimate that fails is a score with its reason.
 
     Raises
@@ -80,7 +80,7 @@ def compare_decay(
     >>> from ridgeback.compare.motion.motion import setting
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> swing = setting(find("damped-pendulum"), initial=(1.0, 0.0), duration=60.0, rate=4.0)
-    >>> compare_decay(swing, orders=(2,)).scores[0].method
+    >>> compare_motion(swing, orders=(2,)).scores[0].method
     'closed-form'
     """
     wanted = sorted(set(orders))
@@ -116,7 +116,7 @@ def assemble(
     tones: Overtones,
     rows: tuple[BudgetRow, ...],
     known: KnownMotion | None,
-) -> DecayComparison:
+) -> MotionComparison:
     """Put the parts together: scores, pictures and statements are derived from them here."""
     curves = (*models, *(o.curve for o in outcomes if o.curve is not None))
     scores = _scores(motion, models, outcomes)
@@ -124,7 +124,7 @@ def assemble(
     bias = None if known is None else wigner_bias(motion, _named(curves, WIGNER), known)
     evidence = Evidence(motion, {c.name: c for c in curves}, {s.method: s for s in scores}, made, tones, bias)
     in_u, in_velocity, plane = _images(motion, curves)
-    return DecayComparison(
+    return MotionComparison(
         case=motion.setting.case(),
         time=motion.time,
         u=motion.trajectory.u,

@@ -209,7 +209,7 @@ class Reconstruction(Brief):
 
 
 @dataclass(frozen=True, repr=False)
-class DecayComparison(Brief):
+class MotionComparison(Brief):
     """Everything along one integrated trajectory."""
 
     case: Case

@@ -9,7 +9,7 @@ import numpy as np
 
 from ridgeback.common.csv_text import csv_text
 from ridgeback.compare.benchmark.results import Benchmark
-from ridgeback.compare.motion.results import BudgetRow, Curve, DecayComparison
+from ridgeback.compare.motion.results import BudgetRow, Curve, MotionComparison
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.study.results import Study
 from ridgeback.numeric.arrays import Array
@@ -22,7 +22,7 @@ def study_table(study: Study) -> str:
     return csv_text(header, [list(row.values()) for row in rows])
 
 
-def decay_table(decay: DecayComparison) -> str:
+def decay_table(decay: MotionComparison) -> str:
     """The trajectory, its amplitude and every curve, one row per sample (rad per time unit)."""
     columns: dict[str, Sequence[object]] = {
         "time": decay.time.tolist(),
@@ -35,7 +35,7 @@ def decay_table(decay: DecayComparison) -> str:
     return _columns_table(columns | _curve_columns(decay.time, (decay.reference, *decay.curves)))
 
 
-def harmonics_table(decay: DecayComparison) -> str:
+def harmonics_table(decay: MotionComparison) -> str:
     """The tracks of the higher harmonics with their predictions, one row per sample."""
     return _columns_table({"time": decay.time.tolist(), **_curve_columns(decay.time, decay.harmonics)})
 

@@ -11,7 +11,7 @@ from ridgeback.common.numbers import number, offset, per_cent, two_digits
 from ridgeback.common.quantities import amplitude
 from ridgeback.compare.benchmark.contenders import OrderCrossing, Reference, Row, Verdict
 from ridgeback.compare.benchmark.results import Benchmark
-from ridgeback.compare.motion.results import BiasCause, DecayComparison
+from ridgeback.compare.motion.results import BiasCause, MotionComparison
 from ridgeback.compare.report.cards import best, best_of_way, duration
 from ridgeback.compare.report.naming import REMOVED, capital, estimator, short_name
 from ridgeback.compare.study.derived import Derived
@@ -90,7 +90,7 @@ def _costs(found: Benchmark) -> str:
     )
 
 
-def findings(found: Benchmark, decay: DecayComparison, derived: Derived | None, start: float) -> tuple[str, ...]:
+def findings(found: Benchmark, decay: MotionComparison, derived: Derived | None, start: float) -> tuple[str, ...]:
     """At most five sentences, those that matter most first.
 
     Parameters
@@ -109,7 +109,7 @@ def findings(found: Benchmark, decay: DecayComparison, derived: Derived | None, 
     return tuple(finding.text for finding in ranked[:MOST])
 
 
-def _about_start(decay: DecayComparison, derived: Derived | None, start: float) -> Iterator[Finding]:
+def _about_start(decay: MotionComparison, derived: Derived | None, start: float) -> Iterator[Finding]:
     if derived is None or derived.expansion.variable != "A" or derived.limits.radius is None:
         return
     radius, unit = derived.limits.radius, decay.case.unit
@@ -182,7 +182,7 @@ def _equal(found: Benchmark) -> Iterator[Finding]:
         yield Finding(2, text)
 
 
-def _about_wigner(decay: DecayComparison, found: Benchmark) -> Iterator[Finding]:
+def _about_wigner(decay: MotionComparison, found: Benchmark) -> Iterator[Finding]:
     bias = decay.wigner_bias
     if bias is None or bias.measured is None or bias.cause is BiasCause.UNNAMED:
         return

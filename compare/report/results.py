@@ -10,7 +10,7 @@ from ridgeback.common.show.brief import Brief
 from ridgeback.compare.benchmark.contenders import Way
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.identification.results import Identification
-from ridgeback.compare.motion.results import DecayComparison
+from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.noise.results import NoiseStudy
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.error_grid import ErrorGrid
@@ -74,7 +74,7 @@ class Report(ShownReport):
         Error over order and amplitude.
     ranges : tuple of Range
         Up to which amplitude each order stays within the target.
-    decay : DecayComparison, optional
+    decay : MotionComparison, optional
         One motion: expansions and estimates along it.
     recording : RecordingComparison, optional
         What was measured of a recording.
@@ -116,7 +116,7 @@ class Report(ShownReport):
     derivation: Derivation | None
     study: Study | None
     ranges: tuple[Range, ...]
-    decay: DecayComparison | None
+    decay: MotionComparison | None
     recording: RecordingComparison | None
     provenance: Provenance
     certified: Certified | None = None

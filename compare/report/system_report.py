@@ -14,12 +14,12 @@ from ridgeback.compare.benchmark.estimates import estimates
 from ridgeback.compare.benchmark.expansions import ORDERS as CONTENDING
 from ridgeback.compare.benchmark.expansions import theory
 from ridgeback.compare.benchmark.results import Benchmark
-from ridgeback.compare.motion.comparison import HIGH_ORDER, compare_decay
+from ridgeback.compare.motion.comparison import HIGH_ORDER, compare_motion
 from ridgeback.compare.motion.estimate_curves import LEAN, SHORT
 from ridgeback.compare.motion.model_curves import LOW_ORDERS
 from ridgeback.compare.motion.motion import Motion, Setting, integrate_motion, setting
 from ridgeback.compare.motion.paper_case import is_paper_case
-from ridgeback.compare.motion.results import DecayComparison
+from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.noise.truth import motion_truth
 from ridgeback.compare.report import csv_tables as tables
 from ridgeback.compare.report.cards import Known, cards
@@ -148,7 +148,7 @@ def system_report(
     with watch.stage("contenders", 0.2, 0.5) as inner:
         found = _contenders(motion, plan, derived, inner, timed=timed)
     with watch.stage("along the motion", 0.5, 0.7) as inner:
-        decay = compare_decay(
+        decay = compare_motion(
             motion, derived=derived, orders=_drawn(derived, order), recipes=LEAN if paper else SHORT, progress=inner
         )
     with watch.stage("estimators in noise", 0.7, 1.0) as inner:
@@ -266,7 +266,7 @@ def _shown_ranges(result: Study, target: float) -> tuple[Range, ...]:
     return tuple(item for level in sorted({1e-2, 1e-3, 1e-6, target}, reverse=True) for item in ranges(result, level))
 
 
-def _csv(result: Study, decay: DecayComparison, found: Benchmark) -> dict[str, str]:
+def _csv(result: Study, decay: MotionComparison, found: Benchmark) -> dict[str, str]:
     return {
         "contenders.csv": tables.contenders_table(found),
         "study.csv": tables.study_table(result),

@@ -11,7 +11,7 @@ from ridgeback.common.numbers import number, per_cent
 from ridgeback.compare.benchmark.contenders import WAYS, Row
 from ridgeback.compare.benchmark.crossings import running_rms
 from ridgeback.compare.benchmark.results import Benchmark
-from ridgeback.compare.motion.results import DecayComparison
+from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.report.naming import short_name
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.apart import apart
@@ -60,7 +60,7 @@ def chosen(found: Benchmark) -> list[Row]:
     return [*wanted, *terms[:2], *which.exact[:1], *estimates][:9]
 
 
-def along(found: Benchmark, decay: DecayComparison) -> list[Drawn]:
+def along(found: Benchmark, decay: MotionComparison) -> list[Drawn]:
     """The chosen rows with their values, dashes counted within each way."""
     reference = np.asarray(shown(decay.reference))
     middle = float(np.nanmedian(reference))
@@ -78,7 +78,7 @@ def along(found: Benchmark, decay: DecayComparison) -> list[Drawn]:
     return result
 
 
-def in_time(found: Benchmark, decay: DecayComparison) -> Figure:
+def in_time(found: Benchmark, decay: MotionComparison) -> Figure:
     """The figure."""
     drawn = along(found, decay)
     clock = Clock(decay.case.time_unit)
@@ -99,7 +99,7 @@ def in_time(found: Benchmark, decay: DecayComparison) -> Figure:
     )
 
 
-def _caption(found: Benchmark, decay: DecayComparison) -> str:
+def _caption(found: Benchmark, decay: MotionComparison) -> str:
     low, high = (number(x, 3) for x in found.support)
     span = f"{low} to {high} {decay.case.time_unit}".strip()
     return (
@@ -108,7 +108,7 @@ def _caption(found: Benchmark, decay: DecayComparison) -> str:
     )
 
 
-def _panels(decay: DecayComparison, drawn: Sequence[Drawn], clock: Clock, *, narrow: bool) -> tuple[Panel, Panel]:
+def _panels(decay: MotionComparison, drawn: Sequence[Drawn], clock: Clock, *, narrow: bool) -> tuple[Panel, Panel]:
     left, right = (56.0, 360.0) if narrow else (70.0, 730.0)
     x = Scale(float(decay.time[0]), float(decay.time[-1]), left, right)
     reference = shown(decay.reference) * clock.factor
@@ -128,7 +128,7 @@ def _panels(decay: DecayComparison, drawn: Sequence[Drawn], clock: Clock, *, nar
 
 def _draw(
     found: Benchmark,
-    decay: DecayComparison,
+    decay: MotionComparison,
     drawn: Sequence[Drawn],
     clock: Clock,
     panels: tuple[Panel, Panel],
@@ -160,7 +160,7 @@ def _within(panel: Panel, values: Array) -> Array:
 
 
 def _upper_names(
-    found: Benchmark, decay: DecayComparison, drawn: Sequence[Drawn], panel: Panel, clock: Clock
+    found: Benchmark, decay: MotionComparison, drawn: Sequence[Drawn], panel: Panel, clock: Clock
 ) -> Iterable[str]:
     """Names of the reference and of what stands clear of it; curves that coincide are named below only."""
     reference = shown(decay.reference) * clock.factor

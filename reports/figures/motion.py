@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ridgeback.common.quantities import short_amplitude
-from ridgeback.compare.motion.results import DecayComparison
+from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout
 from ridgeback.reports.drawing.marks import curve, drawing, group, line, text
 from ridgeback.reports.drawing.panel import Panel
@@ -15,12 +15,12 @@ TURNS = 12
 """Turns of the phase portrait that are drawn, at most: the first ones, and the last."""
 
 
-def unit_of(decay: DecayComparison) -> str:
+def unit_of(decay: MotionComparison) -> str:
     """The unknown with its unit, as an axis is named."""
     return f"{decay.case.symbol}, {decay.case.unit}" if decay.case.unit else decay.case.symbol
 
 
-def motion(decay: DecayComparison, *, cycle: bool) -> Figure:
+def motion(decay: MotionComparison, *, cycle: bool) -> Figure:
     """The signal with its amplitude, and the phase portrait of a limit cycle."""
     label = f"{decay.case.symbol} over time with its amplitude" + (", and its phase portrait" if cycle else "")
     wide = _panel(decay, narrow=False, cycle=cycle)
@@ -37,7 +37,7 @@ def motion(decay: DecayComparison, *, cycle: bool) -> Figure:
     )
 
 
-def _caption(decay: DecayComparison, *, cycle: bool) -> str:
+def _caption(decay: MotionComparison, *, cycle: bool) -> str:
     first, last = (short_amplitude(float(x), decay.case.unit) for x in decay.amplitudes.energy[[0, -1]])
     kind = "Amplitude by the turning points" if decay.amplitudes.averaged is None else "Amplitude by the energy"
     text_ = f"{kind}, from {first} to {last}."
@@ -57,14 +57,14 @@ def _powers(words: str) -> str:
     return f"{head} × 10⁻{raised}{tail[len(digits) :]}"
 
 
-def _panel(decay: DecayComparison, *, narrow: bool, cycle: bool) -> Panel:
+def _panel(decay: MotionComparison, *, narrow: bool, cycle: bool) -> Panel:
     right = 360.0 if narrow else (700.0 if cycle else 988.0)
     x = Scale(float(decay.time[0]), float(decay.time[-1]), 44.0, right)
     low, high = padded([decay.u, decay.amplitudes.energy], share=0.06)
     return Panel(x, Scale(low, high, 160.0 if narrow else 210.0, 24.0))
 
 
-def _draw(decay: DecayComparison, panel: Panel, label: str, *, narrow: bool, cycle: bool) -> str:
+def _draw(decay: MotionComparison, panel: Panel, label: str, *, narrow: bool, cycle: bool) -> str:
     marks = [panel.rows(most=4), panel.columns(most=4 if narrow else 8)]
     marks.append(
         text(panel.right, panel.bottom + 34, f"t, {decay.case.time_unit}" if decay.case.time_unit else "t", "m", "end")
@@ -89,7 +89,7 @@ def _draw(decay: DecayComparison, panel: Panel, label: str, *, narrow: bool, cyc
     return drawing(NARROW if narrow else WIDE, height, "narrow" if narrow else "wide", label, marks)
 
 
-def _portrait(decay: DecayComparison, panel: Panel) -> list[str]:
+def _portrait(decay: MotionComparison, panel: Panel) -> list[str]:
     middle = float(np.nanmedian(decay.reference.omega[decay.reference.valid]))
     turn = max(2, round(2 * np.pi / middle * decay.case.rate))
     early = slice(0, min(TURNS * turn, decay.u.size))

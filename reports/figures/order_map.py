@@ -8,7 +8,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from ridgeback.common.numbers import number, per_cent, threshold
-from ridgeback.compare.motion.results import DecayComparison
+from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.report.error_grid import ErrorGrid
 from ridgeback.compare.study.results import Range, Study
 from ridgeback.numeric.arrays import Array
@@ -28,7 +28,7 @@ def letter(study: Study) -> str:
     return "A" if study.variable == "A" else "ε"
 
 
-def order_map(study: Study, grid: ErrorGrid, finding: Range, decay: DecayComparison | None) -> Figure:
+def order_map(study: Study, grid: ErrorGrid, finding: Range, decay: MotionComparison | None) -> Figure:
     """The figure with the place of the sliders marked."""
     clock = Clock("" if decay is None else decay.case.time_unit)
     label = "Backbone above; relative error over order and amplitude in six bands below"
@@ -98,7 +98,7 @@ def _draw(
     study: Study,
     grid: ErrorGrid,
     start: tuple[int, int],
-    decay: DecayComparison | None,
+    decay: MotionComparison | None,
     spots: tuple[Panel, Panel],
     label: str,
     *,
@@ -174,7 +174,7 @@ def _ticks(study: Study, panel: Panel, *, narrow: bool) -> Iterable[tuple[float,
     return list(zip(values, tick_labels(values), strict=True))
 
 
-def _motion(study: Study, decay: DecayComparison | None, panel: Panel) -> Iterable[str]:
+def _motion(study: Study, decay: MotionComparison | None, panel: Panel) -> Iterable[str]:
     """The amplitudes that the motion passes, or its own eps."""
     if decay is None:
         return

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ridgeback.common.numbers import decibels, minus, number
-from ridgeback.compare.motion.results import Curve, DecayComparison, Image, SignedPlane
+from ridgeback.compare.motion.results import Curve, Image, MotionComparison, SignedPlane
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.figure import Figure
 from ridgeback.reports.drawing.marks import curve, drawing, group, line, places, rect, text, trace
@@ -24,7 +24,7 @@ MOST = 7
 """Highest multiple of the fundamental that is marked."""
 
 
-def planes(decay: DecayComparison) -> Figure:
+def planes(decay: MotionComparison) -> Figure:
     """Spectrogram and Wigner distribution of the motion, side by side."""
     clock = Clock(decay.case.time_unit)
     span = (float(decay.time[0]), float(decay.time[-1]))
@@ -41,7 +41,7 @@ def planes(decay: DecayComparison) -> Figure:
     )
 
 
-def _strong(decay: DecayComparison) -> list[int]:
+def _strong(decay: MotionComparison) -> list[int]:
     """Multiples of the fundamental that are ridges of the spectrogram: leakage of a stronger one falls off sideways."""
     image = decay.spectrogram_u
     known = decay.reference.valid & np.isfinite(decay.reference.omega)
@@ -64,7 +64,7 @@ def _nearest(axis: Array, values: Array) -> NDArray[np.intp]:
     return np.asarray(np.abs(axis[:, None] - values[None, :]).argmin(axis=0))
 
 
-def _caption(decay: DecayComparison, strong: Sequence[int]) -> str:
+def _caption(decay: MotionComparison, strong: Sequence[int]) -> str:
     listed = ", ".join(f"{m} ω₀" for m in strong if m > 1)
     first = f"Left: {decay.spectrogram_u.note.split('.  ')[0]}; thin lines are multiples of the reference"
     first += f", {listed} standing out." if listed else "; no harmonic stands out."
@@ -75,7 +75,7 @@ def _caption(decay: DecayComparison, strong: Sequence[int]) -> str:
     )
 
 
-def _bias(decay: DecayComparison) -> str:
+def _bias(decay: MotionComparison) -> str:
     bias = decay.wigner_bias
     if bias is None or bias.measured is None or abs(bias.measured) < 1e-4:
         return ""

@@ -25,10 +25,10 @@ from ridgeback.compare.motion.results import (
     BudgetRow,
     Case,
     Curve,
-    DecayComparison,
     Image,
     Integrator,
     Kind,
+    MotionComparison,
     Reconstruction,
     Score,
     SignedPlane,
@@ -231,7 +231,7 @@ def make_case() -> Case:
     )
 
 
-def make_decay() -> DecayComparison:
+def make_decay() -> MotionComparison:
     time, u, velocity = _run()
     peak = _peak(time)
     omega = K * exact(peak)
@@ -240,7 +240,7 @@ def make_decay() -> DecayComparison:
     turning = np.flatnonzero(np.diff(np.sign(velocity)) != 0)
     energy = peak * (1 + _ripple(time, omega) / 3)
     single = peak * np.cos(np.cumsum(omega) / RATE)
-    return DecayComparison(
+    return MotionComparison(
         case=make_case(),
         time=time,
         u=u,
@@ -320,7 +320,7 @@ def make_recording() -> RecordingComparison:
     )
 
 
-def make_benchmark(decay: DecayComparison) -> Benchmark:
+def make_benchmark(decay: MotionComparison) -> Benchmark:
     """Expansions by order, a series by terms, estimates raw and corrected, and one that was refused."""
     time, reference = decay.time, decay.reference.omega
     made: list[tuple[Row, Array]] = []

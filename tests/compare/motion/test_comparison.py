@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.motion.comparison import compare_decay
+from ridgeback.compare.motion.comparison import compare_motion
 from ridgeback.compare.motion.motion import integrate_motion, setting
 from ridgeback.compare.motion.paper_case import paper_case
 from ridgeback.compare.motion.reconstruction import known_motion
@@ -15,7 +15,7 @@ from ridgeback.symbolic.systems.catalogue import find
 @pytest.fixture(scope="module")
 def paper():
     labels = []
-    result = compare_decay(paper_case(), progress=lambda fraction, label: labels.append((fraction, label)))
+    result = compare_motion(paper_case(), progress=lambda fraction, label: labels.append((fraction, label)))
     fractions = [fraction for fraction, _ in labels]
     assert fractions == sorted(fractions)
     assert all(0 <= fraction <= 1 for fraction in fractions)
@@ -151,7 +151,7 @@ def test_the_wigner_plane_keeps_its_sign_and_peaks_at_the_fundamental(paper):
 
 def test_multiple_scales_follows_a_small_decay():
     chosen = setting(find("damped-pendulum"), initial=(0.8, 0.0), duration=80.0, rate=4.0)
-    result = compare_decay(chosen, orders=(2, 8))
+    result = compare_motion(chosen, orders=(2, 8))
     scores = {score.method: score for score in result.scores}
     assert scores["multiple-scales-8"].rms_interior < 5e-6  # the fundamental amplitude needs no energy: no ripple
     assert scores["lindstedt-8"].rms_interior < 1e-3
@@ -159,7 +159,7 @@ def test_multiple_scales_follows_a_small_decay():
 
 def test_a_limit_cycle_is_followed_into_its_orbit():
     chosen = setting(find("van-der-pol").with_parameters({"eps": "0.3"}), initial=(0.3, 0.0), duration=120.0, rate=4.0)
-    result = compare_decay(chosen, orders=(2, 12))
+    result = compare_motion(chosen, orders=(2, 12))
     assert result.amplitudes.averaged is None
     assert result.amplitudes.energy[-1] == pytest.approx(2.0, abs=0.01)
     late = result.time > 100
@@ -171,7 +171,7 @@ def test_a_limit_cycle_is_followed_into_its_orbit():
 
 def test_an_asymmetric_well_has_an_offset_and_even_harmonics():
     chosen = setting(find("damped-helmholtz-duffing"), initial=(0.3, 0.0), duration=100.0, rate=5.0)
-    result = compare_decay(chosen, orders=(2, 4))
+    result = compare_motion(chosen, orders=(2, 4))
     assert "harmonic-2" in {curve.name for curve in result.harmonics}
     assert "mean offset" in result.statements[1].measured
     scores = {score.method: score for score in result.scores}
@@ -181,7 +181,7 @@ def test_an_asymmetric_well_has_an_offset_and_even_harmonics():
 
 def test_an_estimate_that_fails_is_kept_with_its_reason():
     chosen = setting(find("damped-pendulum"), initial=(1.0, 0.0), duration=34.0, rate=2.0)
-    result = compare_decay(chosen, orders=(2,))
+    result = compare_motion(chosen, orders=(2,))
     failed = [score for score in result.scores if score.failed]
     assert all(score.rms_interior is None for score in failed)
     assert len(result.scores) >= 14
