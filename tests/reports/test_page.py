@@ -257,7 +257,7 @@ def test_a_recording_shows_tracks_backbone_damping_and_fit(recording_page: str) 
     ids = [figure.attributes["id"] for figure in root.all("figure")]
     drawn = [name.removeprefix("recording-") for name in ids if name.startswith("recording-")]
     assert drawn == ["backbone", "signal", "plane", "tracks"]
-    assert len(root.all("math")) == 3
+    assert len(root.all("math")) == 5
 
 
 def _cells(root: Element, table: str) -> list[list[str]]:
