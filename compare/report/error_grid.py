@@ -15,6 +15,7 @@ from fractions import Fraction
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.show.brief import Brief
 from ridgeback.compare.binding.generated_code import python_module
 from ridgeback.compare.study.derived import Derived
 from ridgeback.compare.study.results import Study
@@ -26,8 +27,8 @@ PAIRS = ((0.02, 0.04), (0.16, 0.32))
 """Pairs of amplitudes between which the power of the error is read, as shares of the radius or of the largest one."""
 
 
-@dataclass(frozen=True)
-class ErrorGrid:
+@dataclass(frozen=True, repr=False)
+class ErrorGrid(Brief):
     """omega0 by generated code over order and amplitude, and its relative error against the exact one."""
 
     orders: tuple[int, ...]

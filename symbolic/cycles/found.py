@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import sympy
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Wanted, showing
 from ridgeback.symbolic.arithmetic.balls import natural_frequency
 from ridgeback.symbolic.cycles.averaged import balanced_amplitudes
 from ridgeback.symbolic.cycles.enclose import Cycle, enclose_cycle, turns_of
@@ -23,7 +24,9 @@ class Unproved:
     why: str
 
 
-def limit_cycles(oscillator: OscillatorLike, *, bits: int = 128) -> tuple[Cycle | Unproved, ...]:
+def limit_cycles(
+    oscillator: OscillatorLike, *, bits: int = 128, progress: Wanted = None
+) -> tuple[Cycle | Unproved, ...]:
     """Enclose every limit cycle about the origin that a scan of the return map finds.
 
     Parameters
@@ -32,6 +35,8 @@ def limit_cycles(oscillator: OscillatorLike, *, bits: int = 128) -> tuple[Cycle 
         Any form of an oscillator with numbers for its parameters.
     bits : int, optional
         The relative radius of each frequency is at most about 2**-bits.
+    progress : bool or callable, optional
+        Called with the share that is done and the name of the step; True shows a bar.
 
     Returns
     -------
@@ -61,7 +66,12 @@ def limit_cycles(oscillator: OscillatorLike, *, bits: int = 128) -> tuple[Cycle 
         raise InputError(
             f"{own.name}: a scan of the return map found no limit cycle with a peak in {low:.3g} .. {high:.3g}"
         )
-    return tuple(_proved(ways[backwards], peak, k, bits, backwards=backwards) for peak, backwards in seen)
+    with showing(progress) as told:
+        proved = []
+        for done, (peak, backwards) in enumerate(seen):
+            told(done / len(seen), f"limit cycle near the peak {peak:.3g}")
+            proved.append(_proved(ways[backwards], peak, k, bits, backwards=backwards))
+        return tuple(proved)
 
 
 def in_time(force: sympy.Expr, *, backwards: bool) -> sympy.Expr:

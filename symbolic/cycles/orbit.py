@@ -14,6 +14,7 @@ import sympy
 from flint import arb
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, Wanted, showing, silent
 from ridgeback.symbolic.arithmetic.balls import natural_frequency, rational
 from ridgeback.symbolic.cycles.enclose import BITS_PER_DEGREE
 from ridgeback.symbolic.cycles.field import field_of
@@ -38,7 +39,12 @@ from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 
 
 def exact_frequency(
-    oscillator: OscillatorLike, amplitude: Amplitude, *, definition: str = "peak", bits: int = 128
+    oscillator: OscillatorLike,
+    amplitude: Amplitude,
+    *,
+    definition: str = "peak",
+    bits: int = 128,
+    progress: Wanted = None,
 ) -> Enclosure:
     """Enclose omega0 at an amplitude, by the energy where there is one, else by validated integration.
 
@@ -52,6 +58,8 @@ def exact_frequency(
         ``peak`` (default) or ``trough``, the size of the negative turning point.
     bits : int, optional
         The relative radius is about 2**-bits.
+    progress : bool or callable, optional
+        Called with the share that is done and the name of the step; True shows a bar.
 
     Returns
     -------
@@ -69,14 +77,20 @@ def exact_frequency(
     '0.851301158461694'
     """
     own = as_oscillator(oscillator)
-    try:
-        return enclose(own, amplitude, definition=definition, bits=bits)
-    except NoEnergyError:
-        return by_integration(own, amplitude, definition=definition, bits=bits)
+    with showing(progress) as told:
+        try:
+            return enclose(own, amplitude, definition=definition, bits=bits, progress=told)
+        except NoEnergyError:
+            return by_integration(own, amplitude, definition=definition, bits=bits, progress=told)
 
 
 def by_integration(
-    oscillator: Oscillator, amplitude: Amplitude, *, definition: str = "peak", bits: int = 128
+    oscillator: Oscillator,
+    amplitude: Amplitude,
+    *,
+    definition: str = "peak",
+    bits: int = 128,
+    progress: Progress = silent,
 ) -> Enclosure:
     """Enclose omega0 at an amplitude by validated integration, whatever energy there is; see ``exact_frequency``.
 
@@ -102,7 +116,7 @@ def by_integration(
             oscillator, force, size, unit=unit, turns=turns, bits=bits, definition=definition, working=working
         )
 
-    return decided(attempt, oscillator.name, bits + 2 * GUARD_BITS)
+    return decided(attempt, oscillator.name, bits + 2 * GUARD_BITS, progress)
 
 
 def _followed(

@@ -42,6 +42,8 @@ WORK: dict[str, Callable[..., object]] = {
     **PLANES,
     "energy_integral": lambda progress: ridgeback.energy_integral("pendulum", 8, progress=progress),
     "enclose": lambda progress: ridgeback.enclose("pendulum", 1, progress=progress),
+    "exact_frequency": lambda progress: ridgeback.exact_frequency("relativistic", 1, bits=64, progress=progress),
+    "limit_cycles": lambda progress: ridgeback.limit_cycles("van-der-pol", bits=64, progress=progress),
     "certify": lambda progress: ridgeback.certify("pendulum", SERIES, progress=progress),
     "certified_frequencies": lambda progress: ridgeback.certified_frequencies(
         "pendulum", SERIES, [Fraction(1, 2), Fraction(1)], progress=progress

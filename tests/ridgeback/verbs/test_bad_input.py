@@ -53,7 +53,7 @@ def test_an_unexpected_error_is_owned_in_one_line(
     def broken(*_: object) -> None:
         raise AssertionError("a\nb")
 
-    monkeypatch.setattr("ridgeback.symbolic.systems.catalogue.catalogue", broken)
+    monkeypatch.setattr("ridgeback.symbolic.systems.entries.every.listed", broken)
     assert main(["systems"]) == Exit.BUG
     printed = capsys.readouterr().err
     assert printed.count("\n") == 1
@@ -64,7 +64,7 @@ def test_an_interrupt_is_one_line_and_130(monkeypatch: pytest.MonkeyPatch, capsy
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("ridgeback.symbolic.systems.catalogue.catalogue", interrupted)
+    monkeypatch.setattr("ridgeback.symbolic.systems.entries.every.listed", interrupted)
     assert main(["systems"]) == 130
     assert capsys.readouterr().err == "ridgeback: interrupted; nothing was written\n"
 
