@@ -18,7 +18,7 @@ from scipy.sparse import csr_array
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.backbone.curve import MeanDeviation, Points
 from ridgeback.numeric.harmonics.signal_model import SignalModels
-from ridgeback.numeric.harmonics.spline_fit import SplineModel
+from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.tracking.uncertainty import room_of_definition
 
 LEVEL, PHASE = 0, -1

@@ -21,7 +21,8 @@ from ridgeback.numeric.components.lines import clearest_line, colour
 from ridgeback.numeric.components.spikes import spikes
 from ridgeback.numeric.components.tones import Tone, fitted_tone
 from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
-from ridgeback.numeric.harmonics.spline_fit import Known, SplineModel, akaike, fit_on
+from ridgeback.numeric.harmonics.spline_fit import Known, akaike, fit_on
+from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import strongest_frequency
 

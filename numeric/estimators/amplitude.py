@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.harmonics.spline_fit import SplineModel
+from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.decimation import checked
 from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, Request, prepared
 from ridgeback.numeric.tracking.track import AmplitudeTrack

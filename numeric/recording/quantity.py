@@ -17,7 +17,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import ComplexArray
-from ridgeback.numeric.harmonics.spline_fit import SplineModel
+from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.signal.decimation import checked
 from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, prepared

@@ -27,7 +27,7 @@ from scipy.special import stdtrit
 
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.harmonics.signal_model import SignalModels
-from ridgeback.numeric.harmonics.spline_fit import SplineModel
+from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.request import Request
 from ridgeback.numeric.tracking.track import NORMAL_95, Track

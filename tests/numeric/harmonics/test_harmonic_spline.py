@@ -13,7 +13,8 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics import spline_basis as spline_basis_module
 from ridgeback.numeric.harmonics.signal_model import signal_models
 from ridgeback.numeric.harmonics.spline_basis import DEGREE, SplineBasis, alone, normal_equations, spline_basis
-from ridgeback.numeric.harmonics.spline_fit import best_model, fit_on, harmonic_splines, weights_of
+from ridgeback.numeric.harmonics.spline_fit import best_model, fit_on, harmonic_splines
+from ridgeback.numeric.harmonics.spline_model import weights_of
 
 RATE = 32.0
 T = np.arange(641) / RATE
