@@ -70,6 +70,7 @@ BY_NAME: dict[str, frozenset[str]] = {
 OF_THE_HOUSE = frozenset({"faults", "fuzz", "kill", "mutants", "packaging"})
 """Folders of tests/ that stand for no folder of a room: what they try goes through the whole house."""
 MOST_FILES = 14
+MOST_LINES = 400
 """Files in one folder, its ``__init__`` left out."""
 
 # Where coefficients are derived: a float literal here would end exactness silently.
@@ -285,6 +286,11 @@ def test_no_folder_is_crowded() -> None:
     crowd = Counter(path.parent for path in modules().values() if path.name != "__init__.py")
     crowded = {str(folder.relative_to(ROOT)): n for folder, n in crowd.items() if n > MOST_FILES}
     assert not crowded
+
+
+def test_no_file_is_long() -> None:
+    lines = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8").count("\n") for path in modules().values()}
+    assert {file: count for file, count in lines.items() if count > MOST_LINES} == {}
 
 
 def test_every_folder_says_what_lives_there() -> None:
