@@ -67,11 +67,11 @@ def error_grid(derived: Derived, study: Study) -> ErrorGrid:
     Examples
     --------
     >>> from ridgeback.compare.study.derived import derive
-    >>> from ridgeback.compare.study.study import study_of
+    >>> from ridgeback.compare.study.study import study
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> found = derive(find("pendulum"), 8)
-    >>> grid = error_grid(found, study_of(found.undamped, (2, 8), [0.5, 1.0]))
-    >>> grid.certified, bool((abs(grid.errors) <= grid.bounds).all()), [round(p, 1) for p in grid.observed[0][2]]
+    >>> grid = error_grid(found, study(find("pendulum"), (2, 8), [0.5, 1.0]))
+    >>> grid.certified, bool((abs(grid.errors) <= grid.bounds).all()), [round(float(p), 1) for p in grid.observed[0][2]]
     (True, True, [4.0, 10.0])
     """
     parts = [derived.expansion.truncated(order) for order in study.orders]

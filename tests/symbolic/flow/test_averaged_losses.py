@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 import sympy
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -77,6 +77,7 @@ def test_analytic_losses_agree_with_multiple_scales_to_first_order(force: str) -
 
 
 @settings(deadline=None, max_examples=3)
+@example(Fraction(0), Fraction(1, 2), Fraction(1))
 @given(SMALL, SMALL, st.fractions(Fraction(1, 2), 3, max_denominator=3))
 def test_random_kinked_systems_lose_what_averaging_says(b: Fraction, s: Fraction, k2: Fraction) -> None:
     equation = (
@@ -84,7 +85,8 @@ def test_random_kinked_systems_lose_what_averaging_says(b: Fraction, s: Fraction
         f" + max(u, 0) + ({k2})*min(u, 0) + ({b})*u*abs(u) + u**3/6 = 0"
     )
     flow = averaged_losses(equation, 4)
-    assert flow.amplitude == "peak"
+    smooth = k2 == 1 and b == 0  # no kink of the force at u = 0, about which a fundamental is of use
+    assert flow.amplitude == ("fundamental" if smooth else "peak")
     values = [1 / 10] if "mu" in flow.losses else []
     found = change_in_a_cycle(equation, 0.02, 1e-6)
     assert found == pytest.approx(float(flow.growth_rate_at(0.02, *values)), rel=1e-4)
