@@ -62,8 +62,28 @@ def without_damping(oscillator: Oscillator) -> Undamped:
     'conservative'
     """
     if oscillator.has_rough_losses:
-        return Undamped(without_losses(oscillator, dissipative_names(oscillator.force)))
+        return Undamped(without_losses(oscillator, damping_names(oscillator)))
     return Undamped(undamped(oscillator))
+
+
+def damping_names(oscillator: Oscillator) -> tuple[str, ...]:
+    """The parameters that are zero in the undamped motion, in the order of the equation.
+
+    Parameters
+    ----------
+    oscillator
+        A damped oscillator.
+
+    Examples
+    --------
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> damping_names(find("damped-pendulum"))
+    ('mu',)
+    """
+    if oscillator.has_rough_losses:
+        lossy = dissipative_names(oscillator.force)
+        return tuple(name for name in oscillator.parameters if name in lossy)
+    return small_parameters(oscillator)
 
 
 @dataclass(frozen=True)

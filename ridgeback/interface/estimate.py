@@ -10,7 +10,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.binding.family import family_of
-from ridgeback.compare.recording.measurements import as_tracked, marked, samples_behind
+from ridgeback.compare.recording.measurements import as_tracked, marked, models_of, samples_behind
 from ridgeback.interface.signals import SignalLike, as_recording
 from ridgeback.interface.unused import refuse_unused
 from ridgeback.numeric.backbone import backbone as along
@@ -18,6 +18,7 @@ from ridgeback.numeric.backbone import half_cycles as cycles
 from ridgeback.numeric.backbone.curve import Backbone
 from ridgeback.numeric.backbone.half_cycles import HalfCycles
 from ridgeback.numeric.estimators import estimate as estimators
+from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.model_fit import fit
 from ridgeback.numeric.model_fit.family import Family
 from ridgeback.numeric.model_fit.fit import ModelFit
@@ -138,29 +139,51 @@ def estimate(
     """
     name = chosen(method, ESTIMATORS, "method")
     used = as_recording(x, rate, time=time, column=column, fill=fill, resample=resample, detrend=detrend, span=span)
-    model = fitted_family(name, oscillator, free, parameters)
+    return estimation_of(
+        used,
+        name,
+        progress,
+        band=band,
+        lag_seconds=lag_seconds,
+        lag_window=lag_window,
+        smoothing_seconds=smoothing_seconds,
+        harmonics=harmonics,
+        harmonic=harmonic,
+        order=order,
+        scope=scope,
+        band_limited=band_limited,
+        single=single,
+        bias=bias,
+        remove_bias=remove_bias,
+        components=components,
+        oscillator=oscillator,
+        free=free,
+        parameters=parameters,
+    ).track
+
+
+def estimation_of(
+    recording: Recording,
+    method: str,
+    progress: Wanted,
+    *,
+    oscillator: OscillatorLike | None = None,
+    free: Sequence[str] | None = None,
+    parameters: Mapping[str, Value] | None = None,
+    **settings: Any,
+) -> estimators.Estimation:
+    """The track of a recording with what led to it, in the words of :func:`estimate`."""
+    family = fitted_family(method, oscillator, free, parameters)
     with showing(progress) as told:
-        return estimators.estimate(
-            used.values,
-            used.rate,
-            method=name,
-            band=band,
-            start=float(used.time[0]),
-            lag_seconds=lag_seconds,
-            lag_window=lag_window,
-            smoothing_seconds=smoothing_seconds,
-            harmonics=harmonics,
-            harmonic=harmonic,
-            order=order,
-            scope=scope,
-            band_limited=band_limited,
-            single=single,
-            bias=bias,
-            remove_bias=remove_bias,
-            components=components,
-            wrong=used.clipped if used.clipped.any() else None,
-            family=model,
+        return estimators.estimation(
+            recording.values,
+            recording.rate,
+            method=method,
+            start=float(recording.time[0]),
+            wrong=marked(recording),
+            family=family,
             progress=told,
+            **settings,
         )
 
 
@@ -348,13 +371,18 @@ def backbone(
     if name == "half-cycles":
         refuse_unused("method 'half-cycles'", window_seconds=window_seconds)
         return replace(half_cycles(used, progress=progress, **settings).backbone(), units=used.units)
-    found = estimate(used, method=name, progress=progress, **settings) if track is None else track
-    return replace(measured_along(found, used, window_seconds), units=used.units)
+    if track is None:
+        found = estimation_of(used, name, progress, **settings)
+        curve = measured_along(found.track, as_tracked(used, found.samples), window_seconds, models_of(found))
+    else:
+        curve = measured_along(track, as_tracked(used, samples_behind(track, used)), window_seconds, None)
+    return replace(curve, units=used.units)
 
 
-def measured_along(track: Track, recording: Recording, window_seconds: float | None) -> Backbone:
+def measured_along(
+    track: Track, used: Recording, window_seconds: float | None, models: SignalModels | None
+) -> Backbone:
     """The backbone along a track; samples near clipped ones are left out."""
-    used = as_tracked(recording, samples_behind(track, recording))
     return along.backbone(
         track,
         used.values,
@@ -362,4 +390,5 @@ def measured_along(track: Track, recording: Recording, window_seconds: float | N
         start=float(used.time[0]),
         window_seconds=window_seconds,
         exclude=marked(used),
+        models=models,
     )

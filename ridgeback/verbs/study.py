@@ -155,7 +155,7 @@ def command(
     oscillator = choice.oscillator()
     result = study(oscillator, orders, amplitudes, method=method)
     rows = result.rows()
-    write_text(output, printed(result, rows, style, damped=oscillator.kind == "damped"))
+    write_text(output, printed(result, rows, style, dropped=dropped_by_study(oscillator)))
     unknown = sum(not math.isfinite(float(row["omega_reference"])) for row in rows)
     if unknown:
         raise PartialError(f"{unknown} of {len(rows)} cells have no reference; they are left empty in the output")
@@ -180,14 +180,23 @@ def proved(
         raise PartialError(f"{len(refused)} of {len(rows)} cells have no enclosed reference: {refused[0]['refused']}")
 
 
-def printed(result: Study, rows: list[dict[str, float | int | str]], style: str, *, damped: bool = False) -> str:
+def printed(result: Study, rows: list[dict[str, float | int | str]], style: str, *, dropped: str = "") -> str:
     """The rows in the form asked for."""
     columns = list(rows[0])
     if style == "csv":
         return csv_text(columns, rows)
     if style == "json":
         return json_text(rows)
-    return heading(result, damped=damped) + "\n\n" + aligned(columns, as_rows(rows)) + "\n"
+    return heading(result, dropped=dropped) + "\n\n" + aligned(columns, as_rows(rows)) + "\n"
+
+
+def dropped_by_study(oscillator: Oscillator) -> str:
+    """The damping that a study leaves out, in words; empty where there is none."""
+    from ridgeback.compare.study.derived import damping_names
+
+    if oscillator.kind != "damped":
+        return ""
+    return ", ".join(["the study is of the undamped motion", *(f"{name} = 0" for name in damping_names(oscillator))])
 
 
 def as_rows(rows: list[dict[str, float | int | str]]) -> list[Row]:
@@ -195,15 +204,15 @@ def as_rows(rows: list[dict[str, float | int | str]]) -> list[Row]:
     return list(rows)
 
 
-def heading(result: Study, *, damped: bool = False) -> str:
-    """What the rows hold, and against what."""
+def heading(result: Study, *, dropped: str = "") -> str:
+    """What the rows hold, and against what; ``dropped`` is the sentence about damping."""
     variable = f"{result.variable} ({result.amplitude_definition})" if result.variable == "A" else result.variable
     lines = [
         f"{result.title}: omega0 in rad per time unit over {variable}, {result.method}",
         f"reference: {result.reference_name}",
     ]
-    if damped:
-        lines.append("the study is of the undamped motion")
+    if dropped:
+        lines.append(dropped)
     if result.limit is not None:
         lines.append(f"the oscillation ends at {result.variable} = {result.limit:.6g}")
     if result.convergence_radius is not None:
