@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.fft import rfft, rfftfreq
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
@@ -37,6 +38,8 @@ ROUNDS = 3
 """In which spikes are looked for."""
 OF_A_HARMONIC = 0.3
 """Distance from a multiple of the oscillation, in its frequency, within which a line is taken for that harmonic's."""
+FEWEST, THREE_SIGMA = 16, 3.0
+"""Ordinates of a spectrum that tell a level of noise, and deviations by which two levels differ."""
 MANY, CLOSE = 8, 3.0
 """Intervals between knots and cycles in each, from which on models that still gain show no end of it."""
 NEAR = 1.45
@@ -121,7 +124,9 @@ def separated(
     omega = float(np.average(models.best.omega, weights=models.best.size**2))
     known = models.coloured(colour(left, rate, omega, models.best.basis.count))
     single = np.where(sound, filled - total(tones, time), models.best.samples())
-    return Separated(single, known, sound, tones, count, in_the_way(left, rate, models.best) or unfinished(models))
+    return Separated(
+        single, known, sound, tones, count, in_the_way(left, rate, models.best) or unfinished(models, left)
+    )
 
 
 def in_the_way(left: Array, rate: float, model: SplineModel) -> str:
@@ -136,16 +141,37 @@ def in_the_way(left: Array, rate: float, model: SplineModel) -> str:
     )
 
 
-def unfinished(models: SignalModels) -> str:
-    """Why models cannot be trusted that go on gaining to the finest knots; empty where they do not."""
+def unfinished(models: SignalModels, left: Array) -> str:
+    """Why models cannot be trusted that go on gaining to the finest knots; empty where they do not.
+
+    Where what they leave in their band is as weak as beyond it, they have come to the noise, and the end is at hand.
+    """
     best = min(models.others, key=lambda model: model.criterion)
     exact = best.noise < LEAST * float(best.size.max())
     if exact or best is not models.others[-1] or best.breaks.size - 1 < MANY or best.cycles > CLOSE:
+        return ""
+    if is_white(left, models.best.band):
         return ""
     return (
         f"models of one oscillation go on gaining down to a knot every {best.cycles:.2g} cycles, as they do with "
         "several components or jumps; give a --band or a --span in which there is one oscillation"
     )
+
+
+# Means of n ordinates of the periodogram of white noise scatter by 1/sqrt(n) of their expectation.
+def is_white(left: Array, band: tuple[float, float]) -> bool:
+    """Whether the power per ordinate in a band, rad per sample, is not above that beyond it by THREE_SIGMA or more.
+
+    >>> white, t = np.random.default_rng(1).normal(size=800), np.arange(800)
+    >>> is_white(white, (0.1, 0.8)), is_white(white + np.cos(0.4 * t), (0.1, 0.8))
+    (True, False)
+    """
+    power, w = np.abs(rfft(left)) ** 2, TWO_PI * rfftfreq(left.size)
+    inside, beyond = power[(w > band[0]) & (w < band[1])], power[w > band[1]]
+    if min(inside.size, beyond.size) < FEWEST:
+        return False
+    allowed = 1.0 + THREE_SIGMA * math.sqrt(1.0 / inside.size + 1.0 / beyond.size)
+    return bool(inside.mean() < allowed * beyond.mean())
 
 
 def total(tones: tuple[Tone, ...], time: Array) -> Array:

