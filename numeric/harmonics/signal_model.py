@@ -75,7 +75,7 @@ def signal_models(
     >>> t = np.arange(640) / 32.0
     >>> x = np.cos(7.0 * t + 0.1 * t**2) + 0.1 * np.random.default_rng(1).normal(size=640)
     >>> models = signal_models(x, 32.0, np.full(640, 8.0), half=40)
-    >>> models.fine.cycles < models.coarse.cycles, round(models.cycles, 1)
+    >>> models.coarse.parameters < models.fine.parameters, round(models.cycles, 1)
     (True, 28.6)
     """
     if multiples is None:
