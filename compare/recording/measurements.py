@@ -223,6 +223,7 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
     except InputError as error:
         reason = str(error) if track.presence is None or track.presence.found else track.presence.reason
         return Measurement(recording, track, None, (*told, f"No amplitude: {reason}."))
+    curve = replace(curve, units=recording.units)
     return Measurement(recording, track, curve, (*hum_notes(curve), *told, *curve.notes))
 
 
@@ -287,7 +288,7 @@ def of_half_cycles(recording: Recording, settings: Mapping[str, object]) -> Meas
     found = half_cycles(recording.values, recording.rate, start=start, band=band)
     hit = None if not recording.clipped.any() else overlapping(recording, found)
     try:
-        curve = found.backbone(hit)
+        curve = replace(found.backbone(hit), units=recording.units)
     except InputError as error:
         return Measurement(recording, found, None, (*recording.notes, f"No backbone: {error}."))
     return Measurement(recording, found, curve, (*recording.notes, *curve.notes))

@@ -306,23 +306,21 @@ def test_a_checkpoint_outlives_an_output_that_cannot_be_written(
 @pytest.mark.parametrize(
     ("stop", "arithmetic"),
     [
-        (signal.SIGTERM, ("--workers", "2")),
-        (signal.SIGTERM, ("--digits", "20")),
-        (signal.SIGHUP, ("--digits", "20")),
+        (signal.SIGTERM, ("--order", "100", "--workers", "2")),
+        (signal.SIGTERM, ("--order", "400", "--digits", "20")),
+        (signal.SIGHUP, ("--order", "400", "--digits", "20")),
     ],
 )
 def test_every_request_to_stop_leaves_a_state_and_no_process(
     stop: signal.Signals, arithmetic: tuple[str, str], tmp_path: Path
 ) -> None:
-    """To the process alone, as a shell's kill sends it."""
+    """To the process alone, as a shell's kill sends it; the work is of minutes, so that none is done before."""
     (tmp_path / "run.py").write_text(SPEAKING)
     command = [
         sys.executable,
         "run.py",
         "derive",
         "van-der-pol",
-        "--order",
-        "100",
         *arithmetic,
         "--checkpoint",
         "state",

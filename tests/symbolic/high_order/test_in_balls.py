@@ -377,6 +377,11 @@ def test_a_family_that_only_exact_arithmetic_can_prove_is_refused_as_such() -> N
         lindstedt_in_balls(centre, 4)
 
 
+@pytest.mark.parametrize(("order", "gigabytes"), [(100, 0.023), (200, 0.127), (300, 0.252), (859, 3.6)])
+def test_the_memory_of_a_limit_cycle_is_predicted_as_it_was_measured(order: int, gigabytes: float) -> None:
+    assert predict("balls", order).gigabytes == pytest.approx(gigabytes, rel=0.5)
+
+
 def test_order_859_is_within_an_hour_by_prediction_but_not_within_ten_minutes() -> None:
     assert predict("balls", 859).within(Budget(seconds=3600.0))
     with pytest.raises(InputError, match=r"order 859 by balls would take about .* fits"):
