@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 from scipy.fft import rfft, rfftfreq
@@ -126,6 +127,28 @@ def separated(
     single = np.where(sound, filled - total(tones, time), models.best.samples())
     return Separated(
         single, known, sound, tones, count, in_the_way(left, rate, models.best) or unfinished(models, left)
+    )
+
+
+@lru_cache(maxsize=2)
+def separated_once(
+    x: bytes,
+    rate: float,
+    guide: bytes,
+    half: int,
+    multiples: tuple[int, ...] | None,
+    excluded: bytes | None,
+    most: int,
+) -> Separated:
+    """``separated`` of arrays as their bytes, kept for the next method that asks for the same of the same samples."""
+    return separated(
+        np.frombuffer(x),
+        rate,
+        np.frombuffer(guide),
+        half=half,
+        multiples=multiples,
+        excluded=None if excluded is None else np.frombuffer(excluded, dtype=np.bool_),
+        most=most,
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, ComplexArray, Mask
-from ridgeback.numeric.components.separation import MOST_TONES, separated
+from ridgeback.numeric.components.separation import MOST_TONES, separated_once
 from ridgeback.numeric.components.tones import Tone
 from ridgeback.numeric.harmonics.noise import Level, measure_level
 from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
@@ -177,14 +177,14 @@ class Request:
         """The request for one oscillation alone, with models of it; unchanged where no model of it settles."""
         signal = self.signal
         try:
-            found = separated(
-                signal.x,
+            found = separated_once(
+                signal.x.tobytes(),
                 signal.rate,
-                signal.search.guide,
-                half=self.half,
-                multiples=self.options.multiples,
-                excluded=signal.wrong,
-                most=self.options.most_tones,
+                signal.search.guide.tobytes(),
+                self.half,
+                self.options.multiples,
+                None if signal.wrong is None else signal.wrong.tobytes(),
+                self.options.most_tones,
             )
         except InputError:
             return self
