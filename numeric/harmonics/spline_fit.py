@@ -209,11 +209,10 @@ class Splines:
         return self.intervals + self.degree
 
 
-def splines_tried(cycles: float, size: int, families: int, *, finest: bool = False) -> list[Splines]:
+def splines_tried(cycles: float, size: int, families: int) -> list[Splines]:
     """Polynomials of degree 1, 2 and 3, then quintics on 1, 2, 3, 5, 8, ... intervals.
 
     No more coefficients than cycles, down to FINEST_CYCLES cycles an interval, and a third of the samples at most.
-    ``finest`` adds the most intervals that this leaves, whatever their ratio to those before.
 
     >>> [(one.intervals, one.degree) for one in splines_tried(33.0, 641, 6)]
     [(1, 1), (1, 2), (1, 3), (1, 5), (2, 5), (3, 5), (5, 5), (8, 5), (12, 5)]
@@ -224,8 +223,6 @@ def splines_tried(cycles: float, size: int, families: int, *, finest: bool = Fal
     most = int(cycles / FINEST_CYCLES)
     while (after := math.ceil(GROWTH * tried[-1].intervals)) <= most:
         tried.append(Splines(after, DEGREE))
-    if finest and most > tried[-1].intervals:
-        tried.append(Splines(most, DEGREE))
     return [s for s in tried if s.count <= max(cycles, LOW_DEGREES[1] + 1) and 3 * families * s.count <= size]
 
 
@@ -237,12 +234,10 @@ def on_more_knots(
     density: Array,
     multiples: tuple[int, ...],
     known: Known = NOTHING_KNOWN,
-    *,
-    finest: bool = False,
 ) -> Iterator[SplineModel]:
     """Models on more and more knots, spread as ``density`` grows, from the first that can follow the phase."""
     families = 3 + 2 * len(multiples)
-    for splines in splines_tried(float(phase[-1] - phase[0]) / TWO_PI, x.size, families, finest=finest):
+    for splines in splines_tried(float(phase[-1] - phase[0]) / TWO_PI, x.size, families):
         breaks = breaks_of(density, time, splines.intervals)
         if np.diff(breaks).min() > 0.0 and follows(time, breaks, phase, amplitude, splines.degree):
             yield fit_on(x, time, phase, amplitude, breaks, multiples, splines.degree, known)
@@ -296,8 +291,7 @@ def harmonic_splines(
     time = np.arange(x.size) / rate
     known = replace(known, band=counted(guide / rate, amplitude, multiples))
     first = best_model(until_no_better(on_more_knots(x, time, phase, amplitude, phase, multiples, known)))
-    density = adapted(first)
-    return until_no_better(on_more_knots(x, time, first.phase, first.amplitude, density, multiples, known, finest=True))
+    return until_no_better(on_more_knots(x, time, first.phase, first.amplitude, adapted(first), multiples, known))
 
 
 def adapted(model: SplineModel) -> Array:

@@ -50,9 +50,12 @@ def test_intervals_hold_the_truth(method: str, pendulum_decay: Source) -> None:
         x, omega = signal(name, pendulum_decay)
         for decibel in (12.0, 35.0):
             track = estimate(noisy(x, decibel, seed := seed + 1), RATE, method=method).inside()
-            assert track.interval is not None
+            if track.interval is None:
+                assert track.no_interval
+                continue
             truth = omega(track.time)
             shares.append(np.mean(track.interval.holds(truth)[np.isfinite(truth)]))
+    assert len(shares) >= 5  # a fast chirp in little noise may ask for finer knots than there are
     assert 0.88 < np.mean(shares) < 0.995
 
 
