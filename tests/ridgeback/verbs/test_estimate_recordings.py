@@ -116,7 +116,8 @@ def test_clipped_samples_are_told_and_kept_out_of_the_backbone(ridgeback: Ridgeb
     assert any("are clipped: t = 0" in note for note in public["notes"])
     top = max(public["backbone"], key=lambda row: row["amplitude"])
     assert top["amplitude"] > 0.9  # what is above the flat tops follows from the samples below them
-    assert top["growth_rate_low_95_per_s"] < -0.05 < top["growth_rate_high_95_per_s"]
+    rounding = 1e-8  # without noise the interval is as narrow as what the fit's last step leaves
+    assert top["growth_rate_low_95_per_s"] - rounding < -0.05 < top["growth_rate_high_95_per_s"] + rounding
     halves = json.loads(ridgeback("estimate", path, "--half-cycles", "--format", "json").out)
     assert max(row["amplitude"] for row in halves["backbone"]) < 0.7
     assert max(row["amplitude"] for row in halves["track"]) == pytest.approx(0.7, rel=0.05)
