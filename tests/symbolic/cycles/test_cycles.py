@@ -38,7 +38,7 @@ def cycles(equation: str, **values: str) -> list[Cycle]:
 
 @settings(max_examples=6, deadline=None)
 @given(
-    radius=st.fractions(Fraction(1, 3), 3, max_denominator=7),
+    radius=st.fractions(Fraction(1, 3), 2, max_denominator=7),  # beyond, strength * radius**2 asks for too many bits
     strength=st.fractions(Fraction(1, 5), Fraction(3, 2), max_denominator=5),
     slant=st.fractions(Fraction(-1, 4), Fraction(1, 4), max_denominator=9),
 )
