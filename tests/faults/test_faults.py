@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 from tests.faults.catalogue import CASES, IN_PROCESS
 from tests.faults.trial import Case, Outcome, changes, faults, snapshot, tried
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _loaded() -> None:
+    """Load what the verbs need beforehand: importing SciPy is no time that a case takes."""
+    for needed in ("interface.benchmark", "interface.identify", "interface.report", "compare.study.study"):
+        import_module(f"ridgeback.{needed}")
 
 
 @pytest.mark.parametrize("case", IN_PROCESS, ids=lambda case: case.command)
