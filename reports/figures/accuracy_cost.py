@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -276,22 +276,28 @@ def _ranked(which: Shown, target: float, label: str, width: float, *, timed: boo
     split = names + 14 + (width - names) * (0.52 if timed else 0.94)
     x = Scale(0.5 * min(*errors, target), 2.0 * min(max(errors), 30.0), names + 14, split, log=True)
     marks = [text((x.start + x.end) / 2, 11, "rms error", "m sm", "middle")]
-    for value in x.ticks(3 if width < WIDE else 8):
-        marks += [line(x(value), 32, x(value), height, "g"), text(x(value), 26, per_cent_tick(value), "m sm", "middle")]
+    marks += _ticks(x, x.ticks(3 if width < WIDE else 8), per_cent_tick, height)
     marks.append(line(x(target), 32, x(target), height, "tg"))
     cost = None
     if timed:
         known = [which.cost(row) for row in rows if math.isfinite(which.cost(row))]
         cost = Scale(0.7 * min(known), 1.6 * max(known), split + 16, width - 6, log=True)
         marks.append(text((cost.start + cost.end) / 2, 11, "cost of a track", "m sm", "middle"))
-        for value in cost.ticks(3):
-            marks += [
-                line(cost(value), 32, cost(value), height, "g"),
-                text(cost(value), 26, round_duration(value), "m sm", "middle"),
-            ]
+        marks += _ticks(cost, cost.ticks(3), round_duration, height)
     for i, row in enumerate(rows):
         marks.append(_ranked_row(which, row, 42 + step * (i + 0.5), names, x, cost))
     return drawing(width, height, "narrow" if width < WIDE else "wide", label, marks)
+
+
+def _ticks(scale: Scale, values: Iterable[float], worded: Callable[[float], str], height: float) -> Iterable[str]:
+    """Lines, with words at those that leave room for them, inside the scale."""
+    end = scale.start - 8.0
+    for value in values:
+        at, half = scale(value), 0.5 * text_width(worded(value), 12.0)
+        yield line(at, 32, at, height, "g")
+        if at - half > end + 4.0 and at + half < scale.end + 8.0:
+            end = at + half
+            yield text(at, 26, worded(value), "m sm", "middle")
 
 
 def _ranked_row(which: Shown, row: Row, y: float, names: float, x: Scale, cost: Scale | None) -> str:
