@@ -14,7 +14,7 @@ import sympy
 from ridgeback.common.recurrences import Input, Node
 from ridgeback.compare.binding.closures import mp_constant
 from ridgeback.numeric.motion.precise_ring import PRECISE, Jet, solution_jet
-from ridgeback.symbolic.series.program import Program, check_expandable
+from ridgeback.symbolic.arithmetic.expression_series import Program, check_expandable
 from ridgeback.symbolic.systems.oscillator import U, V
 
 RING: Final = replace(PRECISE, number=mp_constant)

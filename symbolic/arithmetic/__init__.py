@@ -1,4 +1,4 @@
-"""Exact numbers and balls: power series as lists, quotients of polynomials, rigorous rounding, printing.
+"""Exact numbers and balls, power series as lists and of expressions, quotients of polynomials, rigorous rounding.
 
-Knows FLINT and SymPy's numbers; knows no equation.
+Knows FLINT, SymPy's numbers and expressions; knows no equation.
 """

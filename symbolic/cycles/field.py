@@ -13,8 +13,8 @@ from ridgeback.common.number_ring import FLOATS, NumberRing
 from ridgeback.common.recurrences import Input, Node
 from ridgeback.symbolic.arithmetic.balls import REAL_FUNCTIONS, number_ball
 from ridgeback.symbolic.arithmetic.closures import evaluator
+from ridgeback.symbolic.arithmetic.expression_series import Program, check_expandable
 from ridgeback.symbolic.enclosure.ball_functions import COMPLEX, REAL
-from ridgeback.symbolic.series.program import Program, check_expandable
 from ridgeback.symbolic.systems.oscillator import U, V
 
 Ball: TypeAlias = Any

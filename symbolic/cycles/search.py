@@ -11,7 +11,7 @@ import sympy
 from ridgeback.common.errors import InputError
 from ridgeback.common.number_ring import FLOATS
 from ridgeback.common.recurrences import Input, solution
-from ridgeback.symbolic.series.program import Program
+from ridgeback.symbolic.arithmetic.expression_series import Program
 from ridgeback.symbolic.systems.oscillator import U, V
 
 DEGREE: Final = 12

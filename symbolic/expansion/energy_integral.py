@@ -18,11 +18,11 @@ from flint import fmpq
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, Wanted, showing
 from ridgeback.symbolic.arithmetic import truncated
+from ridgeback.symbolic.arithmetic.expression_series import Program
 from ridgeback.symbolic.expansion.amplitude import check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order
-from ridgeback.symbolic.series.program import Program
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Scalar, space_for
 from ridgeback.symbolic.series.trigonometric import constant

@@ -10,7 +10,7 @@ from flint import fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
-from ridgeback.symbolic.series.program import Program
+from ridgeback.symbolic.arithmetic.expression_series import Program
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Scalar, space_for
 from ridgeback.symbolic.series.trigonometric import constant

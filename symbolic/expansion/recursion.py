@@ -13,10 +13,10 @@ from flint import fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.recurrences import Element
+from ridgeback.symbolic.arithmetic.expression_series import Program
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.grammar.parse import U, V
 from ridgeback.symbolic.series.online_sums import weighted_sums
-from ridgeback.symbolic.series.program import Program
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Scalar, Space
 from ridgeback.symbolic.series.trigonometric import Trig, at_zero, cosine, harmonic, sine

@@ -29,12 +29,12 @@ from flint import fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Wanted, showing
+from ridgeback.symbolic.arithmetic.expression_series import Program
 from ridgeback.symbolic.expansion.amplitude import check_name
 from ridgeback.symbolic.expansion.cost import Budget, check
 from ridgeback.symbolic.expansion.expansion import check_order
 from ridgeback.symbolic.flow.ordering import Ordered, ordered
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
-from ridgeback.symbolic.series.program import Program
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Parametric, Scalar
 from ridgeback.symbolic.series.trigonometric import Trig, constant, cosine, harmonic, sine, solve_oscillator

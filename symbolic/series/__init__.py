@@ -1,4 +1,4 @@
-"""Truncated power series of an expression, coefficient by coefficient, over any exact or rigorous ring.
+"""Trigonometric and polynomial series, coefficient by coefficient, over any exact or rigorous ring, and fast products.
 
-Knows expressions and rings; the recurrences of every elementary function stand here once.
+Knows rings and bases; an expression becomes a series in ``arithmetic``, and the recurrences stand in ``common``.
 """

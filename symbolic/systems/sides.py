@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
 import sympy
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.number_ring import FUNCTIONS, NumberRing, plain_dot
+from ridgeback.symbolic.arithmetic.expression_series import Program
 from ridgeback.symbolic.grammar.at_origin import brief, sign_at_origin
 from ridgeback.symbolic.grammar.kinks import KINKS, U, V
 from ridgeback.symbolic.systems.structure import without_sizes
@@ -193,12 +196,27 @@ def check_restores(name: str, sides: tuple[Half | None, Half | None]) -> None:
 
 
 def _begun(force: sympy.Expr, d: int) -> Half | None:
-    """A side with its first term, found by differentiating."""
-    slope, factor = force, 1
+    """A side with its first term, from its power series."""
+    ring = _Expressions(
+        sympy.Integer, {name: getattr(sympy, name) for name in FUNCTIONS}, _dot, sympy.Pow, sympy.sympify
+    )
+    fixed = {symbol: [symbol] for symbol in force.free_symbols - {U}}
+    series = Program(force, ring, {}, U, V, fixed={**fixed, U: [sympy.S.Zero, sympy.S.One]}).root
     for n in range(MOST_ORDERS * d if force != 0 else 0):
-        value = sympy.expand(slope.subs(U, 0)) / factor
+        value = sympy.expand(series.get(n))
         sign = None if value == 0 else sign_at_origin(value, {})
         if value != 0 and sign != 0:
             return Half(force, d, n, value, sign)
-        slope, factor = slope.diff(U), factor * (n + 1)
     return None
+
+
+def _dot(left: Sequence[sympy.Expr], right: Sequence[sympy.Expr]) -> sympy.Expr:
+    """The sum of products, expanded so that zeros show."""
+    return sympy.expand(plain_dot(left, right))
+
+
+class _Expressions(NumberRing):
+    """Coefficients that are SymPy expressions in the parameters; whether they are real was seen before."""
+
+    def power(self, element: sympy.Expr, numerator: int, denominator: int) -> sympy.Expr:
+        return element ** sympy.Rational(numerator, denominator)

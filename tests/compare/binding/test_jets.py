@@ -14,7 +14,7 @@ from ridgeback.common.number_ring import FLOATS
 from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR
 from ridgeback.compare.binding.taylor_jet import RING, force_jet
 from ridgeback.symbolic.arithmetic.closures import evaluator
-from ridgeback.symbolic.series.program import Program
+from ridgeback.symbolic.arithmetic.expression_series import Program
 from ridgeback.symbolic.systems.oscillator import U, V
 
 FUNCTIONS = [

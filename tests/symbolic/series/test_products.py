@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.recurrences import Input, Product
+from ridgeback.symbolic.arithmetic.expression_series import Program, check_expandable
 from ridgeback.symbolic.series.harmonic_basis import EMPTY, Balls, plus
 from ridgeback.symbolic.series.laurent import products
-from ridgeback.symbolic.series.program import Program, check_expandable
 from ridgeback.symbolic.series.relaxed_product import RelaxedProduct, blocks
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Parts, space_for
