@@ -1,4 +1,4 @@
-"""How fast generated code is, as ratios within one run; prints the table of docs/code.md.
+"""How fast generated code is, as ratios within one run; prints the table of docs/reference/generated-code.md.
 
     python benchmarks/code.py
 

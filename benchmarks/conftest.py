@@ -1,4 +1,4 @@
-"""After the run: the table of paired measurements that the README shows, written to ``benchmarks/table.md``."""
+"""After the run: the paired measurements of ``docs/results/speed.md``, written to ``benchmarks/table.md``."""
 
 from __future__ import annotations
 

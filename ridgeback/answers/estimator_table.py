@@ -79,7 +79,7 @@ def onward(checkpoint: str | None) -> str:
 
 
 def study_text(study: EstimatorStudy, style: str) -> str:
-    """The study in the form asked for; ``markdown`` is the README's table."""
+    """The study in the form asked for; ``markdown`` is the table of ``docs/results/estimators.md``."""
     if style == "json":
         return json_text(study.as_dict())
     if style == "csv":

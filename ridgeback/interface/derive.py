@@ -29,6 +29,7 @@ from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.resummation.by_name import resum
 from ridgeback.symbolic.resummation.resummation import Resummation
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
@@ -197,7 +198,7 @@ def generate(
     check_formula(resummed, degrees, growth, terms)
     if isinstance(formula, Expansion | SlowFlow | Resummation):
         refuse_unused("a formula that has been derived", method=method, amplitude=amplitude, parameters=parameters)
-        system, result = as_oscillator(formula.system if oscillator is None else oscillator), formula
+        system, result = (_system_of(formula) if oscillator is None else as_oscillator(oscillator)), formula
         series = lindstedt(system, formula.order) if isinstance(formula, Resummation) else formula
     else:
         refuse_unused("an oscillator to derive the formula of", oscillator=oscillator)
@@ -211,6 +212,16 @@ def generate(
     how = cast(Mode, chosen(mode, ARITHMETIC, "mode"))
     form = known_form(system, series, result, up_to=up_to, name=name, mode=how, real=real, motion=motion)
     return written(form, language)
+
+
+def _system_of(formula: Expansion | SlowFlow | Resummation) -> Oscillator:
+    """The oscillator that a formula names, which the catalogue must know."""
+    try:
+        return find(formula.system)
+    except InputError as unknown:
+        raise InputError(
+            f"a formula of {formula.system!r}, which the catalogue does not have: name its equation, oscillator=..."
+        ) from unknown
 
 
 def check_formula(resummed: str | None, degrees: tuple[int, int] | None, growth: Fraction, terms: int) -> None:

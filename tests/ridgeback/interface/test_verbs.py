@@ -69,6 +69,14 @@ def test_generate_takes_what_has_been_derived() -> None:
     assert "omega0" in ridgeback.generate(resummed)
 
 
+def test_generate_asks_for_the_equation_of_a_formula_without_a_name() -> None:
+    equation = "u'' + u + u**3/7 = 0"
+    series = ridgeback.derive(equation, 4)
+    with pytest.raises(ridgeback.InputError, match="name its equation"):
+        ridgeback.generate(series, "c")
+    assert ridgeback.generate(series, "c", oscillator=equation) == ridgeback.generate(equation, "c", order=4)
+
+
 def test_simulate_is_the_command(capsys: pytest.CaptureFixture[str]) -> None:
     how = {"duration": 3.0, "rate": 8.0, "parameters": {"mu": "0.1"}}
     run = ridgeback.simulate("pendulum", (0.5, 0.0), **how)
