@@ -22,6 +22,7 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.common.errors import InputError as InputError
     from ridgeback.compare.benchmark.results import Benchmark as Benchmark
     from ridgeback.compare.binding.bind import bind as bind
+    from ridgeback.compare.identification.confusion import confusion as confusion
     from ridgeback.compare.identification.results import Identification as Identification
     from ridgeback.compare.recording.measurements import measure_recordings as measure_recordings
     from ridgeback.compare.report.results import Report as Report

@@ -77,6 +77,7 @@ PUBLIC: Final = (
     Public("measure_recordings", "compare.recording.measurements", _ESTIMATE, "tracks and backbones of recordings"),
     Public("identify", "interface.identify", _IDENTIFY, "which oscillator made a decay"),
     Public("predict", "interface.identify", _IDENTIFY, "the rest of a decay from its first cycles"),
+    Public("confusion", "compare.identification.confusion", _IDENTIFY, "how often which class is found for which"),
     Public("study", "interface.report", _COMPARE, "the error of each order at each amplitude"),
     Public("run_study", "interface.studies", _COMPARE, "a study from its file: resumable, parallel, answered by name"),
     Public("benchmark", "interface.benchmark", _COMPARE, "error and cost of every way to omega0(t) of a motion"),

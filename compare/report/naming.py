@@ -65,18 +65,6 @@ def short_name(row: Row) -> str:
     return f"{name[0].lower() if name[1:2].islower() and not name.startswith('Pad') else name[0]}{name[1:]}"
 
 
-def full_name(row: Row) -> str:
-    """A contender with whose amplitude it takes and the language it was timed in."""
-    parts = [short_name(row)]
-    if row.kind == "expansion" and row.order is not None:
-        parts = [f"expansion, order {row.order}"]
-    if row.amplitude_from is not None:
-        parts.append(SOURCES[row.amplitude_from])
-    if row.language is not None:
-        parts.append({"c": "C", "python": "Python", "numpy": "NumPy"}.get(row.language, row.language))
-    return ", ".join(parts)
-
-
 def capital(text: str) -> str:
     """Text with a capital first letter, unless it starts with a symbol of one letter.
 

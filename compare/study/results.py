@@ -208,18 +208,6 @@ class Certified(Brief):
 
 
 @dataclass(frozen=True)
-class Timing:
-    """Median time of one evaluation over an array, in nanoseconds per value, with its spread; NaN where not timed."""
-
-    name: str
-    nanoseconds: float
-    low: float
-    high: float
-    values: int
-    note: str = ""
-
-
-@dataclass(frozen=True)
 class Checked:
     """One check of a certificate, made in exact arithmetic."""
 

@@ -35,18 +35,6 @@ class Line:
     order: float = 3.0
 
 
-@dataclass(frozen=True)
-class Trace:
-    """A curve as the readout shows it."""
-
-    label: str
-    x: Array
-    y: Array
-    style: str = ""
-    token: str = "fg"
-    panel: int = 0
-
-
 @dataclass
 class Canvas:
     """One variant of one figure while it is drawn."""
@@ -168,12 +156,6 @@ def draw(axes: Axes, line: Line) -> None:
     )
     if line.style:
         artist.set_gid(f"class:{line.style}")
-
-
-def limit_line(axes: Axes, x: float) -> None:
-    """Mark the end of a range of use: a strong vertical line with a casing of the background."""
-    for width, token in ((5.0, "bg"), (2.2, "fg")):
-        axes.axvline(x, color=colour_of(token), linewidth=width, zorder=2.5, solid_capstyle="butt")
 
 
 def shade(axes: Axes, low: float, high: float, *, hatched: bool = False) -> None:

@@ -17,7 +17,6 @@ Bands = NDArray[np.int64]
 
 # |relative error| up to which a cell belongs to the band; beyond the last is band 5.
 THRESHOLDS = (1e-6, 1e-4, 1e-3, 1e-2, 1e-1)
-CONTOURS = (1e-2, 1e-3, 1e-6)
 MISSING = -1
 
 

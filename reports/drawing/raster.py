@@ -59,16 +59,6 @@ def _chunk(kind: bytes, body: bytes) -> bytes:
     return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
 
-def plane_uri(level_db: Array, floor_db: float) -> str:
-    """Return the ``data:`` URI of a plane ``level[frequency, time]``, low frequencies at the bottom.
-
-    >>> plane_uri(np.zeros((2, 2)), -60.0)[:22]
-    'data:image/png;base64,'
-    """
-    small = shrink(np.asarray(level_db, dtype=np.float64), MAX_ROWS, MAX_COLUMNS)
-    return "data:image/png;base64," + base64.b64encode(png(grey(small, floor_db)[::-1])).decode("ascii")
-
-
 def mask_uri(share: Array, *, rows: int = MAX_ROWS, columns: int = MAX_COLUMNS) -> str:
     """Return the ``data:`` URI of shares 0 .. 1, ``[frequency, time]``, as a mask: white shows the ink.
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ridgeback.common.numbers import decibels, minus, number
+from ridgeback.common.numbers import decibels, minus
 from ridgeback.compare.motion.results import Curve, Image, MotionComparison, SignedPlane
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.figure import Figure
@@ -267,8 +267,3 @@ def _bar(ramp: str, ticks: Sequence[tuple[float, str]], low: float, high: float,
     marks = [f'<rect x="44" y="340" width="240" height="10" fill="url(#{ramp})" class="bar"/>']
     marks += [text(scale(v), 365, name, "m sm", "middle") for v, name in ticks]
     return [*marks, text(294, 350, words, "m sm")]
-
-
-def ratio_line(low: float, high: float, unit: str) -> str:
-    """Two ends of a range in words."""
-    return f"{number(low)} to {number(high)} {unit}".strip()

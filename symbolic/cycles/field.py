@@ -9,7 +9,7 @@ from typing import Any, Final, TypeAlias
 import sympy
 from flint import acb, arb
 
-from ridgeback.common.number_ring import FLOATS, NumberRing
+from ridgeback.common.number_ring import NumberRing
 from ridgeback.common.recurrences import Input, Node
 from ridgeback.symbolic.arithmetic.balls import REAL_FUNCTIONS, number_ball
 from ridgeback.symbolic.arithmetic.closures import evaluator
@@ -24,8 +24,6 @@ OnBalls: TypeAlias = Callable[[Ball, Ball], Ball]
 
 BALLS: Final = NumberRing(whole=arb, functions=REAL_FUNCTIONS, number=number_ball)
 """Balls at FLINT's working precision of the moment, as the ring of the recurrences."""
-SERIES_FLOATS: Final = FLOATS
-"""Floats, for the search that proves nothing."""
 
 
 @dataclass(frozen=True)

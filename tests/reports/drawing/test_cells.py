@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from ridgeback.reports.drawing import cells
-from ridgeback.reports.drawing.raster import grey, plane_uri, png, shrink
+from ridgeback.reports.drawing.raster import grey, mask_uri, png, shrink
 
 sizes = st.tuples(st.integers(1, 7), st.integers(1, 9))
 grids = sizes.flatmap(
@@ -151,7 +151,7 @@ def test_a_plane_has_low_frequencies_at_the_bottom() -> None:
 
     level = np.full((3, 5), -60.0)
     level[0, 4] = 0.0
-    data = base64.b64decode(plane_uri(level, -60.0).split(",")[1])
+    data = base64.b64decode(mask_uri((level + 60) / 60).split(",")[1])
     with Image.open(io.BytesIO(data)) as image:
         pixels = np.asarray(image)
     assert pixels[2, 4] == 255
