@@ -16,7 +16,6 @@ from ridgeback.symbolic.expansion.cost import Budget, Cost, effort_of, predict
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
-from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes
 from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator, U
@@ -57,8 +56,6 @@ RUNS: dict[str, Callable[[Oscillator, int], object]] = {
     "energy-integral": lambda own, order: energy_integral(own, order, budget=FREE),
     "multiple-scales": lambda own, order: multiple_scales(own, order, budget=FREE),
     "balls": lambda own, order: lindstedt_in_balls(own, order, digits=30),
-    "primes": lindstedt_by_primes,
-    "primes of a limit-cycle": lindstedt_by_primes,
 }
 CASES = (
     Case("lindstedt", "pendulum", 100),
@@ -77,8 +74,6 @@ CASES = (
     Case("multiple-scales", TWO_LOSSES, 36, weights=(2, 2)),
     Case("balls", "van-der-pol", 100),
     Case("balls", "pendulum", 120),
-    Case("primes", "pendulum", 80),
-    Case("primes of a limit-cycle", "van-der-pol", 48),
 )
 
 

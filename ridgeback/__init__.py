@@ -82,7 +82,6 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.symbolic.flow.fixed_points import frequency_series as frequency_series
     from ridgeback.symbolic.flow.multiple_scales import multiple_scales as multiple_scales
     from ridgeback.symbolic.flow.slow_flow import SlowFlow as SlowFlow
-    from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes as lindstedt_by_primes
     from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls as lindstedt_in_balls
     from ridgeback.symbolic.resummation.by_name import resum as resum
     from ridgeback.symbolic.singularities.settled import settled_limits as limits  # noqa: F401

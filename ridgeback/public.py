@@ -41,7 +41,6 @@ PUBLIC: Final = (
     Public("frequency_series", "symbolic.flow.fixed_points", _DERIVE, "omega0 on a limit cycle, from that series"),
     Public("energy_integral", "symbolic.expansion.energy_integral", _DERIVE, "omega0 from the potential alone"),
     Public("lindstedt_in_balls", "symbolic.high_order.in_balls", _DERIVE, "very high orders, enclosed"),
-    Public("lindstedt_by_primes", "symbolic.high_order.by_primes", _DERIVE, "very high orders, exactly"),
     Public("generate", "interface.derive", _DERIVE, "a formula as code in eleven languages"),
     Public("Budget", "symbolic.expansion.cost", _DERIVE, "the time and memory that a derivation may take"),
     Public("periodic_orbit", "interface.orbits", _PROVE, "a limit cycle found by shooting"),

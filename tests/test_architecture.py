@@ -76,13 +76,11 @@ MOST_LINES = 400
 # Where coefficients are derived: a float literal here would end exactness silently.
 EXACT_FOLDERS = ("symbolic/series", "symbolic/expansion")
 EXACT_FILES = (
-    *(
-        "symbolic/arithmetic/truncated.py",
-        "symbolic/arithmetic/expression_series.py",
-        "symbolic/grammar/to_sympy.py",
-        "symbolic/flow/multiple_scales.py",
-    ),
-    *("symbolic/flow/ordering.py", "symbolic/high_order/by_primes.py"),
+    "symbolic/arithmetic/truncated.py",
+    "symbolic/arithmetic/expression_series.py",
+    "symbolic/grammar/to_sympy.py",
+    "symbolic/flow/multiple_scales.py",
+    "symbolic/flow/ordering.py",
 )
 INEXACT = ("symbolic/expansion/cost.py", "symbolic/expansion/shown.py")
 """Files of those folders that predict seconds and bytes, or draw what was derived."""

@@ -1,4 +1,4 @@
-"""Very high orders from the command line: certified balls with a checkpoint, exact coefficients by many primes."""
+"""Very high orders from the command line: certified balls with a checkpoint."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from ridgeback.options.derivation import Request, refuse_weights
 
 if TYPE_CHECKING:
     from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
-    from ridgeback.symbolic.expansion.expansion import Expansion
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
 
@@ -46,40 +45,6 @@ def in_balls(oscillator: Oscillator, request: Request, digits: int, checkpoint: 
             )
         except KeyboardInterrupt:
             raise KeyboardInterrupt(interrupted(f"before {watch.last or 'the first order'}", path)) from None
-
-
-def by_primes(oscillator: Oscillator, request: Request, workers: int, checkpoint: str | None) -> Expansion:
-    """Derive exactly modulo many primes in a pool of processes, saying how far it is; an interrupt says how to go on.
-
-    Raises click.UsageError for options that the primes do not have, InputError from the derivation, OSError.
-    """
-    if request.method not in (None, "lindstedt"):
-        raise click.UsageError(f"--workers belongs to lindstedt, not to {request.method}; leave one of the two out")
-    refuse_weights(request, "--workers")
-    from ridgeback.console.processes import processes
-    from ridgeback.symbolic.expansion.cost import Budget, predict
-    from ridgeback.symbolic.high_order.by_primes import law, lindstedt_by_primes
-
-    cost, path = (
-        predict(law(oscillator), request.order, workers=workers),
-        None if checkpoint is None else Path(checkpoint),
-    )
-    allowed = cost.within(request.budget or Budget())
-    with Watch(f"order {request.order} modulo many primes", cost if allowed else None) as watch:
-        try:
-            with processes(workers) as executor:
-                return lindstedt_by_primes(
-                    oscillator,
-                    request.order,
-                    amplitude=request.amplitude or "peak",
-                    executor=executor,
-                    workers=workers,
-                    progress=watch,
-                    checkpoint=path,
-                    budget=request.budget,
-                )
-        except KeyboardInterrupt:
-            raise KeyboardInterrupt(interrupted(f"after {watch.last or '0 bits of modulus'}", path)) from None
 
 
 @contextmanager

@@ -19,9 +19,9 @@ PLAIN = ("text", "json", "latex", "mathml", "python")
 TABLE = ("text", "json", "csv")
 
 # What can be made of an expansion, one at a time, and the forms that each has; --at goes with the first three.
-USES = {"digits": ("text", "json"), "workers": PLAIN, "resummed": PLAIN, "transient": TABLE, "harmonics": PLAIN}
+USES = {"digits": ("text", "json"), "resummed": PLAIN, "transient": TABLE, "harmonics": PLAIN}
 NEEDS = {
-    "checkpoint": ("digits", "workers"),
+    "checkpoint": ("digits",),
     "degrees": ("resummed",),
     "growth": ("resummed",),
     "until": ("transient",),
@@ -40,7 +40,6 @@ class Demand:
 
     digits: int | None = None
     checkpoint: str | None = None
-    workers: int | None = None
     at: tuple[Fraction, ...] | None = None
     resummed: str | None = None
     degrees: tuple[int, int] | None = None

@@ -46,14 +46,7 @@ HIGH_ORDER: Final = (
         type=checkpoint_path,
         default=None,
         metavar="FILE",
-        help="Keep the state of --digits or --workers there, now and then and on Ctrl-C; the same command resumes.",
-    ),
-    click.option(
-        "--workers",
-        type=click.IntRange(1, 1024),
-        default=None,
-        metavar="N",
-        help="Derive exactly modulo many primes, N processes at a time: for very high orders on many cores.",
+        help="Keep the state of --digits there, now and then and on Ctrl-C; the same command resumes.",
     ),
 )
 """Very high orders."""

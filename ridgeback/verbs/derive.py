@@ -12,7 +12,7 @@ from ridgeback.answers.at import as_csv as at_csv
 from ridgeback.answers.at import as_text as at_text
 from ridgeback.answers.at import complete, read_at, rows
 from ridgeback.answers.expansion_text import as_text, certified, expressions, joined, limit_rows, range_of_use
-from ridgeback.answers.high_order import by_primes, in_balls, kept_until_written
+from ridgeback.answers.high_order import in_balls, kept_until_written
 from ridgeback.answers.motion import fixed_rows, harmonic_output, transient_output
 from ridgeback.answers.resummation import formula_text, resummed_from
 from ridgeback.console.failure import PartialError
@@ -96,8 +96,6 @@ def derived_as(oscillator: Oscillator, request: Request, demand: Demand) -> Resu
     by_sides = oscillator.by_sides and demand.at is not None  # then the digits are those of the enclosures
     if demand.digits is not None and not by_sides:
         return in_balls(oscillator, request, demand.digits, demand.checkpoint)
-    if demand.workers is not None:
-        return by_primes(oscillator, request, demand.workers, demand.checkpoint)
     if demand.transient is not None and request.method is None:
         request = replace(request, method="multiple-scales")
     return derived(oscillator, request)

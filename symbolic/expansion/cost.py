@@ -23,7 +23,7 @@ from ridgeback.common.errors import InputError
 # parameters u^2 and u^3 16 to 26, u^3 40, sin(u) and u^2 24; van der Pol eps^30 to eps^120, Rayleigh 96; multiple
 # scales at the damped pendulum 60, 90, two dampings 36, van der Pol 60; energy integral at pendulum A^400 to A^1600,
 # Helmholtz-Duffing A^400, A^800; balls at van der Pol 100, 200, 300, 859 (0.023, 0.13, 0.25, 3.6 GB),
-# pendulum 120, 240 (0.002, 0.007 GB, not in the fit); primes, whose number grows like the square of the order.
+# pendulum 120, 240 (0.002, 0.007 GB, not in the fit).
 _LAWS = {
     "lindstedt": (8e-8, 3.0, 3.0, 3.0),
     "lindstedt with parameters": (1.4e-7, 2.5, 0.8, 3.0),
@@ -31,12 +31,7 @@ _LAWS = {
     "multiple-scales": (1.5e-9, 4.0, 2.5, 3.0),
     "energy-integral": (5e-8, 2.63, 5.0, 2.4),
     "balls": (8e-8, 3.5, 640.0, 2.3),
-    "primes": (3.6e-10, 5.0, 1.0, 3.0),
-    "primes of a limit-cycle": (6e-9, 5.0, 1.0, 3.0),
 }
-
-PROCESS = 0.15
-"""Gigabytes that each further process takes before it does anything."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +73,6 @@ def predict(
     *,
     parameters: int = 0,
     weights: tuple[int, ...] = (),
-    workers: int = 1,
     effort: float = 1.0,
 ) -> Cost:
     """Predict what a derivation costs, by laws fitted to measurements.
@@ -86,16 +80,13 @@ def predict(
     Parameters
     ----------
     method : str
-        ``lindstedt``, ``limit-cycle``, ``energy-integral``, ``multiple-scales``, ``balls``, ``primes`` or ``primes of a
-        limit-cycle``.
+        ``lindstedt``, ``limit-cycle``, ``energy-integral``, ``multiple-scales`` or ``balls``.
     order : int
         Highest order.
     parameters : int, optional
         How many stay symbolic.
     weights : tuple of int, optional
         Weights of the small parameters (multiple scales).
-    workers : int, optional
-        Processes that share the time.
     effort : float, optional
         How dear the force is, by :func:`effort_of`.
 
@@ -112,8 +103,8 @@ def predict(
     law = f"{method} with parameters"
     seconds, power, size, growth = _LAWS[law if parameters and law in _LAWS else method]
     monomials = math.comb(order // 2 + parameters, parameters) * weighted_monomials(order / 2, weights)
-    memory = size * order**growth * monomials * workers / 1e9 + PROCESS * (workers - 1)
-    return Cost(effort * seconds * order**power * monomials / workers, memory * effort)
+    memory = size * order**growth * monomials / 1e9
+    return Cost(effort * seconds * order**power * monomials, memory * effort)
 
 
 EVEN_TOO = 4.0
@@ -167,14 +158,13 @@ def check(
     *,
     parameters: int = 0,
     weights: tuple[int, ...] = (),
-    workers: int = 1,
     effort: float = 1.0,
 ) -> None:
     """Refuse a derivation that is predicted to exceed the budget.
 
     Parameters
     ----------
-    method, order, parameters, weights, workers, effort
+    method, order, parameters, weights, effort
         As for ``predict``.
     budget : Budget
         What it may cost.
@@ -184,7 +174,7 @@ def check(
     InputError
         With the prediction and the highest order that fits.
     """
-    predicted = partial(predict, method, parameters=parameters, weights=weights, workers=workers, effort=effort)
+    predicted = partial(predict, method, parameters=parameters, weights=weights, effort=effort)
     cost = predicted(order)
     if cost.within(budget):
         return

@@ -147,7 +147,7 @@ def conservative_recursion(
     amplitude : str
         ``peak`` or ``fundamental``.
     space : Space
-        What the coefficients are: rationals, polynomials in parameters, residues modulo a prime, balls.
+        What the coefficients are: rationals, polynomials in parameters, balls.
     watch : callable, optional
         Called before each order with the recursion and the order.
 

@@ -1,4 +1,4 @@
-"""Expansions of very high order: in balls with certain digits, or exactly by many primes, with checkpoints.
+"""Expansions of very high order: in balls with certain digits, with checkpoints.
 
 Knows the recursions of expansion and runs them in other arithmetic.
 """

@@ -1,4 +1,4 @@
-"""What both ways to very high orders ask of an oscillator: numbers for its parameters, and an identity."""
+"""What very high orders ask of an oscillator: numbers for its parameters, and an identity."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import sympy
-from flint import arb, fmpq, nmod
+from flint import arb, fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.recurrences import Node, Product, Sums, plain_sums
@@ -114,13 +114,13 @@ class TrigRing:
             raise InputError(f"the power {exponent} of {value} is not rational; scale the argument to start from 1")
         return self.number(root)
 
-    def _constant(self, element: Trig) -> fmpq | nmod | arb | None:
+    def _constant(self, element: Trig) -> fmpq | arb | None:
         """Return the value of a constant element without parameters, else None."""
         coefficients = element.coefficients(0)
         if any(p is not None and p != 0 for p in element.parts[1:]) or len(coefficients) > 1:
             return None
         value = coefficients[0] if coefficients else fmpq(0)
-        if isinstance(value, fmpq | nmod | arb):
+        if isinstance(value, fmpq | arb):
             return value
         terms = value.to_dict()
         if any(any(powers) for powers in terms):

@@ -1,7 +1,6 @@
 """Where the coefficients of a derivation live, and the polynomials in ``y`` over them, all by FLINT.
 
 * ``Rationals``: exact rationals, dense ``fmpq_poly``.
-* ``Modular``: residues modulo one word-sized prime, ``nmod_poly``; many primes make the rationals (``modular``).
 * ``Parametric``: polynomials in named parameters, sparse ``fmpq_mpoly`` with ``y`` as first generator.
 """
 
@@ -12,14 +11,14 @@ from functools import lru_cache
 from operator import mul
 from typing import Any, Protocol
 
-from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpq_poly, fmpz, nmod, nmod_poly
+from flint import Ordering, fmpq, fmpq_mpoly_ctx, fmpq_poly, fmpz
 
 from ridgeback.symbolic.series.triangular import back_substitute, solve_rational
 
 Polynomial = Any
-"""A FLINT polynomial in y: ``fmpq_poly``, ``nmod_poly`` or ``fmpq_mpoly``."""
+"""A FLINT polynomial in y: ``fmpq_poly`` or ``fmpq_mpoly``."""
 Scalar = Any
-"""What multiplies a power of y: ``fmpq``, ``nmod``, or an ``fmpq_mpoly`` that is free of y."""
+"""What multiplies a power of y: ``fmpq``, or an ``fmpq_mpoly`` that is free of y."""
 
 
 Parts = tuple[Polynomial | None, Polynomial | None, Polynomial | None, Polynomial | None]
@@ -131,33 +130,6 @@ class Rationals:
 
     def solve_part(self, p: Polynomial, *, odd: int, shift: int) -> tuple[Polynomial | None, Scalar]:
         return solve_rational(p, odd=odd, shift=shift)
-
-
-class Modular(Rationals):
-    """Residues modulo a prime below 2^63, dense in y.
-
-    A rational enters as the residue of its numerator over its denominator.
-
-    >>> space = Modular(7)
-    >>> space.constant(fmpq(1, 3))
-    5
-    """
-
-    def __init__(self, prime: int) -> None:
-        super().__init__()
-        self.prime = prime
-
-    def constant(self, value: Scalar) -> Polynomial:
-        return nmod_poly([nmod(value, self.prime)], self.prime)
-
-    def assemble(self, coefficients: Sequence[Scalar]) -> Polynomial:
-        return nmod_poly([nmod(value, self.prime) for value in coefficients], self.prime)
-
-    def paired(self, p: Polynomial, weights: Sequence[int], denominator: int) -> Scalar:
-        return _paired(self, p, weights, denominator)
-
-    def solve_part(self, p: Polynomial, *, odd: int, shift: int) -> tuple[Polynomial | None, Scalar]:
-        return _solved(self, p, odd=odd, shift=shift)
 
 
 class Parametric:

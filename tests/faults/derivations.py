@@ -106,8 +106,8 @@ CASES: tuple[Case, ...] = (
     refused("derive pendulum --digits 0", "0 is not in the"),
     refused("derive pendulum --digits 10001", "10001 is not in the"),
     refused("derive pendulum --digits x", "'x'", "is not a valid"),
-    refused("derive pendulum --digits 30 --workers 2", "--digits and --workers exclude each", "keep one"),
-    refused("derive pendulum --checkpoint state", "--checkpoint needs --digits or --workers", "give that, or"),
+    refused("derive pendulum --digits 30 --harmonics", "--digits and --harmonics exclude each", "keep one"),
+    refused("derive pendulum --checkpoint state", "--checkpoint needs --digits", "give that, or"),
     refused("derive pendulum --digits 30 --checkpoint -", "a checkpoint is a file", "give its name"),
     unusable("derive pendulum --digits 30 --checkpoint folder.csv", "'folder.csv'", "check the path"),
     unusable("derive pendulum --digits 30 --checkpoint missing/state", "'missing'", "check the path"),
@@ -126,8 +126,6 @@ CASES: tuple[Case, ...] = (
     refused(
         "derive pendulum --digits 30 --method energy-integral", "--digits belongs to lindstedt, not", "leave one of"
     ),
-    refused("derive pendulum --workers 0", "0 is not in the"),
-    refused("derive pendulum --workers 1025", "1025 is not in the"),
     refused("derive pendulum --at", "--at", "requires an argument"),
     refused("derive pendulum --at x", "'x'", "write a decimal"),
     refused("derive pendulum --at nan", "'nan'", "write a decimal"),

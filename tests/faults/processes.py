@@ -19,8 +19,8 @@ NOTHING_LEFT = '; c=$?; [ -z "$(ls -A "$d")" ] || exit 99; exit $c'
 """Exit code 99 when the line left anything in ``$d``."""
 C: Variables = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
 COMMA: Variables = {"LC_ALL": "de_DE.UTF-8", "LC_NUMERIC": "de_DE.UTF-8"}
-WORKERS = '["derive", "van-der-pol", "--order", "6", "--workers", "2"]'
-CALL = f"from ridgeback.cli import main; raise SystemExit(main({WORKERS}))"
+CALL = "import sys; from ridgeback.cli import main; raise SystemExit(main(sys.argv[1:]))"
+WORKERS = "study cells.toml --workers 2 --store $d/cells.db"
 
 
 def shell(line: str, code: int, *words: str, **environment: str | None) -> Case:
@@ -55,7 +55,7 @@ ENVIRONMENT: tuple[Case, ...] = (
     shell("$R derive pendulum --order 2", 0, "-1/16", HOME=None),
     shell(f"{IN_A_FOLDER}{HILBERT} --plot $d/a.svg", 0, "400 samples", HOME="/proc/nowhere"),
     shell("$R derive pendulum --order 2", 0, "-1/16", TMPDIR="/proc/nowhere"),
-    shell("$R derive van-der-pol --order 6 --workers 2", 0, "eps^2", TMPDIR="/proc/nowhere"),
+    shell(f"{IN_A_FOLDER}$R {WORKERS}", 0, "duffing", TMPDIR="/proc/nowhere"),
     shell("$R derive pendulum --order 2", 0, "-1/16", TERM="dumb"),
     shell("$R derive pendulum --order 2", 0, "-1/16", TERM=None),
     shell(f"{IN_A_FOLDER}{HILBERT} --plot $d/a.png", 0, "400", DISPLAY=None, WAYLAND_DISPLAY=None),
@@ -132,12 +132,12 @@ LIMITS: tuple[Case, ...] = (
 )
 
 WORKING: tuple[Case, ...] = (
-    shell("$R derive van-der-pol --order 6 --workers 2", 0, "eps^2"),
-    shell(f"$PYTHON -c '{CALL}'", 0, "eps^2"),
+    shell(f"{IN_A_FOLDER}$R {WORKERS}", 0, "duffing"),
+    shell(f"{IN_A_FOLDER}$PYTHON -c '{CALL}' {WORKERS}", 0, "duffing"),
     shell(
-        f"{IN_A_FOLDER}printf 'if __name__ == \"__main__\":\\n    {CALL}\\n' > $d/run.py; $PYTHON $d/run.py",
+        f"{IN_A_FOLDER}printf 'if __name__ == \"__main__\":\\n    {CALL}\\n' > $d/run.py; $PYTHON $d/run.py {WORKERS}",
         0,
-        "eps^2",
+        "duffing",
     ),
 )
 

@@ -44,6 +44,7 @@ TEXTS: Mapping[str, str] = {
     "code.csv": "time_s,u\n0,__import__('os').system('touch stolen')\n1,2\n",
     "escape.csv": decay(head="time_s,\x1b[31mred\x07"),
     "formula.csv": decay(head="time_s,=cmd|' /C calc'!A0"),
+    "cells.toml": "study.ask = 'error'\ngrid = {orders = [2], amplitudes = [1]}\noscillator = [{system = 'duffing'}]\n",
 }
 
 BYTES: Mapping[str, Callable[[], bytes]] = {

@@ -122,13 +122,6 @@ def as_balls(path: Path) -> object:
     return lindstedt_in_balls("van-der-pol", 8, digits=10, checkpoint=path)
 
 
-def as_primes(path: Path) -> object:
-    """Go on from a checkpoint of a derivation modulo primes."""
-    from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes
-
-    return lindstedt_by_primes("van-der-pol", 8, checkpoint=path)
-
-
 def as_study(path: Path) -> object:
     """Read the checkpoint of an estimator study."""
     from ridgeback.compare.noise.estimator_study import estimator_study
@@ -137,12 +130,11 @@ def as_study(path: Path) -> object:
 
 
 def checkpoints(folder: Path) -> dict[str, tuple[bytes, Reader]]:
-    """Whole checkpoints of the three kinds, as the program writes them."""
+    """Whole checkpoints of both kinds, as the program writes them."""
     from ridgeback.compare.noise.estimator_study import Case, estimator_study
 
-    made = {"balls.state": as_balls, "primes.state": as_primes, "study.state": as_study}
+    made = {"balls.state": as_balls, "study.state": as_study}
     as_balls(folder / "balls.state")
-    as_primes(folder / "primes.state")
     estimator_study((Case(length=10.0),), methods=("hilbert",), trials=2, checkpoint=folder / "study.state")
     return {name: ((folder / name).read_bytes(), reader) for name, reader in made.items()}
 

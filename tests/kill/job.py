@@ -12,8 +12,6 @@ from pathlib import Path
 
 JOBS: Mapping[str, tuple[str, ...]] = {
     "balls": ("derive", "van-der-pol", "--order", "90", "--digits", "30", "--format", "json"),
-    "primes": ("derive", "van-der-pol", "--order", "36", "--workers", "1", "--format", "json"),
-    "primes, two workers": ("derive", "van-der-pol", "--order", "36", "--workers", "2", "--format", "json"),
     "estimator study": ("study", "--estimators", "--trials", "2", "--format", "json"),
     "study of a file": ("study", "FILE", "--format", "csv"),
     "study of a file, two workers": ("study", "FILE", "--workers", "2", "--format", "csv"),
@@ -41,9 +39,9 @@ def main() -> int:
         cases = tuple(study.Case(axis="length", length=length) for length in (8.0, 9.0, 10.0))
         study.cases = lambda *_: cases  # type: ignore[assignment]
     else:
-        from ridgeback.symbolic.high_order import by_primes, in_balls
+        from ridgeback.symbolic.high_order import in_balls
 
-        by_primes.SAVE_EVERY = in_balls.SAVE_EVERY = SAVE_EVERY  # type: ignore[assignment,misc]
+        in_balls.SAVE_EVERY = SAVE_EVERY  # type: ignore[misc]
     from ridgeback.cli import main as command_line
 
     if "FILE" in JOBS[name]:

@@ -186,7 +186,7 @@ def test_a_parameter_named_like_the_amplitude_is_refused_in_every_form(ridgeback
         ("pendulum --resummed pade --order 16 --at 3.5", "pole at A = 3.339"),
         ("pendulum --resummed pade --degrees 2/2 --order 4", "lower a degree"),
         ("pendulum --resummed pade --verify", "--verify"),
-        ("pendulum --resummed pade --workers 2", "exclude each other"),
+        ("pendulum --resummed pade --digits 9", "exclude each other"),
         ("pendulum --degrees 1/1", "needs --resummed"),
         ("pendulum --resummed pade --degrees 1", "write for example 3/2"),
         ("van-der-pol --resummed nome", "peak amplitude"),

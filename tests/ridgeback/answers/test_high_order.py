@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import json
 import os
 import re
@@ -169,12 +168,7 @@ def test_work_over_the_budget_is_refused_beforehand_and_allowed_when_asked_for(r
         (["pendulum", "--digits", "5", "--format", "latex"], "text or json"),
         (["damped-pendulum", "--digits", "5"], "multiple-scales"),
         (["pendulum", "--digits", "5", "--amplitude", "energy"], "energy"),
-        (["pendulum", "--workers", "2", "--digits", "5"], "exclude each other"),
-        (["pendulum", "--workers", "0"], "--workers"),
-        (["damped-pendulum", "--workers", "2", "--method", "multiple-scales"], "lindstedt"),
-        (["pendulum", "--workers", "2", "--weights", "mu=1"], "--weights"),
-        (["--equation", "u'' + u + c*u**3 = 0", "--workers", "1"], "c is no rational number"),
-        (["van-der-pol", "--workers", "2", "--order", "859"], "order 859 by primes of a limit-cycle"),
+        (["pendulum", "--harmonics", "--digits", "5"], "exclude each other"),
         (["pendulum", "--budget", "2 parsecs"], "not a budget"),
         (["pendulum", "--budget", "0h"], "not a budget"),
         (["pendulum", "--budget", "1h,2h"], "not a budget"),
@@ -188,88 +182,8 @@ def test_what_balls_cannot_do_is_said_in_one_line(ridgeback: Ridgeback, words: l
     assert said in done.err
 
 
-@pytest.mark.parametrize("workers", ["1", "2"])
-def test_many_primes_print_what_exact_arithmetic_prints(ridgeback: Ridgeback, workers: str) -> None:
-    words = ["derive", "van-der-pol", "--order", "12"]
-    by_primes, exact_series = ridgeback(*words, "--workers", workers), ridgeback(*words)
-    assert (by_primes.code, by_primes.err) == (0, "")
-    assert by_primes.out == exact_series.out
-
-
-def test_primes_go_on_from_a_checkpoint(ridgeback: Ridgeback, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    from ridgeback.symbolic.high_order import by_primes as modular
-
-    state, words = tmp_path / "state", ["derive", "van-der-pol", "--order", "24", "--workers", "1"]
-    exact_series = ridgeback(*words)
-    told: list[str] = []
-
-    class Interrupted(Watch):
-        def __call__(self, fraction: float, step: str) -> None:
-            super().__call__(fraction, step)
-            told.append(step)
-            if len(told) == 4:
-                signal.raise_signal(signal.SIGINT)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(high_order, "Watch", Interrupted)
-        stopped = ridgeback(*words, "--checkpoint", str(state))
-    assert (stopped.code, stopped.out) == (130, "")
-    assert f"interrupted after {told[-1]}; the state is in {state}" in stopped.err
-    before = state.read_bytes()
-    for other in (["--order", "25"], ["--amplitude", "fundamental"], ["--digits", "5"]):
-        assert ridgeback(*words, "--checkpoint", str(state), *other).code == 2
-    assert ridgeback("derive", "van-der-pol", "--order", "24", "--digits", "5", "--checkpoint", str(state)).code == 2
-    assert state.read_bytes() == before
-    used: list[int] = []
-    real = modular.residues
-
-    def counted(*given: Any) -> Any:
-        used.append(given[-1])
-        return real(*given)
-
-    monkeypatch.setattr(modular, "residues", counted)
-    resumed = ridgeback(*words, "--checkpoint", str(state))
-    assert resumed.out == exact_series.out
-    order = list(itertools.islice(modular.primes(), 11))
-    assert used[:2] == [order[0], order[-1]]  # the first to test the file; two kept back, four batches of two are in
-    assert not state.exists()
-
-
-def test_an_interrupt_ends_the_pool_without_a_traceback(tmp_path: Path) -> None:
-    """Ctrl-C goes to the whole group of processes; only one line may come of it, and no process may stay."""
-    (tmp_path / "run.py").write_text(SPEAKING)
-    command = [
-        sys.executable,
-        "run.py",
-        "derive",
-        "van-der-pol",
-        "--order",
-        "100",
-        "--workers",
-        "2",
-        "--checkpoint",
-        "state",
-    ]
-    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
-    with subprocess.Popen(
-        command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
-    ) as process:
-        assert process.stderr is not None
-        while "bits of modulus" not in process.stderr.readline():
-            assert process.poll() is None
-        os.killpg(process.pid, signal.SIGINT)
-        said = process.stderr.read()
-        assert process.wait(60) == 130
-    last = said.splitlines()[-1]
-    assert re.fullmatch(r"ridgeback: interrupted after \d+ bits of modulus; the state is in state: run .*", last)
-    head = json.loads((tmp_path / "state").read_text().splitlines()[0])
-    assert head["used"] >= 4
-    assert all(line.startswith("ridgeback: ") for line in said.splitlines()), said
-    assert gone(process.pid)
-
-
 @pytest.mark.parametrize(
-    ("arithmetic", "output"), [(("--digits", "5"), "/dev/full"), (("--workers", "1"), "closed pipe")]
+    ("arithmetic", "output"), [(("--digits", "5"), "/dev/full"), (("--digits", "6"), "closed pipe")]
 )
 def test_a_checkpoint_outlives_an_output_that_cannot_be_written(
     arithmetic: tuple[str, str], output: str, tmp_path: Path
@@ -306,7 +220,6 @@ def test_a_checkpoint_outlives_an_output_that_cannot_be_written(
 @pytest.mark.parametrize(
     ("stop", "arithmetic"),
     [
-        (signal.SIGTERM, ("--order", "100", "--workers", "2")),
         (signal.SIGTERM, ("--order", "400", "--digits", "20")),
         (signal.SIGHUP, ("--order", "400", "--digits", "20")),
     ],
@@ -330,28 +243,13 @@ def test_every_request_to_stop_leaves_a_state_and_no_process(
         command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
     ) as process:
         assert process.stderr is not None
-        while not re.search("bits of modulus|order [2-9] of", process.stderr.readline()):
+        while not re.search("order [2-9] of", process.stderr.readline()):
             assert process.poll() is None
         process.send_signal(stop)
         said = process.stderr.read()
         assert process.wait(60) == 130
     assert "the state is in state: run the same command again" in said.splitlines()[-1]
     assert (tmp_path / "state").is_file()
-    assert gone(process.pid)
-
-
-def test_workers_end_with_their_parent(tmp_path: Path) -> None:
-    (tmp_path / "run.py").write_text(SPEAKING)
-    command = [sys.executable, "run.py", "derive", "van-der-pol", "--order", "100", "--workers", "2"]
-    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[3])}
-    with subprocess.Popen(
-        command, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True
-    ) as process:
-        assert process.stderr is not None
-        while "bits of modulus" not in process.stderr.readline():
-            assert process.poll() is None
-        process.kill()
-        process.wait(60)
     assert gone(process.pid)
 
 

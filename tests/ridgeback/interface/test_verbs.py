@@ -237,13 +237,6 @@ def test_high_orders_tell_their_progress() -> None:
     seen: list[float] = []
     ridgeback.lindstedt_in_balls("pendulum", 8, progress=lambda share, _: seen.append(share))
     assert seen
-    seen.clear()
-    ridgeback.lindstedt_by_primes("pendulum", 8, progress=lambda share, _: seen.append(share))
-    assert seen[-1] == 1
-    assert (
-        ridgeback.lindstedt_by_primes("pendulum", 4, progress=True).frequency
-        == ridgeback.derive("pendulum", 4).frequency
-    )
 
 
 @pytest.mark.parametrize(

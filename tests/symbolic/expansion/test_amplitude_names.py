@@ -11,7 +11,6 @@ from ridgeback.common.errors import InputError
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
-from ridgeback.symbolic.high_order.by_primes import lindstedt_by_primes
 from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -56,7 +55,6 @@ def test_a_damping_that_is_set_to_zero_leaves_every_amplitude() -> None:
         ("A", lambda own: lindstedt(own, 4)),
         ("A", lambda own: energy_integral(own, 4)),
         ("A", lambda own: lindstedt_in_balls(own.with_parameters({"A": 1}), 4)),
-        ("A", lambda own: lindstedt_by_primes(own.with_parameters({"A": 1}), 4)),
         ("a", lambda own: multiple_scales(own, 4)),
     ],
 )
