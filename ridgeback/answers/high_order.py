@@ -11,8 +11,9 @@ import click
 
 from ridgeback.common.files import remove_through
 from ridgeback.console.failure import say
+from ridgeback.interface.derivation import refuse_weights
 from ridgeback.options.budget import Watch
-from ridgeback.options.derivation import Request, refuse_weights
+from ridgeback.options.derivation import Request
 
 if TYPE_CHECKING:
     from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
@@ -26,7 +27,7 @@ def in_balls(oscillator: Oscillator, request: Request, digits: int, checkpoint: 
     """
     if request.method not in (None, "lindstedt"):
         raise click.UsageError(f"--digits belongs to lindstedt, not to {request.method}; leave one of the two out")
-    refuse_weights(request, "--digits")
+    refuse_weights(request.weight, request.weights, "--digits")
     from ridgeback.symbolic.expansion.cost import Budget, predict
     from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
 

@@ -9,6 +9,7 @@ from typing import cast
 from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
 from ridgeback.common.progress import Wanted
+from ridgeback.interface.derivation import derivation
 from ridgeback.interface.source import known_form
 from ridgeback.interface.unused import refuse_unused
 from ridgeback.symbolic.codegen import Formula, written
@@ -16,15 +17,10 @@ from ridgeback.symbolic.codegen.closed_forms import mean_form, sine_series
 from ridgeback.symbolic.codegen.program import MODES as ARITHMETIC
 from ridgeback.symbolic.codegen.program import Mode
 from ridgeback.symbolic.expansion.cost import Budget
-from ridgeback.symbolic.expansion.each_side import energy_on_each_side
-from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
-from ridgeback.symbolic.flow.averaged_losses import averaged_losses
 from ridgeback.symbolic.flow.loss_flow import LossFlow
-from ridgeback.symbolic.flow.multiple_scales import multiple_scales
-from ridgeback.symbolic.flow.ordering import check_both
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.resummation.by_name import resum
 from ridgeback.symbolic.resummation.resummation import Resummation
@@ -32,8 +28,6 @@ from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
 from ridgeback.symbolic.systems.parameters import Value
-
-METHODS = ("lindstedt", "multiple-scales", "energy-integral")
 
 
 def derive(
@@ -93,35 +87,16 @@ def derive(
     >>> derive("damped_pendulum", 2).growth_rate_expression()
     -mu
     """
-    system = as_oscillator(oscillator, parameters=parameters, about=about)
-    name = method_for(system, method)
-    if name == "multiple-scales" and system.has_rough_losses:
-        if weight is not None or weights is not None:
-            raise InputError("losses with abs or sign are averaged to first order and have no weights; leave them out")
-        return averaged_losses(system, order, amplitude=amplitude)
-    if name == "multiple-scales":
-        if amplitude not in (None, "fundamental"):
-            raise InputError(f"multiple-scales has the fundamental amplitude, not {amplitude!r}; leave amplitude out")
-        check_both(system, weight, weights)
-        return multiple_scales(
-            system, order, weight=2 if weight is None else weight, weights=weights, budget=budget, progress=progress
-        )
-    if weight is not None or weights is not None:
-        raise InputError(f"weights belong to multiple-scales, not to {name}; leave them out")
-    if name == "energy-integral" and system.by_sides:
-        return energy_on_each_side(system, order, amplitude=amplitude or "peak", budget=budget)
-    if name == "energy-integral":
-        return energy_integral(system, order, amplitude=amplitude or "peak", budget=budget)
-    return lindstedt(system, order, amplitude=amplitude or "peak", budget=budget, progress=progress)
-
-
-def method_for(oscillator: Oscillator, method: str | None) -> str:
-    """The method asked for, or the one that suits the oscillator."""
-    if method is None and oscillator.kind == "damped":
-        return "multiple-scales"
-    if method is None:
-        return "energy-integral" if oscillator.by_sides and oscillator.is_conservative else "lindstedt"
-    return chosen(method, METHODS, "method")
+    return derivation(
+        as_oscillator(oscillator, parameters=parameters, about=about),
+        order,
+        method=method,
+        amplitude=amplitude,
+        weight=weight,
+        weights=weights,
+        budget=budget,
+        progress=progress,
+    )
 
 
 def generate(

@@ -35,14 +35,6 @@ class Request:
     weights: dict[str, int] | None = None
     budget: Budget | None = None
 
-    def method_for(self, oscillator: Oscillator) -> str:
-        """The method asked for, or the one that suits the oscillator."""
-        if self.method is not None:
-            return self.method
-        if oscillator.kind == "damped":
-            return "multiple-scales"
-        return "energy-integral" if oscillator.by_sides and oscillator.is_conservative else "lindstedt"
-
 
 def requesting(command: Command) -> Command:
     """Give a verb the options of a derivation, as one ``request``."""
@@ -62,69 +54,20 @@ def requesting(command: Command) -> Command:
 
 
 def derived(oscillator: Oscillator, request: Request) -> Expansion | PowerExpansion | LossFlow | SlowFlow:
-    """Derive by the method asked for, or by the one that suits the oscillator.
-
-    Raises click.UsageError for options that the method does not have, InputError from the derivation.
+    """Derive what is asked for.
 
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> derived(find("pendulum"), Request(2)).method
     'lindstedt'
     """
-    name = request.method_for(oscillator)
-    if name == "multiple-scales":
-        return averaged(oscillator, request) if oscillator.has_rough_losses else slow_flow(oscillator, request)
-    refuse_weights(request, name)
-    if name == "energy-integral":
-        if oscillator.by_sides:
-            return on_each_side(oscillator, request)
-        from ridgeback.symbolic.expansion.energy_integral import energy_integral
+    from ridgeback.interface.derivation import derivation
 
-        return energy_integral(oscillator, request.order, amplitude=request.amplitude or "peak", budget=request.budget)
-    from ridgeback.symbolic.expansion.lindstedt import lindstedt
-
-    return lindstedt(oscillator, request.order, amplitude=request.amplitude or "peak", budget=request.budget)
-
-
-def on_each_side(oscillator: Oscillator, request: Request) -> Expansion | PowerExpansion:
-    """The energy integral of a force with a kink at rest, or without a linear part."""
-    from ridgeback.symbolic.expansion.each_side import energy_on_each_side
-
-    return energy_on_each_side(oscillator, request.order, amplitude=request.amplitude or "peak", budget=request.budget)
-
-
-def refuse_weights(request: Request, name: str) -> None:
-    """Raise click.UsageError for weights where there are none."""
-    if request.weight is not None or request.weights is not None:
-        option = "--weight" if request.weight is not None else "--weights"
-        raise click.UsageError(f"{option} belongs to multiple-scales, not to {name}; leave it out")
-
-
-def averaged(oscillator: Oscillator, request: Request) -> LossFlow:
-    """The slow flow of losses that are not analytic at rest."""
-    if request.weight is not None or request.weights is not None:
-        raise click.UsageError(
-            "losses with abs or sign are averaged to first order and have no weights; leave them out"
-        )
-    from ridgeback.symbolic.flow.averaged_losses import averaged_losses
-
-    return averaged_losses(oscillator, request.order, amplitude=request.amplitude)
-
-
-def slow_flow(oscillator: Oscillator, request: Request) -> SlowFlow:
-    """Multiple scales, whose amplitude is that of the first harmonic."""
-    if request.amplitude not in (None, "fundamental"):
-        raise click.UsageError(
-            f"multiple-scales has the fundamental amplitude, not {request.amplitude}; use --amplitude fundamental, "
-            "or another method"
-        )
-    from ridgeback.symbolic.flow.multiple_scales import multiple_scales
-    from ridgeback.symbolic.flow.ordering import check_both
-
-    check_both(oscillator, request.weight, request.weights)
-    return multiple_scales(
+    return derivation(
         oscillator,
         request.order,
-        weight=2 if request.weight is None else request.weight,
+        method=request.method,
+        amplitude=request.amplitude,
+        weight=request.weight,
         weights=request.weights,
         budget=request.budget,
     )
