@@ -5,13 +5,14 @@ from __future__ import annotations
 import base64
 import hashlib
 import re
+from collections.abc import Mapping
 from importlib import resources
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from ridgeback.compare.report.results import Report
+from ridgeback.compare.report.results import Described, Report
 from ridgeback.reports.drawing.theme import variables_css
-from ridgeback.reports.sections import head_parts, sections
+from ridgeback.reports.sheet import Sheet, report_sheet
 from ridgeback.reports.text.mathml import FormulaError, mathml
 
 WARN_BYTES = 2_000_000
@@ -35,24 +36,28 @@ def html_page(report: Report) -> str:
     str
         One HTML file that fetches nothing.
     """
-    environment = _environment()
-    script, style = _script(report), _source("style.css")
-    return environment.get_template("page.html").render(
-        report=report,
-        equation=_equation(report),
-        letters=LETTERS,
-        head=head_parts(report),
-        head_name="Accuracy and cost" if report.benchmark else "Overview" if report.cards else "",
-        sections=sections(report),
-        style=variables_css() + style,
-        script=script,
-        script_hash=_hash(script),
+    return rendered(report_sheet(report))
+
+
+def rendered(sheet: Sheet) -> str:
+    """Set a page."""
+    script, style = _script(sheet.code), _source("style.css")
+    return (
+        _environment()
+        .get_template("page.html")
+        .render(
+            sheet=sheet,
+            equation=_equation(sheet.described),
+            letters=LETTERS,
+            style=variables_css() + style,
+            script=script,
+            script_hash=_hash(script),
+        )
     )
 
 
-def _script(report: Report) -> str:
+def _script(code: Mapping[int, str]) -> str:
     """The page's script with the generated code of every order in it."""
-    code = {} if report.grid is None else report.grid.code
     functions = ",".join(f"{order}:{text}" for order, text in sorted(code.items()))
     return _source("script.js").replace("/*CODE*/", functions, 1)
 
@@ -87,12 +92,13 @@ def _environment() -> Environment:
 
 
 def tied(text: str) -> str:
-    """A text in which no line ends between a number and its unit.
+    """A text in which no line ends between a number and its unit, nor before its power of ten.
 
     >>> tied("within 0.1 % at 2 ns a value").count(chr(160))
     2
     """
-    return re.sub(r"(?<=[0-9π⁻⁰¹²³⁴⁵⁶⁷⁸⁹]) (?=(?:%|ns|µs|ms|s|Hz|rad|dB|terms)(?![a-z]))", "\u00a0", text)
+    held = re.sub(r"(?<=[0-9π⁻⁰¹²³⁴⁵⁶⁷⁸⁹]) (?=(?:%|ns|µs|ms|s|Hz|rad|dB|terms)(?![a-z]))", "\u00a0", text)
+    return held.replace(" × 10", "\u00a0×\u00a010")
 
 
 def _source(name: str) -> str:
@@ -103,11 +109,11 @@ def _hash(script: str) -> str:
     return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode("ascii")
 
 
-def _equation(report: Report) -> str:
+def _equation(described: Described | None) -> str:
     """The equation as MathML, empty when there is none or when it cannot be set."""
-    if report.described is None:
+    if described is None:
         return ""
     try:
-        return mathml(report.described.equation_latex)
+        return mathml(described.equation_latex)
     except FormulaError:
         return ""

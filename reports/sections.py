@@ -55,15 +55,19 @@ def sections(report: Report) -> tuple[Section, ...]:
 
 
 def head_parts(report: Report) -> tuple[Part, ...]:
-    """The first figure with its table; below the cards."""
+    """The first figure, below the cards."""
     if report.benchmark is None:
         return ()
     target = report.finding.target if report.finding else 1e-3
+    return (Part("figure", accuracy_cost(report.benchmark, target)),)
+
+
+def head_tables(report: Report) -> tuple[Part, ...]:
+    """The table behind the first figure, below the findings."""
+    if report.benchmark is None:
+        return ()
     count = len({short_name(row) for row in report.benchmark.contenders})
-    return (
-        Part("figure", accuracy_cost(report.benchmark, target)),
-        fold(f"All {count} contenders as a table", Part("table", contender_table(report.benchmark))),
-    )
+    return (fold(f"All {count} contenders as a table", Part("table", contender_table(report.benchmark))),)
 
 
 def _time(report: Report) -> Section | None:
@@ -75,15 +79,17 @@ def _time(report: Report) -> Section | None:
 
 def _time_title(found: Benchmark, decay: MotionComparison) -> str:
     """Where along the motion the drawn contenders err most, told for those that agree."""
-    drawn = along(found, decay)
-    said = []
-    for letter_, name in (("E", "expansions err"), ("S", "the models err"), ("T", "")):
-        for place in ("at the start", "in the middle", "at the end"):
-            own = [d for d in drawn if d.letter == letter_ and _where(found, d) == place]
-            if name and len(own) == len([d for d in drawn if d.letter == letter_]) and own:
-                said.append(f"{name} most {place}")
-            elif not name and (worst := [d for d in own if d.row.method == "wigner"]):
-                said.append(f"the {short_name(worst[0].row)} errs most {place}")
+    drawn = [d for d in along(found, decay) if (d.row.relative_rms_error or 0.0) > found.reference.floor]
+    places: dict[str, list[str]] = {}
+    for letter_, name in (("E", "expansions"), ("S", "models")):
+        where = {_where(found, d) for d in drawn if d.letter == letter_} - {""}
+        if len(where) == 1:
+            places.setdefault(where.pop(), []).append(name)
+    said = [f"{listing(names)} err most {place}" for place, names in places.items()]
+    wigner = next((d for d in drawn if d.row.method == "wigner"), None)
+    if wigner is not None and (place := _where(found, wigner)):
+        name = f"the {short_name(wigner.row)}"
+        said.append(f"{name} {place}" if said else f"{name} errs most {place}")
     return f"In time, {listing(said)}" if said else "Frequency in time"
 
 
@@ -130,7 +136,7 @@ def _expansion(report: Report) -> Section | None:
 def _rest_title(found: Derivation) -> str:
     names = [formula.title[:1].lower() + formula.title[1:] for formula in found.formulas[1:]]
     passed = sum(check.passed is True for check in found.certificate)
-    checks = f"{passed} exact checks passed" if passed else ""
+    checks = f"{passed} exact check{'s' if passed > 1 else ''} passed" if passed else ""
     text = listing([*names, *((checks,) if checks else ())])
     return text[:1].upper() + text[1:]
 
@@ -177,7 +183,8 @@ def _budget(report: Report) -> Section | None:
             Part("table", budget_table(decay.budget)),
         ),
     )
-    return Section("errors", "Error budget", budget_heading(decay.budget), parts)
+    floor = report.benchmark.reference.floor if report.benchmark else 0.0
+    return Section("errors", "Error budget", budget_heading(decay.budget, floor), parts)
 
 
 def _code(found: Derivation | None) -> Section | None:

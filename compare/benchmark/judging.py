@@ -90,6 +90,16 @@ def reference_of(motion: Motion, support: Mask) -> Reference:
 
     return Reference(
         label="cycle frequency of the integrated solution",
-        numerical_error=rms(motion.cycle.interpolation_error_at(time)),
+        numerical_error=max(rms(motion.cycle.interpolation_error_at(time)), integration_error(motion)),
         definition=rms(motion.cycle.spread_at(time)),
     )
+
+
+def integration_error(motion: Motion) -> float:
+    """Relative error of the frequency that two integrations leave open: their distance in u as a phase, over the run.
+
+    A distance d of two motions of amplitude a is a phase of at most d / a where they move fastest, and that phase has
+    built up over all of the phase that was passed.
+    """
+    passed = float(np.trapezoid(motion.known_omega, motion.time))
+    return float(np.nan_to_num(motion.disagreement)) / (float(np.nanmin(motion.energy_peak)) * passed)

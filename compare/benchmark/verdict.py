@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import relative
@@ -11,7 +11,8 @@ from ridgeback.compare.benchmark.contenders import WAYS, Reference, Row, Verdict
 
 def judge(rows: Sequence[Row], reference: Reference) -> Verdict:
     """Return the verdict on ranked rows; corrected estimates take part as estimates."""
-    best = {way: _best([r for r in rows if r.ranked and WAYS[r.kind] == way]) for way in _ways()}
+    floor = reference.floor
+    best = {way: closest([r for r in rows if r.ranked and WAYS[r.kind] == way], floor) for way in _ways()}
     known = {way: row for way, row in best.items() if row is not None}
     if not known:
         raise InputError("no expansion, series model or estimate could be ranked on this motion")
@@ -41,9 +42,21 @@ def _error(row: Row) -> float:
     return float(row.relative_rms_error or 0.0)
 
 
-def _best(rows: Sequence[Row]) -> Row | None:
-    """The row of least error; among equals, the cheaper one."""
-    return min(rows, key=lambda r: (_error(r), r.time_ns_per_value or 0.0), default=None)
+def closest(rows: Iterable[Row], floor: float) -> Row | None:
+    """The row of least error; among those that the reference cannot tell apart, a plain expansion of least order.
+
+    Measured times decide nothing: the same motion has the same verdict.
+
+    >>> rows = [Row("x", "", "expansion", order=n, relative_rms_error=e) for n, e in ((8, 3e-9), (20, 1e-9))]
+    >>> [found.order for floor in (0.0, 1e-8) if (found := closest(rows, floor))]
+    [20, 8]
+    """
+    known = [row for row in rows if row.relative_rms_error is not None]
+    return min(
+        known,
+        key=lambda r: (max(_error(r), floor), r.kind != "expansion", r.order or 0, r.method),
+        default=None,
+    )
 
 
 def _limit(row: Row) -> str:

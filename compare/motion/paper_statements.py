@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ridgeback.common.numbers import decibels, offset, relative, scientific, signed
+from ridgeback.common.numbers import decibels, offset, per_cent, scientific, signed
 from ridgeback.common.quantities import frequency, short_amplitude
 from ridgeback.compare.motion.error_norms import relative_error
 from ridgeback.compare.motion.estimate_curves import SMOOTHED, WIGNER, WIGNER_OF_VELOCITY
@@ -70,7 +70,7 @@ class Evidence:
     def rms(self, name: str) -> str:
         """Interior rms of a curve in words."""
         score = self.scores.get(name)
-        return relative(score.rms_interior if score else None, missing="no value")
+        return per_cent(score.rms_interior if score else None, missing="no value")
 
     def size(self, value: float) -> str:
         """Amplitude in units of pi for an angle."""
@@ -154,7 +154,7 @@ def _slopes(e: Evidence) -> str:
     parts = [f"harmonic {m} rises {ratio:.3f} times as fast as the fundamental" for m, ratio in found.items()]
     off = max(abs(ratio / m - 1.0) for m, ratio in found.items())
     verdict = "as eq. (25) has it" if off < SLOPE_OFF else "which is not the order, as eq. (25) would have it"
-    return f" In the interior {', '.join(parts)}: within {relative(off)} of the order, {verdict}."
+    return f" In the interior {', '.join(parts)}: within {per_cent(off)} of the order, {verdict}."
 
 
 def _derivative(e: Evidence) -> Statement:
@@ -180,7 +180,7 @@ def _amplitude(e: Evidence) -> Statement:
     wave = e.energy_ripple
     moving = (
         f"Between them it ripples {wave.per_cycle:.2f} times per cycle about the averaged amplitude; the frequency "
-        f"made from it ripples by {relative(early)} rms before t = {e.clock(0.05 * span)} and {relative(late)} after "
+        f"made from it ripples by {per_cent(early)} rms before t = {e.clock(0.05 * span)} and {per_cent(late)} after "
         f"{e.clock(0.8 * span)}."
         if e.motion.dynamics.damping
         else "Without damping it is constant."
@@ -189,7 +189,7 @@ def _amplitude(e: Evidence) -> Statement:
         figure=4,
         title="Amplitude from the energy, eq. (21)",
         paper="The amplitude by (21) represents the instantaneous envelope of the oscillation excellently.",
-        measured=f"It passes through the positive turning points within {relative(away)}. {moving}",
+        measured=f"It passes through the positive turning points within {per_cent(away)}. {moving}",
     )
 
 
@@ -237,7 +237,7 @@ def _unit(e: Evidence) -> str:
 def _zones(e: Evidence, name: str) -> str:
     score = e.scores[name]
     zones = (score.rms_start, score.rms_interior, score.rms_end)
-    return f"{score.label}: {', '.join(relative(x, missing='no value') for x in zones)}"
+    return f"{score.label}: {', '.join(per_cent(x, missing='no value') for x in zones)}"
 
 
 def _accidental(e: Evidence) -> str:
@@ -256,9 +256,9 @@ def _accidental(e: Evidence) -> str:
 def _signal(e: Evidence) -> Statement:
     made = e.reconstruction
     low, high = e.motion.zone.lower, e.motion.zone.upper
-    early, late = (relative(_part(made, keep)) for keep in (made.time < low, made.time > high))
+    early, late = (per_cent(_part(made, keep)) for keep in (made.time < low, made.time > high))
     several = (
-        f" With {made.components} components, eq. (7), the difference is {relative(made.rms_multicomponent)}."
+        f" With {made.components} components, eq. (7), the difference is {per_cent(made.rms_multicomponent)}."
         if made.rms_multicomponent is not None
         else ""
     )
@@ -267,7 +267,7 @@ def _signal(e: Evidence) -> Statement:
         title="The oscillation and its one-component model, eq. (22)",
         paper="The agreement is very good, which shows how much of the motion is in the fundamental.",
         measured=(
-            f"The real part of (22) differs by {relative(made.rms_single)} rms of the signal: {early} in the first "
+            f"The real part of (22) differs by {per_cent(made.rms_single)} rms of the signal: {early} in the first "
             f"tenth, {late} in the last.{_drift(e)}{several}"
         ),
     )
@@ -294,7 +294,7 @@ def _wigner(e: Evidence) -> Statement:
     else:
         keep = u.valid & v.valid & e.motion.zone.interior(u.time)
         apart = float(np.sqrt(np.mean((u.omega[keep] / v.omega[keep] - 1) ** 2)))
-        measured = f"The two estimates differ by {relative(apart)} rms in the interior. {_cause(e)}"
+        measured = f"The two estimates differ by {per_cent(apart)} rms in the interior. {_cause(e)}"
     return Statement(
         figure=7,
         title="Frequency from the Wigner peak of the signal and of its derivative",
@@ -329,7 +329,7 @@ def _smoothed(e: Evidence) -> Statement:
     if score is None or score.rms_interior is None:
         measured = "The smoothed pseudo-Wigner peak could not be taken; the table gives the reason."
     else:
-        against = f" The full Wigner peak: {_zones(e, WIGNER)}." if full and full.rms_interior is not None else ""
+        against = f" Over the full length, {_zones(e, WIGNER)}." if full and full.rms_interior is not None else ""
         measured = (
             f"Rms error in the first tenth, the interior and the last tenth: {_zones(e, SMOOTHED)}. "
             f"It is only valid half a window inside the record.{against}"
@@ -351,13 +351,13 @@ def _harmonics(e: Evidence) -> Statement:
     if raw is not None:
         error = ratio_error(raw, first, e.motion, e.motion.zone.lower, e.motion.zone.upper)
         wrong = (
-            f" The raw Wigner peak near it is {relative(float(np.sqrt(np.mean(error**2))))} off: {raw.note}, "
+            f" The raw Wigner peak near it is {per_cent(float(np.sqrt(np.mean(error**2))))} off: {raw.note}, "
             "so it must not be read as the harmonic."
         )
     slip = ""
     if first == 3 and e.motion.setting.is_pendulum:
         level = e.overtones.of_u.level_db(2)
-        slip = f" The text's factor 2 is a slip: multiple 2 is at {decibels(level)}, multiple 3 is meant."
+        slip = f" The text’s factor 2 is a slip: multiple 2 is at {decibels(level)}, multiple 3 is meant."
     return Statement(
         figure=9,
         title="A higher harmonic against its multiple of the fundamental",
@@ -374,5 +374,5 @@ def _harmonic_error(e: Evidence, one: Overtone) -> str:
     quarter = 0.25 * (high - low)
     spans = ((low, high), (low, low + quarter), (high - quarter, high))
     errors = [ratio_error(curve, multiple, e.motion, *span) for span in spans]
-    whole, early, late = (relative(float(np.sqrt(np.mean(x**2)))) if x.size else "no value" for x in errors)
+    whole, early, late = (per_cent(float(np.sqrt(np.mean(x**2)))) if x.size else "no value" for x in errors)
     return f"harmonic {multiple} is {multiple} ω₀ within {whole} rms ({early} early, {late} late in the interior)"

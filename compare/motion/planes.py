@@ -40,9 +40,8 @@ def spectrogram_image(
     first, last = start + seconds / 2, start + (x.size - 1) / rate - seconds / 2
     whole = columns(plane, (plane.time >= first) & (plane.time <= last))
     note = (
-        f"Hann window of {seconds:.3g} {unit or 'time units'}; {rate:g} samples per {unit or 'time unit'}.  Shown from "
-        "half a window inside "
-        "the record: nearer its ends the window would see past them."
+        f"Hann window of {seconds:.3g} {unit or 'time units'}; {rate:.4g} samples per {unit or 'time unit'}.  Shown "
+        "from half a window inside the record: nearer its ends the window would see past them."
     )
     return image(whole, top=top, name=name, overlays=overlays, note=note)
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-
-import numpy as np
 
 from ridgeback.common.numbers import NONE, number, per_cent, rounded_down, threshold, two_digits
 from ridgeback.compare.benchmark.contenders import WAYS, Row, Way
 from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.benchmark.verdict import closest
 from ridgeback.compare.noise.results import NoiseStudy, estimator_of
 from ridgeback.compare.report.naming import SOURCES, estimator, short_name
 from ridgeback.compare.report.results import Card
@@ -44,17 +43,11 @@ def cards(known: Known) -> tuple[Card, ...]:
     return (_expansions(known), _series(known), _estimates(known))
 
 
-def best(rows: Iterable[Row]) -> Row | None:
-    """The ranked row of least error; among equals the cheaper one."""
-    ranked = [row for row in rows if row.ranked and row.relative_rms_error is not None]
-    return min(ranked, key=lambda r: (r.relative_rms_error or 0.0, r.time_ns_per_value or np.inf), default=None)
-
-
 def best_of_way(found: Benchmark, way: Way) -> Row | None:
     """The plain expansion, the series, or the estimate of least error; another row of the way where there is none."""
-    of_way = [row for row in found.contenders if WAYS[row.kind] == way]
+    of_way = [row for row in found.contenders if WAYS[row.kind] == way and row.ranked]
     plain = [row for row in of_way if row.kind == "expansion"]
-    return best(plain) or best(of_way)
+    return closest(plain, found.reference.floor) or closest(of_way, found.reference.floor)
 
 
 def refusal(found: Benchmark, way: Way) -> str:

@@ -11,9 +11,10 @@ from ridgeback.common.numbers import number, offset, per_cent, two_digits
 from ridgeback.common.quantities import amplitude
 from ridgeback.compare.benchmark.contenders import OrderCrossing, Reference, Row, Verdict
 from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.benchmark.verdict import closest
 from ridgeback.compare.motion.results import BiasCause, MotionComparison
-from ridgeback.compare.report.cards import best, best_of_way, duration
-from ridgeback.compare.report.naming import REMOVED, capital, estimator, short_name
+from ridgeback.compare.report.cards import best_of_way, duration
+from ridgeback.compare.report.naming import REMOVED, capital, estimator, follow, plural, refused_names, short_name
 from ridgeback.compare.study.derived import Derived
 
 MOST = 5
@@ -47,14 +48,15 @@ def title_of(verdict: Verdict, reference: Reference) -> str:
     """
     named = short_name(verdict.best)
     error = per_cent(verdict.best.relative_rms_error)
+    followed = f"{capital(named)} {follow(verdict.best)} ω₀(t)"
     if verdict.rival is None or verdict.ratio is None:
-        return f"{capital(named)} follows ω₀(t) within {error}"
+        return f"{followed} within {error}"
     rival = short_name(verdict.rival)
     if verdict.decided and float(verdict.best.relative_rms_error or 0.0) <= reference.floor:
         within = f"as closely as it is defined ({per_cent(reference.floor)})"
-        return f"{capital(named)} follows ω₀(t) {within}, {two_digits(verdict.ratio)} times closer than {rival}"
+        return f"{followed} {within}, {two_digits(verdict.ratio)} times closer than {rival}"
     if verdict.decided:
-        return f"{capital(named)} follows ω₀(t) within {error}, {two_digits(verdict.ratio)} times closer than {rival}"
+        return f"{followed} within {error}, {two_digits(verdict.ratio)} times closer than {rival}"
     return f"{capital(named)} and {rival} both follow ω₀(t) as closely as it is defined, to {per_cent(reference.floor)}"
 
 
@@ -76,7 +78,7 @@ def in_sentence(row: Row) -> str:
     """
     if row.kind == "series-model":
         return f"the paper’s series (14), cut after {row.order} terms, is"
-    return f"{short_name(row)} {'are' if row.method.startswith('zero-crossing') else 'is'}"
+    return f"{short_name(row)} {'are' if plural(row) else 'is'}"
 
 
 def _costs(found: Benchmark) -> str:
@@ -133,8 +135,7 @@ def _from_contenders(found: Benchmark) -> Iterator[Finding]:
     yield from _equal(found)
     refused = [row for row in found.contenders if row.refused]
     if refused:
-        names = ", ".join(dict.fromkeys(short_name(row) for row in refused))
-        yield Finding(3, f"No result from {names}; the table says why.")
+        yield Finding(3, f"No result from {refused_names(refused)}; the table says why.")
 
 
 def _ripple(found: Benchmark) -> Iterator[Finding]:
@@ -197,7 +198,7 @@ def _about_wigner(decay: MotionComparison, found: Benchmark) -> Iterator[Finding
 
 def _cured(found: Benchmark) -> str:
     rows = [row for row in found.contenders if row.corrected_by and row.ranked and "wigner" in row.method]
-    row = best(rows)
+    row = closest(rows, found.reference.floor)
     raw = None if row is None else {r.method: r for r in found.contenders}.get(row.method.removesuffix("-corrected"))
     if row is None or raw is None or not raw.relative_rms_error or not row.relative_rms_error:
         return ""

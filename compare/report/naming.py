@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 
+from ridgeback.common.numbers import listing
 from ridgeback.common.quantities import symbol
 from ridgeback.compare.benchmark.contenders import Row, Source
 from ridgeback.compare.motion.results import Case
@@ -63,6 +65,39 @@ def short_name(row: Row) -> str:
             return "linear oscillator (3)"
     name = row.label.partition(", A(t)")[0].replace(", order", " of order")
     return f"{name[0].lower() if name[1:2].islower() and not name.startswith('Pad') else name[0]}{name[1:]}"
+
+
+def plural(row: Row) -> bool:
+    """Whether a contender is spoken of as several."""
+    return row.method.startswith("zero-crossing") or row.kind == "series-model"
+
+
+def follow(row: Row) -> str:
+    """The verb of a title."""
+    return "follow" if plural(row) else "follows"
+
+
+RESUMMED: Mapping[str, str] = {"pade": "Padé approximant", "map": "conformal map", "nome": "elliptic nome"}
+
+
+def refused_names(rows: Sequence[Row]) -> str:
+    """Contenders without a result, the orders of one kind together.
+
+    >>> refused_names([Row(f"multiple-scales-{n}", "", "slow-flow", order=n) for n in (2, 4)])
+    'multiple scales (orders 2 to 4)'
+    """
+    groups: dict[str, list[int]] = {}
+    for row in rows:
+        name = re.sub(r",?( of)? order \d+$", "", short_name(row))
+        groups.setdefault(RESUMMED.get(name, name), []).extend([] if row.order is None else [row.order])
+    return listing([f"{name}{_orders(orders)}" for name, orders in groups.items()])
+
+
+def _orders(orders: Sequence[int]) -> str:
+    if not orders:
+        return ""
+    low, high = min(orders), max(orders)
+    return f" (order {low})" if low == high else f" (orders {low} to {high})"
 
 
 def capital(text: str) -> str:

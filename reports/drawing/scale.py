@@ -11,6 +11,8 @@ import numpy as np
 from ridgeback.common.numbers import minus
 from ridgeback.numeric.arrays import Array
 
+ROUNDING = 1e-9
+"""A relative spread below this is shown as none: it is that of the arithmetic."""
 STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 
 
@@ -87,7 +89,8 @@ def padded(values: Iterable[Array], *, share: float = 0.06) -> tuple[float, floa
     if not joined.size:
         return 0.0, 1.0
     low, high = float(joined.min()), float(joined.max())
-    room = share * (high - low) or max(abs(high), 1e-12) * share
+    size = max(abs(low), abs(high), 1e-12)
+    room = share * (high - low if high - low > ROUNDING * size else size)
     return low - room, high + room
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from ridgeback.common.numbers import number, per_cent, threshold
 from ridgeback.compare.benchmark.contenders import WAYS, Row
 from ridgeback.compare.benchmark.results import Benchmark
-from ridgeback.compare.report.naming import capital, short_name
+from ridgeback.compare.report.naming import capital, refused_names, short_name
 from ridgeback.reports.drawing.apart import apart, text_width
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, toggles
 from ridgeback.reports.drawing.marks import curve, dot, drawing, group, line, rect, text, trace
@@ -111,7 +111,7 @@ def _caption(which: Shown, *, timed: bool) -> str:
         parts.append("Open: an estimate with the bias of its own track removed.")
     missing = [row for row in found.contenders if row.refused]
     if missing:
-        parts.append(f"No result: {', '.join(dict.fromkeys(short_name(row) for row in missing))}.")
+        parts.append(f"No result: {refused_names(missing)}.")
     return " ".join(parts)
 
 
@@ -128,8 +128,9 @@ def _panel(which: Shown) -> Panel:
     rows = [row for row in which.all if math.isfinite(which.cost(row))]
     costs, errors = [which.cost(row) for row in rows], [error(row) for row in rows]
     floor = which.found.reference.floor
-    low = min(*errors, max(floor, LEAST)) * 0.45
-    high = min(max(errors), 30.0) * 2.2
+    low, high = min(*errors, max(floor, LEAST)), min(max(errors), 30.0)
+    room = max((high / low) ** 0.08, 2.2)
+    low, high = low / room, high * room
     x = Scale(0.4 * min(costs), 4.0 * max(costs), 70.0, 968.0, log=True)
     return Panel(x, Scale(low, high, 384.0, 48.0, log=True))
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ridgeback.common.numbers import per_cent
+from ridgeback.common.numbers import listing, per_cent
 from ridgeback.compare.motion.estimate_curves import RECIPES
 from ridgeback.compare.motion.results import BudgetRow
 from ridgeback.reports.drawing.apart import text_width
@@ -16,7 +16,7 @@ from ridgeback.reports.drawing.scale import Scale
 from ridgeback.reports.figures.accuracy_cost import per_cent_tick
 
 ESTIMATES = frozenset(recipe.name for recipe in RECIPES)
-LEAST = 1e-7
+LEAST = 1e-15
 
 
 def letter(row: BudgetRow) -> str:
@@ -90,15 +90,15 @@ def _row(row: BudgetRow, top: float, x: Scale, width: float) -> str:
     return group(marks, f"f{letter(row)}")
 
 
-def budget_heading(rows: Sequence[BudgetRow]) -> str:
-    """What rules each way, from the largest part of its rows."""
-    said = []
+def budget_heading(rows: Sequence[BudgetRow], floor: float = 0.0) -> str:
+    """What rules each way, from the largest part of those of its rows that are above the reference's floor."""
+    ruled: dict[str, list[str]] = {}
     for letter_, name in (("E", "the expansions"), ("S", "the models"), ("T", "the estimates")):
-        own = [row for row in rows if letter(row) == letter_]
+        own = [row for row in rows if letter(row) == letter_ and row.total > floor]
         ruling = {_ruling(row) for row in own} - {""}
         if own and len(ruling) == 1:
-            said.append(f"{ruling.pop()} rules {name}")
-    text_ = ", ".join(said)
+            ruled.setdefault(ruling.pop(), []).append(name)
+    text_ = ", ".join(f"{cause} rules {listing(names)}" for cause, names in ruled.items())
     return text_[:1].upper() + text_[1:] if text_ else "Where the errors come from"
 
 

@@ -24,7 +24,7 @@ from ridgeback.reports.figures.accuracy_cost import shown as contending
 from ridgeback.reports.figures.clock import Clock, shown
 
 DASHES = ("", "d1", "d2", "d3")
-LEAST, MOST = 1e-9, 3.0
+LEAST, MOST = 1e-15, 3.0
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ridgeback.common.numbers import NONE, number, per_cent
+from ridgeback.common.numbers import NONE, listing, number, per_cent
 from ridgeback.compare.noise.results import NoiseCell, NoiseStudy
 from ridgeback.compare.report.naming import capital, estimator
 from ridgeback.numeric.arrays import Array
@@ -77,7 +77,8 @@ def _small(study: NoiseStudy, method: str, snr: Array, rms: dict[str, Array], sc
         if np.isfinite(b):
             marks.append(dot(float(a), float(b), 3.0, "t", f"{number(float(snr[i]))} dB: {per_cent(float(own[i]))}"))
             if own[i] > scale[1]:
-                marks.append(text(float(a), panel.top + 16, "off scale", "t sm", "start"))
+                shift, anchor = (12, "start") if i < snr.size - 1 else (0, "end")
+                marks.append(text(float(a) + shift, panel.top - 4, "off scale", "t sm", anchor))
     return drawing(204, 210, "one", f"{estimator(method)}: error against noise", marks)
 
 
@@ -85,8 +86,9 @@ def noise_heading(study: NoiseStudy) -> str:
     """Who stays at its bound, from the cells' ratios; none is an answer too."""
     at_bound = [m for m in study.methods if _holds(study.of(m))]
     if at_bound:
-        names = " and ".join(estimator(m) for m in at_bound)
-        return f"In noise, {names} stay{'s' if len(at_bound) == 1 else ''} within {AT_BOUND:g} times its bound"
+        names = listing([estimator(m) for m in at_bound])
+        verb, whose = ("stays", "its bound") if len(at_bound) == 1 else ("stay", "their bounds")
+        return f"In noise, {names} {verb} within {AT_BOUND:g} times {whose}"
     nearest = min(study.methods, key=lambda m: float(np.nanmedian(values(study.of(m), "ratio"))))
     ratio = float(np.nanmedian(values(study.of(nearest), "ratio")))
     return f"In noise, {estimator(nearest)} comes nearest to its bound, {number(ratio, 2)} times it in the median"

@@ -1,0 +1,49 @@
+"""What stands on one page, whatever it is about: title, cards, first figure, findings, sections."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from ridgeback.compare.report.results import Card, Described, Report
+from ridgeback.reports.parts import Part, Section
+from ridgeback.reports.sections import head_parts, head_tables, sections
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A page before it is set."""
+
+    title: str
+    kind: str
+    """What an index of pages calls it."""
+    lead: str = ""
+    described: Described | None = None
+    cards: tuple[Card, ...] = ()
+    figure: tuple[Part, ...] = ()
+    """Below the cards."""
+    summary: tuple[str, ...] = ()
+    tables: tuple[Part, ...] = ()
+    """Below the summary."""
+    head_name: str = "Overview"
+    """The head in the table of contents."""
+    sections: tuple[Section, ...] = ()
+    code: Mapping[int, str] = field(default_factory=dict)
+    """The JavaScript of each order, for the sliders."""
+
+
+def report_sheet(report: Report) -> Sheet:
+    """The page of a report on one oscillator or one recording."""
+    return Sheet(
+        title=report.title,
+        kind="recording" if report.recording else "oscillator",
+        lead=report.lead,
+        described=report.described,
+        cards=report.cards,
+        figure=head_parts(report),
+        summary=report.summary,
+        tables=head_tables(report),
+        head_name="Accuracy and cost" if report.benchmark else "Overview" if report.cards else "",
+        sections=sections(report),
+        code={} if report.grid is None else report.grid.code,
+    )
