@@ -30,6 +30,7 @@ from ridgeback.reports.parts import (
     set_harmonics,
 )
 from ridgeback.reports.recording_sections import recording_sections
+from ridgeback.reports.study_sections import study_sections
 from ridgeback.reports.text.tables import budget_table, certified_table, contender_table, range_table
 
 FORMULAS = 2
@@ -39,6 +40,7 @@ FORMULAS = 2
 def sections(report: Report) -> tuple[Section, ...]:
     """The sections of a page below its head, empty ones left out."""
     found = (
+        *study_sections(report),
         *recording_sections(report),
         _time(report),
         _order(report),

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from ridgeback.compare.report.results import Card, Described, Report
 from ridgeback.reports.parts import Part, Section
 from ridgeback.reports.sections import head_parts, head_tables, sections
+from ridgeback.reports.study_sections import study_head
 
 
 @dataclass(frozen=True)
@@ -36,14 +37,14 @@ def report_sheet(report: Report) -> Sheet:
     """The page of a report on one oscillator or one recording."""
     return Sheet(
         title=report.title,
-        kind="recording" if report.recording else "oscillator",
+        kind="study" if report.answered else "recording" if report.recording else "oscillator",
         lead=report.lead,
         described=report.described,
         cards=report.cards,
-        figure=head_parts(report),
+        figure=(*head_parts(report), *study_head(report)),
         summary=report.summary,
         tables=head_tables(report),
-        head_name="Accuracy and cost" if report.benchmark else "Overview" if report.cards else "",
+        head_name="Accuracy and cost" if report.benchmark else "Overview" if report.cards or report.answered else "",
         sections=sections(report),
         code={} if report.grid is None else report.grid.code,
     )

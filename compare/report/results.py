@@ -14,6 +14,7 @@ from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.noise.results import NoiseStudy
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.error_grid import ErrorGrid
+from ridgeback.compare.report.several.answered import Answered
 from ridgeback.compare.report.shown import ShownReport
 from ridgeback.compare.study.results import Certified, Derivation, Range, Study
 
@@ -92,6 +93,8 @@ class Report(ShownReport):
         Whether this is the paper's own case.
     timed : bool
         Whether measured times are shown; without them the same inputs give the same bytes.
+    answered : Answered, optional
+        The answers of a study, with its oscillators side by side.
     noise : NoiseStudy, optional
         The estimators in noise, beside the Cramér-Rao bound.
     identification : Identification, optional
@@ -129,6 +132,7 @@ class Report(ShownReport):
     described: Described | None = None
     paper: bool = False
     timed: bool = True
+    answered: Answered | None = None
 
     def findings(self) -> tuple[tuple[str, str, str], ...]:
         """The cards."""

@@ -1,0 +1,202 @@
+"""A result's own picture in the style of the page: curves with their names at the side, or small ones side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ridgeback.common.numbers import power_of_ten
+from ridgeback.common.show.picture import Picture, Stroke
+from ridgeback.numeric.arrays import Array
+from ridgeback.reports.drawing.apart import apart, text_width
+from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout
+from ridgeback.reports.drawing.marks import area, dot, drawing, group, line, text
+from ridgeback.reports.drawing.panel import Panel
+from ridgeback.reports.drawing.scale import Scale, padded, tick_labels
+from ridgeback.reports.pictures import floats
+
+STYLES = tuple(f"{way}l {dash} nf".replace("  ", " ") for dash in ("", "d1", "d2", "d3") for way in "est")
+"""Curves in the order in which they are told apart: three colours, then dashes."""
+WIDE_SPAN = 30.0
+"""Ratio of largest to smallest from which on an axis of positive values goes by decades."""
+LEAST = 1e-17
+
+
+@dataclass(frozen=True)
+class Axes:
+    """Ranges that panels share."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    log_x: bool
+    log_y: bool
+
+
+def axes_of(pictures: Sequence[Picture]) -> Axes:
+    """Ranges around all curves of some pictures.
+
+    >>> axes_of([Picture("", "", "", (Stroke([1.0, 100.0], [1e-3, 1e-1]),), None, True)]).log_x
+    True
+    """
+    strokes = [stroke for picture in pictures for stroke in picture.strokes]
+    x, y = ([floats(getattr(stroke, name)) for stroke in strokes] for name in ("x", "y"))
+    log_y = any(picture.logarithmic for picture in pictures)
+    low, high = padded(x, share=0.0)
+    log_x = low > 0 and high / low > WIDE_SPAN
+    return Axes((low, high) if high > low else (low - 0.5, high + 0.5), _range(y, log_y), log_x, log_y)
+
+
+def _range(values: Sequence[Array], log: bool) -> tuple[float, float]:
+    if not log:
+        return padded(values, share=0.06)
+    kept = np.concatenate([v[np.isfinite(v) & (v > LEAST)] for v in values] or [np.array([1.0])])
+    if not kept.size:
+        return 0.1, 1.0
+    low, high = float(kept.min()), float(kept.max())
+    room = max((high / low) ** 0.06, 1.5)
+    return low / room, high * room
+
+
+def _panel(axes: Axes, left: float, right: float, top: float, bottom: float) -> Panel:
+    return Panel(Scale(*axes.x, left, right, log=axes.log_x), Scale(*axes.y, bottom, top, log=axes.log_y))
+
+
+def _frame(panel: Panel, axes: Axes, *, most: int, rows: int) -> list[str]:
+    def named(log: bool, values: Sequence[float]) -> list[str]:
+        return [power_of_ten(round(np.log10(v))) for v in values] if log else tick_labels(values)
+
+    marks = []
+    ticks = panel.y.ticks(rows)
+    for value, name in zip(ticks, named(axes.log_y, ticks), strict=True):
+        y = panel.y(value)
+        marks.append(line(panel.left, y, panel.right, y) + text(panel.left - 6, y + 4, name, "m sm", "end"))
+    places = panel.x.ticks(most)
+    marks.append(line(panel.left, panel.bottom, panel.right, panel.bottom, "ax"))
+    for value, name in zip(places, named(axes.log_x, places), strict=True):
+        x = panel.x(value)
+        marks.append(line(x, panel.bottom, x, panel.bottom + 4, "ax"))
+        marks.append(text(x, panel.bottom + 18, name, "m sm", "middle"))
+    return marks
+
+
+def _strokes(panel: Panel, picture: Picture) -> list[str]:
+    marks = []
+    for stroke, style in zip(picture.strokes, STYLES * 4, strict=False):
+        x, y = floats(stroke.x), floats(stroke.y)
+        if stroke.low is not None and stroke.high is not None:
+            low, high = floats(stroke.low), floats(stroke.high)
+            marks.append(area(panel.x.of(x), panel.y.clipped(low), panel.y.clipped(high), f"{style[0]}f"))
+        shown = np.where((y >= panel.y.low) & (y <= panel.y.high), y, np.nan)
+        marks.append(panel.curve(x, shown, style))
+        if stroke.dots or np.isfinite(shown).sum() < 12:
+            at = zip(panel.x.of(x).tolist(), panel.y.of(shown).tolist(), strict=True)
+            marks += [dot(a, b, 3.0, style[0]) for a, b in at if np.isfinite(a) and np.isfinite(b)]
+    return marks
+
+
+def answer_figure(key: str, picture: Picture, caption: str = "") -> Figure | None:
+    """One picture, wide and narrow; None where it holds no curve.
+
+    Parameters
+    ----------
+    key
+        Id of the figure.
+    picture
+        Curves over named axes.
+    caption
+        Below it; by default the picture's title.
+    """
+    if not any(np.isfinite(floats(stroke.y)).any() for stroke in picture.strokes):
+        return None
+    axes = axes_of([picture])
+    names = max((text_width(stroke.label) for stroke in picture.strokes), default=0.0) + 34
+    wide = _panel(axes, 70.0, WIDE - min(names, 330.0) - 10, 30.0, 300.0)
+    narrow = _panel(axes, 52.0, 356.0, 30.0, 250.0)
+    label = f"{picture.y_label} against {picture.x_label}"
+    series = [Series(stroke.label, floats(stroke.x), floats(stroke.y)) for stroke in picture.strokes]
+    return Figure(
+        key=key,
+        wide=drawing(WIDE, 344, "wide", label, [*_whole(wide, axes, picture, 8), *_beside(wide, picture)]),
+        narrow=drawing(
+            NARROW,
+            300 + 17 * len(picture.strokes),
+            "narrow",
+            label,
+            [*_whole(narrow, axes, picture, 4), *_below(narrow, picture)],
+        ),
+        caption=caption or picture.title,
+        data={} if axes.log_x else readout(((wide,), (narrow,)), series, name=picture.x_label, unit="", link=""),
+        label=label,
+    )
+
+
+def _whole(panel: Panel, axes: Axes, picture: Picture, most: int) -> list[str]:
+    marks = [*_frame(panel, axes, most=most, rows=7), *_strokes(panel, picture)]
+    marks.append(text(0, 12, picture.y_label, "m"))
+    marks.append(text(panel.right, panel.bottom + 36, picture.x_label, "m", "end"))
+    return marks
+
+
+def _last(panel: Panel, stroke: Stroke) -> float:
+    y = floats(stroke.y)
+    kept = y[np.isfinite(y)]
+    return float(panel.y.clipped(kept[-1:])[0]) if kept.size else panel.bottom
+
+
+def _beside(panel: Panel, picture: Picture) -> list[str]:
+    heights = apart([_last(panel, stroke) for stroke in picture.strokes], 17.0, panel.top, panel.bottom)
+    marks = []
+    for stroke, style, height in zip(picture.strokes, STYLES * 4, heights, strict=False):
+        marks.append(line(panel.right + 8, height, panel.right + 28, height, style))
+        marks.append(text(panel.right + 34, height + 4, stroke.label, "sm"))
+    return marks
+
+
+def _below(panel: Panel, picture: Picture) -> list[str]:
+    marks = []
+    for i, (stroke, style) in enumerate(zip(picture.strokes, STYLES * 4, strict=False)):
+        y = panel.bottom + 56 + 17 * i
+        marks.append(line(4, y, 26, y, style) + text(32, y + 4, stroke.label, "sm"))
+    return marks
+
+
+def side_by_side(key: str, pictures: Sequence[Picture], caption: str) -> Figure:
+    """Small drawings that share their axes, so that they compare.
+
+    Parameters
+    ----------
+    key
+        Id of the figure.
+    pictures
+        One for each thing that is compared.
+    caption
+        Below them.
+    """
+    axes = axes_of(pictures)
+    return Figure(
+        key=key,
+        wide="".join(_small(picture, axes) for picture in pictures),
+        narrow="",
+        caption=caption,
+        many="three",
+        label=caption,
+    )
+
+
+def _small(picture: Picture, axes: Axes) -> str:
+    panel = _panel(axes, 46.0, 300.0, 36.0, 210.0)
+    marks = [text(0, 14, picture.title, "fgt b"), *_frame(panel, axes, most=4, rows=5)]
+    marks += _strokes(panel, picture)
+    marks.append(text(panel.right, panel.bottom + 32, picture.x_label, "m sm", "end"))
+    room = panel.right - panel.left
+    names, x, y = [], panel.left + 8, panel.top + 10
+    for stroke, style in zip(picture.strokes[:6], STYLES, strict=False):
+        width = text_width(stroke.label, 12.0) + 34
+        if x + width > panel.left + room and x > panel.left + 8:
+            x, y = panel.left + 8, y + 15
+        names.append(line(x, y, x + 18, y, style) + text(x + 23, y + 4, stroke.label, "sm"))
+        x += width
+    marks.append(group(names, "halo"))
+    return drawing(308, 248, "one", f"{picture.title}: {picture.y_label} against {picture.x_label}", marks)
