@@ -55,7 +55,8 @@ def curve(axes: Axes, stroke: Stroke, colour: str) -> None:
     marker = "o" if stroke.dots else ""
     dash = "" if stroke.dots else "--" if stroke.dashed else "-"
     x, y = floats(stroke.x), floats(stroke.y)
-    axes.plot(x, y, color=colour, label=stroke.label, linestyle=dash, marker=marker, markersize=4)
+    held = "steps-post" if stroke.steps else "default"
+    axes.plot(x, y, color=colour, label=stroke.label, linestyle=dash, marker=marker, markersize=4, drawstyle=held)
     if stroke.low is not None and stroke.high is not None:
         axes.fill_between(x, floats(stroke.low), floats(stroke.high), color=colour, alpha=0.2, linewidth=0.0)
 

@@ -62,12 +62,12 @@ def _answer(answer: Answer, *, first: bool, panels: bool) -> Section:
     if not (first and (panels or answer.question == "error")):
         figure = answer_figure(f"answer-{answer.question}", answer.picture(), f"{_capital(answer.title)}.")
         parts += [] if figure is None else [Part("figure", figure)]
-    said = [f"{_capital(sentence)}." for sentence in answer.sentences[1:]]
-    if said:
+    said = [f"{_capital(sentence)}." for sentence in answer.sentences]
+    if len(said) > 1:
         parts.append(Part("lines", said))
     if answer.rows():
         parts.append(fold(f"{_capital(answer.title)}, {len(answer.rows())} rows", Part("table", _table(answer))))
-    title = _capital(answer.sentences[0] if answer.sentences else answer.title)
+    title = _capital(answer.sentences[0] if len(answer.sentences) == 1 else answer.title)
     if answer.passed is not None:
         title = f"{title}: {'passed' if answer.passed else 'not passed'}"
     return Section(f"q-{answer.question}", _capital(answer.question.replace("-", " ")), title, tuple(parts))

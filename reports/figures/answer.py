@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ridgeback.common.numbers import power_of_ten
+from ridgeback.common.numbers import number, power_of_ten
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.apart import apart, text_width
@@ -22,6 +22,7 @@ STYLES = tuple(f"{way}l {dash} nf".replace("  ", " ") for dash in ("", "d1", "d2
 WIDE_SPAN = 30.0
 """Ratio of largest to smallest from which on an axis of positive values goes by decades."""
 LEAST = 1e-17
+FEW_DECADES = 3
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,8 @@ class Axes:
     y: tuple[float, float]
     log_x: bool
     log_y: bool
+    steps: tuple[int, ...] = ()
+    """The whole numbers that curves of steps take."""
 
 
 def axes_of(pictures: Sequence[Picture]) -> Axes:
@@ -45,7 +48,9 @@ def axes_of(pictures: Sequence[Picture]) -> Axes:
     log_y = any(picture.logarithmic for picture in pictures)
     low, high = padded(x, share=0.0)
     log_x = low > 0 and high / low > WIDE_SPAN
-    return Axes((low, high) if high > low else (low - 0.5, high + 0.5), _range(y, log_y), log_x, log_y)
+    taken = {int(v) for stroke in strokes if stroke.steps for v in floats(stroke.y) if np.isfinite(v)}
+    across = (low, high) if high > low else (low - 0.5, high + 0.5)
+    return Axes(across, _range(y, log_y), log_x, log_y, tuple(sorted(taken)))
 
 
 def _range(values: Sequence[Array], log: bool) -> tuple[float, float]:
@@ -63,18 +68,26 @@ def _panel(axes: Axes, left: float, right: float, top: float, bottom: float) -> 
     return Panel(Scale(*axes.x, left, right, log=axes.log_x), Scale(*axes.y, bottom, top, log=axes.log_y))
 
 
-def _frame(panel: Panel, axes: Axes, *, most: int, rows: int) -> list[str]:
-    def named(log: bool, values: Sequence[float]) -> list[str]:
-        return [power_of_ten(round(np.log10(v))) for v in values] if log else tick_labels(values)
+def _ticks(scale: Scale, most: int) -> list[tuple[float, str]]:
+    """Where an axis is labelled, and how: powers of ten over many decades, 1, 2 and 5 over few."""
+    if not scale.log:
+        values = scale.ticks(most)
+        return list(zip(values, tick_labels(values), strict=True))
+    first, last = int(np.floor(np.log10(scale.low))), int(np.ceil(np.log10(scale.high)))
+    if last - first > FEW_DECADES:
+        return [(value, power_of_ten(round(np.log10(value)))) for value in scale.ticks(most)]
+    values = tuple(m * 10.0**n for n in range(first, last + 1) for m in (1, 2, 5))
+    return [(value, number(value, 1)) for value in values if scale.low <= value <= scale.high]
 
+
+def _frame(panel: Panel, axes: Axes, *, most: int, rows: int) -> list[str]:
     marks = []
-    ticks = panel.y.ticks(rows)
-    for value, name in zip(ticks, named(axes.log_y, ticks), strict=True):
+    whole = [(float(n), str(n)) for n in axes.steps]
+    for value, name in whole or _ticks(panel.y, rows):
         y = panel.y(value)
         marks.append(line(panel.left, y, panel.right, y) + text(panel.left - 6, y + 4, name, "m sm", "end"))
-    places = panel.x.ticks(most)
     marks.append(line(panel.left, panel.bottom, panel.right, panel.bottom, "ax"))
-    for value, name in zip(places, named(axes.log_x, places), strict=True):
+    for value, name in _ticks(panel.x, most):
         x = panel.x(value)
         marks.append(line(x, panel.bottom, x, panel.bottom + 4, "ax"))
         marks.append(text(x, panel.bottom + 18, name, "m sm", "middle"))
@@ -85,6 +98,7 @@ def _strokes(panel: Panel, picture: Picture) -> list[str]:
     marks = []
     for stroke, style in zip(picture.strokes, STYLES * 4, strict=False):
         x, y = floats(stroke.x), floats(stroke.y)
+        x, y = (np.repeat(x, 2)[1:], np.repeat(y, 2)[:-1]) if stroke.steps else (x, y)
         if stroke.low is not None and stroke.high is not None:
             low, high = floats(stroke.low), floats(stroke.high)
             marks.append(area(panel.x.of(x), panel.y.clipped(low), panel.y.clipped(high), f"{style[0]}f"))

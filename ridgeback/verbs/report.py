@@ -17,6 +17,7 @@ from ridgeback.console.verb import Verb
 from ridgeback.options.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
 from ridgeback.options.recording import Reading, Treatment, treatment_options
 from ridgeback.options.shared import format_option, unique
+from ridgeback.options.study import STORE
 from ridgeback.options.system import Choice, choosing
 from ridgeback.options.unused import refuse_unused
 
@@ -134,16 +135,17 @@ def command(
     style: str,
     output: str,
 ) -> None:
-    """Compare expansions, models and estimated frequencies of SYSTEM, or of a recording, on one HTML page.
+    """Compare expansions, models and estimated frequencies of SYSTEM, of a recording, or of a study, on one HTML page.
 
     Without an argument: the damped pendulum of Galleani and Cohen, k = 4 pi, mu = 0.01, from 0.95 pi at rest.  With
     a recording, SYSTEM is optional and its exact backbone is drawn over the measured one; the oscillators that could
-    have made it are ranked.
+    have made it are ranked.  The store of a study (.db) becomes a page of its answers.
 
     \b
     ridgeback report
     ridgeback report damped-duffing --set mu=0.02 --initial 1.5,0 --duration 60 -o duffing.html
     ridgeback report --recording decay.csv --column displacement -o decay.html
+    ridgeback report five.db -o five.html
     """
     if trials == 1:
         raise click.UsageError("--trials 1 shows no spread; use at least 2, or 0 for no noise study")
@@ -155,7 +157,10 @@ def command(
     scope = Scope(order, orders, amplitudes, target, trials, not no_timings)
     shown = as_typed(context.find_root().obj or ("report",))
     with showing(True) as progress:
-        if recording is None:
+        if (choice.system or "").endswith(STORE):
+            refuse_beside_a_store(context)
+            report = of_study(str(choice.system), shown, progress)
+        elif recording is None:
             belonging = {"--column": column, "--time-column": time_column, "--predict-from": predict_from}
             treating = {f"--{name}": value for name, value in treatment.given().items()}
             refuse({**belonging, **treating}, "belongs to --recording FILE")
@@ -167,6 +172,22 @@ def command(
         publish(report, output, style)
     finally:
         show(output, pdf, opened=opened)
+
+
+BESIDE_A_STORE = ("system", "output", "no_timings", "pdf", "opened", "style")
+"""What may stand beside the store of a study, which holds all the rest."""
+
+
+def refuse_beside_a_store(context: click.Context) -> None:
+    """Raise click.UsageError for the first option that a study, computed already, has no use for."""
+    refuse_unused("the store of a study", *(name for name in context.params if name not in BESIDE_A_STORE))
+
+
+def of_study(store: str, shown: str, progress: Progress) -> Report:
+    """The report on a finished study."""
+    from ridgeback.compare.report.several.study_report import study_report
+
+    return study_report(store, command=shown, warned=say, progress=progress)
 
 
 def refuse(given: Mapping[str, object], why: str) -> None:

@@ -148,11 +148,10 @@ MOST = 5
 
 
 def _findings(found: StudyResult) -> Iterator[str]:
-    """At most five sentences, one question after the other."""
-    columns = [list(answer.sentences) for answer in found.answers]
-    longest = max((len(column) for column in columns), default=0)
-    said = [column[i] for i in range(longest) for column in columns if i < len(column)]
-    for sentence in said[:MOST]:
+    """The answers that are one sentence, else the first sentences of all; at most five."""
+    single = [answer.sentences[0] for answer in found.answers if len(answer.sentences) == 1]
+    every = [sentence for answer in found.answers for sentence in answer.sentences]
+    for sentence in (single or every)[:MOST]:
         yield f"{sentence[:1].upper()}{sentence[1:]}."
 
 

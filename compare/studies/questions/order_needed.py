@@ -55,7 +55,8 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
             said.append(sentence(grid, tolerance, needed))
             at = thinned(grid.amplitudes.size)
             name = f"{grid.system.name}, {grid.method}, {tolerance:.0e}"
-            strokes.append(Stroke(grid.amplitudes[at], [np.nan if needed[i] is None else needed[i] for i in at], name))
+            orders = [np.nan if needed[i] is None else needed[i] for i in at]
+            strokes.append(Stroke(grid.amplitudes[at], orders, name, steps=True))
     picture = Picture(plan.title or "order needed", "amplitude", "order", tuple(strokes[:SHOWN_STROKES]))
     return Answer(
         "order-needed", "smallest order within a tolerance", COLUMNS, tuple(rows), tuple(said), picture, failed

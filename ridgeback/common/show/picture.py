@@ -16,7 +16,10 @@ DRAWER = "ridgeback.reports.pictures"
 
 @dataclass(frozen=True)
 class Stroke:
-    """One curve: points ``x, y`` of equal length, its label, and the ends of a band about it where there is one."""
+    """One curve: points ``x, y`` of equal length, its label, and the ends of a band about it where there is one.
+
+    ``steps`` holds each value as far as the next point: whole numbers, between which there is nothing.
+    """
 
     x: Collection[float]
     y: Collection[float]
@@ -25,6 +28,7 @@ class Stroke:
     high: Collection[float] | None = None
     dashed: bool = False
     dots: bool = False
+    steps: bool = False
 
 
 @dataclass(frozen=True)
