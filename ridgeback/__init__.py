@@ -25,6 +25,8 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.compare.identification.confusion import confusion as confusion
     from ridgeback.compare.identification.results import Identification as Identification
     from ridgeback.compare.recording.measurements import measure_recordings as measure_recordings
+    from ridgeback.compare.recording.samples import Sample as Sample
+    from ridgeback.compare.recording.samples import sample as sample
     from ridgeback.compare.report.results import Report as Report
     from ridgeback.compare.studies.result import StudyResult as StudyResult
     from ridgeback.compare.study.certified import certified_rows as certified_rows

@@ -18,7 +18,10 @@ from ridgeback.console.stops import stoppable
 # 2.7 times the processor time with them).  It must be said before NumPy is imported; the user's own word comes first.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-VERBS = ("systems", "derive", "generate", "simulate", "estimate", "identify", "study", "benchmark", "report")
+VERBS = (
+    *("systems", "derive", "generate", "simulate", "sample", "estimate", "identify", "study", "benchmark", "report"),
+    "doctor",
+)
 
 EPILOG = """\b
 Exit codes: 0 done; 2 bad input; 3 finished, but partial or not certified;

@@ -191,7 +191,7 @@ def polynomial_wigner(
     -------
     Distribution
         Real ``values[n_fft, N]``, ``omega`` from 0 to pi ``rate``, every sample in ``time``.  Integrated over
-        omega / 2 pi it is |z|^order.
+        omega / 2 pi it is ``|z|^order``.
 
     Raises
     ------

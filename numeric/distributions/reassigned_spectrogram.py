@@ -157,7 +157,7 @@ def synchrosqueezed_spectrogram(
     memory: int = MEMORY_BUDGET,
     progress: Wanted = None,
 ) -> Distribution:
-    """Return |T|^2 of the second-order synchrosqueezed spectrum T of a real signal.
+    """Return ``|T|^2`` of the second-order synchrosqueezed spectrum T of a real signal.
 
     T[k, n] = sum of S / (n_fft w(0)) over the bins whose frequency falls nearest omega_k; its sum over k is the
     analytic signal, but for what falls below 0 or beyond the Nyquist frequency.  A cosine of amplitude A has A^2.

@@ -32,7 +32,7 @@ def spectrogram(
     memory: int = MEMORY_BUDGET,
     progress: Wanted = None,
 ) -> Distribution:
-    """Return the spectrogram |S(omega, t)|^2 of a real signal, S its short-time Fourier transform.
+    """Return the spectrogram ``|S(omega, t)|^2`` of a real signal, S its short-time Fourier transform.
 
     S(omega_k, t_n) = sum over j of x[n + j] w[j] exp(-i omega_k j / rate), j = -half .. half, with w symmetric about n
     and divided by half its sum, so that a cosine of amplitude A has a ridge of A^2.  Within half a window of the border
