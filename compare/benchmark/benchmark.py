@@ -9,11 +9,12 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.benchmark.crossings import crossings
-from ridgeback.compare.benchmark.estimates import Estimator, estimates
-from ridgeback.compare.benchmark.expansions import ORDERS, Contender, amplitudes, theory
 from ridgeback.compare.benchmark.judging import common_support, coverages, judged, reference_of, relative_errors
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import judge
+from ridgeback.compare.benchmark.ways.contender import Contender, amplitudes
+from ridgeback.compare.benchmark.ways.estimates import Estimator, estimates
+from ridgeback.compare.benchmark.ways.expansions import ORDERS, theory
 from ridgeback.compare.motion.motion import Motion, Setting, integrate_motion
 
 STEPS = 14

@@ -13,7 +13,9 @@ from typing import Literal
 from ridgeback.common.numbers import relative
 from ridgeback.common.show.brief import Brief
 
-Kind = Literal["expansion", "slow-flow", "resummation", "series-model", "closed-form", "averaged", "linear", "estimate"]
+Kind = Literal[
+    "expansion", "slow-flow", "resummation", "minimax", "series-model", "closed-form", "averaged", "linear", "estimate"
+]
 Source = Literal["energy", "action", "fit"]
 """Where a model takes its amplitude from: A(t) of the instantaneous energy (21), of the averaged action, or of the
 envelope of the turning points."""
@@ -23,6 +25,7 @@ WAYS: Mapping[Kind, Way | None] = {
     "expansion": "expansions",
     "slow-flow": "expansions",
     "resummation": "expansions",
+    "minimax": None,
     "series-model": "series model",
     "closed-form": None,
     "averaged": None,

@@ -14,7 +14,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.contenders import Reference, Row
-from ridgeback.compare.benchmark.expansions import Contender
+from ridgeback.compare.benchmark.ways.contender import Contender
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.numeric.arrays import Array, Mask
 

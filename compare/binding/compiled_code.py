@@ -1,4 +1,4 @@
-"""The generated C of an expansion, compiled and loaded where this machine can; what cannot be had is said, not raised.
+"""The generated C of a formula, compiled and loaded where this machine can; what cannot be had is said, not raised.
 
 The text that is loaded here was written by ``symbolic.codegen`` from exact numbers a moment before, under names of our
 own.
@@ -13,6 +13,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TypeAlias
 
 import numpy as np
 
@@ -20,9 +21,13 @@ from ridgeback.compare.binding.generated_code import OWN
 from ridgeback.compare.binding.programs import finished
 from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.codegen import generate
+from ridgeback.symbolic.codegen.fit.fit import Fit
 from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.resummation.resummation import Resummation
 
 Vectorised = Callable[[Array], Array]
+OfAmplitude: TypeAlias = "Expansion | Resummation | Fit"
+"""A formula of one variable, whose code has a function omega0."""
 COMPILERS = ("cc", "gcc", "clang")
 PATIENCE = 20.0
 """Seconds that a compiler may take for a page of C."""
@@ -42,28 +47,28 @@ def compiler() -> str | None:
 
 
 @contextmanager
-def compiled(expansion: Expansion) -> Iterator[Vectorised | NotCompiled]:
+def compiled(formula: OfAmplitude) -> Iterator[Vectorised | NotCompiled]:
     """The omega0 of the generated C over arrays, or why it cannot be had; nothing that goes wrong here is raised.
 
     It is compiled in a temporary folder that is removed after the block; the library stays loaded until the process
     ends.
     """
     with ExitStack() as stack:
-        yield _compiled(expansion, stack)
+        yield _compiled(formula, stack)
 
 
-def _compiled(expansion: Expansion, stack: ExitStack) -> Vectorised | NotCompiled:
+def _compiled(formula: OfAmplitude, stack: ExitStack) -> Vectorised | NotCompiled:
     program = compiler()
     if program is None:
         return NotCompiled("there is no C compiler")
     try:
         folder = Path(stack.enter_context(TemporaryDirectory(prefix="ridgeback-", ignore_cleanup_errors=True)))
         source, library = folder / f"{OWN}.c", folder / f"{OWN}.so"
-        source.write_text(generate(expansion, "c", name=OWN), encoding="utf-8")
+        source.write_text(generate(formula, "c", name=OWN), encoding="utf-8")
         done = finished([program, *_FLAGS, str(source), "-o", str(library), "-lm"], PATIENCE)
         if done is None:
             return NotCompiled(f"the C compiler did not finish within {PATIENCE:g} s")
-        return _loaded(library, float(expansion.scale)) if done.code == 0 else NotCompiled("the C compiler failed")
+        return _loaded(library, float(formula.scale)) if done.code == 0 else NotCompiled("the C compiler failed")
     except (OSError, AttributeError, ValueError) as error:
         return NotCompiled(f"the temporary folder does not serve for compiled code ({' '.join(str(error).split())})")
 

@@ -18,10 +18,9 @@ from types import ModuleType
 from typing import Literal
 
 from ridgeback.compare.binding.programs import Finished, finished
-from ridgeback.symbolic.codegen import generate
+from ridgeback.symbolic.codegen import Formula, generate
 from ridgeback.symbolic.codegen.languages.registry import find_language
 from ridgeback.symbolic.codegen.program import Form
-from ridgeback.symbolic.expansion.expansion import Expansion
 
 SECONDS = 120
 """A build or a check that takes longer is given up."""
@@ -126,7 +125,7 @@ class _Generated(InspectLoader):
         return self.text
 
 
-def python_module(expansion: Expansion) -> ModuleType:
+def python_module(formula: Formula) -> ModuleType:
     """The generated Python as a module.
 
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -134,7 +133,7 @@ def python_module(expansion: Expansion) -> ModuleType:
     >>> python_module(lindstedt(find("duffing"), 2)).omega0(0.0)
     1.0
     """
-    loader = _Generated(generate(expansion, "python"))
+    loader = _Generated(generate(formula, "python"))
     module = ModuleType("ridgeback_generated")
     loader.exec_module(module)
     return module

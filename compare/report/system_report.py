@@ -10,10 +10,10 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.benchmark.benchmark import assembled
-from ridgeback.compare.benchmark.estimates import estimates
-from ridgeback.compare.benchmark.expansions import ORDERS as CONTENDING
-from ridgeback.compare.benchmark.expansions import theory
 from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.benchmark.ways.estimates import estimates
+from ridgeback.compare.benchmark.ways.expansions import ORDERS as CONTENDING
+from ridgeback.compare.benchmark.ways.expansions import theory
 from ridgeback.compare.motion.comparison import HIGH_ORDER, compare_motion
 from ridgeback.compare.motion.estimate_curves import LEAN, SHORT
 from ridgeback.compare.motion.model_curves import LOW_ORDERS

@@ -8,9 +8,9 @@ from typing import Any
 
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.benchmark import benchmark as benchmarks
-from ridgeback.compare.benchmark.expansions import ORDERS
-from ridgeback.compare.benchmark.outsiders import outsiders
 from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.benchmark.ways.expansions import ORDERS
+from ridgeback.compare.benchmark.ways.outsiders import outsiders
 from ridgeback.compare.motion.motion import setting
 from ridgeback.numeric.tracking.track import Track
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator

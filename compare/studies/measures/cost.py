@@ -13,7 +13,7 @@ from typing import ClassVar
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.benchmark.expansions import nanoseconds
+from ridgeback.compare.benchmark.ways.timing import nanoseconds
 from ridgeback.compare.binding.compiled_code import NotCompiled, compiled
 from ridgeback.compare.binding.generated_code import python_module
 from ridgeback.compare.motion.motion import setting

@@ -10,7 +10,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.contenders import Source
-from ridgeback.compare.benchmark.expansions import amplitudes
+from ridgeback.compare.benchmark.ways.contender import amplitudes
 from ridgeback.compare.motion.error_budget import damped
 from ridgeback.compare.motion.model_curves import slow_flow_amplitude
 from ridgeback.compare.studies.measures.along import Case, Curve

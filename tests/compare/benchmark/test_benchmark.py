@@ -14,9 +14,9 @@ from ridgeback.compare.benchmark.benchmark import benchmark
 from ridgeback.compare.benchmark.contenders import Reference, Row
 from ridgeback.compare.benchmark.crossings import by_order
 from ridgeback.compare.benchmark.judging import common_support
-from ridgeback.compare.benchmark.own_correction import corrected, described, held_beyond
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import judge
+from ridgeback.compare.benchmark.ways.own_correction import corrected, described, held_beyond
 from ridgeback.compare.motion.motion import setting
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.tracking.track import Track

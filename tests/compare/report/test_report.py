@@ -14,8 +14,8 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import relative
 from ridgeback.common.progress import silent
 from ridgeback.compare.benchmark.contenders import WAYS, Reference, Row
-from ridgeback.compare.benchmark.estimates import METHODS as ESTIMATES
 from ridgeback.compare.benchmark.verdict import judge
+from ridgeback.compare.benchmark.ways.estimates import METHODS as ESTIMATES
 from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.motion import motion
 from ridgeback.compare.motion.motion import setting

@@ -1,7 +1,7 @@
 """The contenders that see the samples alone: each estimator as it is, and corrected by its own track.
 
 A row that bears a method's name owes nothing to another method: its correction is made from its own track
-(``ridgeback.compare.benchmark.own_correction``), and the row says so.
+(``ridgeback.compare.benchmark.ways.own_correction``), and the row says so.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from scipy.interpolate import PchipInterpolator
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.contenders import Row
-from ridgeback.compare.benchmark.expansions import Contender, refused
-from ridgeback.compare.benchmark.own_correction import corrected
+from ridgeback.compare.benchmark.ways.contender import Contender, refused
+from ridgeback.compare.benchmark.ways.own_correction import corrected
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.estimate import estimate

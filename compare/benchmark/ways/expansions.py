@@ -1,0 +1,41 @@
+"""The contenders that come from theory: what each gives along the motion, and what a value costs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.benchmark.ways.contender import Contender, amplitudes, refused
+from ridgeback.compare.benchmark.ways.formulas import arguments, fits, resummations, series
+from ridgeback.compare.benchmark.ways.slow_flows import slow_flows
+from ridgeback.compare.benchmark.ways.yardsticks import yardsticks
+from ridgeback.compare.motion.motion import Motion
+from ridgeback.compare.study.derived import backbone_series, without_damping
+from ridgeback.symbolic.expansion.expansion import Expansion
+
+ORDERS = (2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 24, 28, 32, 36, 40)
+
+
+def theory(
+    motion: Motion, orders: Iterable[int], step: Callable[[str], None], *, known: Expansion | None = None
+) -> Iterator[Contender]:
+    """Every contender from theory that this motion has; ``known`` is the series, where it is derived already."""
+    sources = amplitudes(motion)
+    rest = without_damping(motion.setting.oscillator).oscillator
+    wanted = sorted(orders)
+    step("expansions, derived and generated")
+    try:
+        expansion = backbone_series(rest, wanted[-1]) if known is None else known.truncated(wanted[-1])
+    except InputError as error:
+        yield refused("lindstedt", "perturbation expansion", "expansion", str(error))
+    else:
+        at = arguments(motion, expansion, sources)
+        yield from series(expansion, wanted, at)
+        step("resummations and fits")
+        if expansion.variable != "eps":
+            yield from resummations(rest, expansion, at)
+        if motion.has_backbone:
+            yield from fits(motion, rest, at)
+    step("slow flow by order")
+    yield from slow_flows(motion)
+    yield from yardsticks(motion, sources)

@@ -1,0 +1,130 @@
+"""The contenders that are formulas of the amplitude: truncated series, resummations and minimax fits.
+
+Each is run as the code that Ridgeback generates for it, in Python over a NumPy array and in C, at every amplitude that
+the motion has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.benchmark.contenders import Kind, Row, Source
+from ridgeback.compare.benchmark.ways.contender import Contender, refused
+from ridgeback.compare.benchmark.ways.timing import in_languages, nanoseconds
+from ridgeback.compare.binding.compiled_code import OfAmplitude
+from ridgeback.compare.motion.motion import Motion, exact_omega
+from ridgeback.numeric.arrays import Array
+from ridgeback.symbolic.codegen.fit.fit import minimax
+from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.resummation.by_name import resum
+from ridgeback.symbolic.systems.oscillator import Oscillator
+
+RESUMMATIONS = ("pade", "map", "nome")
+RESUMMED = 24
+"""Order of the series that is resummed, at most."""
+DEGREES = (2, 4, 10)
+"""Degrees in A^2 of the minimax fits: as many coefficients as 3, 5 and 11 terms of (14) have."""
+RESOLVED = 32
+SMOOTH = 1e-9
+"""A fit is tried where so many Chebyshev coefficients of omega0(A) come down to this share of the first: towards a
+separatrix they do not, and proving a fit takes minutes."""
+
+At = Mapping[Source | None, Array]
+"""What a formula is evaluated at: A(t) by source, or the eps of a limit cycle, the same at all times."""
+
+
+@dataclass(frozen=True)
+class Named:
+    """What the rows of one formula have in common."""
+
+    method: str
+    label: str
+    kind: Kind
+    order: int
+    coefficients: int | None = None
+
+
+def evaluated(formula: OfAmplitude, named: Named, at: At) -> Iterator[Contender]:
+    """A formula as generated code: one contender for each language and amplitude."""
+    with in_languages(formula) as ways:
+        for language, function in ways.items():
+            cost = nanoseconds(function, next(iter(at.values())))
+            for source, x in at.items():
+                yield Contender(_row(named, source, language, cost), np.asarray(function(x), dtype=float))
+
+
+def _row(named: Named, source: Source | None, language: str, cost: float) -> Row:
+    parts = (named.method, *((source,) if source else ()), *(() if language == "python" else (language,)))
+    return Row(
+        "-".join(parts),
+        named.label + (f", A(t) from the {source}" if source else ""),
+        named.kind,
+        order=named.order,
+        coefficients=named.coefficients,
+        amplitude_from=source,
+        language=language,
+        time_ns_per_value=cost,
+    )
+
+
+def arguments(motion: Motion, expansion: Expansion, sources: Mapping[Source, Array]) -> At:
+    """What the expansion is evaluated at."""
+    if expansion.variable != "eps":
+        return {source: x for source, x in sources.items()}  # noqa: C416 - the keys widen to those of a limit cycle
+    name = motion.setting.oscillator.small or "eps"
+    eps = motion.setting.case().parameters[name]
+    return {None: np.full(motion.time.size, float(eps))}
+
+
+def series(expansion: Expansion, orders: Iterable[int], at: At) -> Iterator[Contender]:
+    """The truncated series by order."""
+    for order in orders:
+        part = expansion.truncated(order)
+        count = sum(1 for c in part.coefficients if c != 0)
+        yield from evaluated(
+            part, Named(f"{expansion.method}-{order}", f"expansion, order {order}", "expansion", order, count), at
+        )
+
+
+def resummations(rest: Oscillator, expansion: Expansion, at: At) -> Iterator[Contender]:
+    """Other formulas from the same coefficients, where they exist; of an oscillator without its damping."""
+    part = expansion.truncated(min(expansion.order, RESUMMED))
+    for name in RESUMMATIONS:
+        try:
+            formula = resum(rest, part, name, up_to=_largest(at))
+            yield from evaluated(formula, Named(f"{name}-{part.order}", formula.method, "resummation", part.order), at)
+        except (InputError, ValueError, ZeroDivisionError) as error:
+            label = f"{name}, order {part.order}"
+            yield refused(f"{name}-{part.order}", label, "resummation", str(error), order=part.order)
+
+
+def fits(motion: Motion, rest: Oscillator, at: At) -> Iterator[Contender]:
+    """Minimax polynomials in A^2, fitted to the exact omega0 over the amplitudes of this motion."""
+    for degree in DEGREES:
+        label = f"minimax fit of degree {degree} in A^2"
+        try:
+            if not is_smooth(motion, float(_largest(at))):
+                raise InputError("the exact omega0 is not smooth enough over these amplitudes for a proved fit")
+            fit = minimax(rest, _largest(at), degree=degree)
+            yield from evaluated(fit, Named(f"minimax-{2 * degree}", label, "minimax", 2 * degree, degree + 1), at)
+        except InputError as error:
+            yield refused(f"minimax-{2 * degree}", label, "minimax", str(error), order=2 * degree)
+
+
+def is_smooth(motion: Motion, largest: float) -> bool:
+    """Whether ``RESOLVED`` Chebyshev coefficients in A^2 resolve the exact omega0 up to an amplitude."""
+    count = 2 * RESOLVED
+    nodes = chebyshev.chebpts1(count)
+    omega = exact_omega(motion.dynamics, largest * np.sqrt((1.0 + nodes) / 2.0))
+    size = np.abs(chebyshev.chebfit(nodes, omega, count - 1))
+    return bool(np.isfinite(size).all() and size[RESOLVED - 4 : RESOLVED + 4].max() <= SMOOTH * size[0])
+
+
+def _largest(at: At) -> Fraction:
+    return Fraction(max(float(np.nanmax(x)) for x in at.values()))

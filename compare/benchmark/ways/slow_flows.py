@@ -1,0 +1,86 @@
+"""The contenders by multiple scales: a(t) integrated from the slow flow, then phi'(a); no trajectory enters.
+
+Order counts weighted degree in the amplitude.  A limit cycle has a finite amplitude, and every power of it belongs to
+each power of eps: with a force whose terms in eps are of degree d in u and u', eps^n comes with a^((d - 1) n) at most,
+so that with the weight w = (d - 1) n + 1 of eps the terms of weighted degree up to w n + (d - 1) n are those through
+eps^n, each whole.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+import numpy as np
+import sympy
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.benchmark.contenders import Row
+from ridgeback.compare.benchmark.ways.contender import Contender, refused
+from ridgeback.compare.motion.model_curves import slow_flow_curve
+from ridgeback.compare.motion.motion import Motion
+from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.flow.slow_flow import SlowFlow
+from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.parameters import symbol_of
+
+ORDERS = (2, 4, 6, 8)
+
+
+def slow_flows(motion: Motion) -> Iterator[Contender]:
+    """Multiple scales by order."""
+    for order in ORDERS:
+        small = powers_of(motion.setting.oscillator)
+        label = f"multiple scales, order {order}" + ("" if small is None else f" in {small[0]}")
+        try:
+            flow = flow_of(motion.setting.oscillator, order)
+            began = time.perf_counter()
+            curve = slow_flow_curve(motion, flow)
+            seconds = time.perf_counter() - began
+        except (InputError, ValueError) as error:
+            yield refused(f"multiple-scales-{order}", label, "slow-flow", str(error), order=order)
+            continue
+        omega = np.full(motion.time.size, np.nan)
+        omega[: curve.omega.size] = curve.omega
+        row = Row(
+            f"multiple-scales-{order}",
+            label,
+            "slow-flow",
+            order=order,
+            coefficients=len(flow.frequency) + len(flow.growth_rate),
+            time_s_per_track=seconds,
+            time_ns_per_value=seconds / motion.time.size * 1e9,
+        )
+        yield Contender(row, omega)
+
+
+def flow_of(oscillator: Oscillator, order: int) -> SlowFlow:
+    """The slow flow of an order: in weighted degree, or of a limit cycle in eps with every power of the amplitude.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> flow_of(find("van-der-pol"), 2).frequency_expression()
+    1 - eps**2/8 + a**2*eps**2/8 - 7*a**4*eps**2/256
+    """
+    small = powers_of(oscillator)
+    if small is None:
+        return multiple_scales(oscillator, order)
+    name, degree = small
+    rise = (degree - 1) * order
+    weight = rise + 1
+    return multiple_scales(oscillator, weight * order + rise, weights={name: weight})
+
+
+def powers_of(oscillator: Oscillator) -> tuple[str, int] | None:
+    """The eps of a limit cycle and the degree of its terms, where all else of the force is linear; else None."""
+    name = oscillator.small
+    if oscillator.kind != "limit-cycle" or name is None:
+        return None
+    values = {symbol_of(n): v for n, v in oscillator.parameters.items() if v is not None and n != name}
+    force = sympy.expand(oscillator.force.subs(values))
+    eps = symbol_of(name)
+    if not force.is_polynomial(U, V, eps) or sympy.degree(force, eps) != 1:
+        return None
+    linear, others = force.coeff(eps, 0), force.coeff(eps, 1)
+    if sympy.Poly(linear, U, V).total_degree() > 1:
+        return None
+    return name, sympy.Poly(others, U, V).total_degree()

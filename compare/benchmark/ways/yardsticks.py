@@ -1,0 +1,90 @@
+"""What contenders are held against: the series (14) by terms, the exact backbone and the linear oscillator (3)."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from functools import partial
+
+import numpy as np
+
+from ridgeback.compare.benchmark.contenders import Row, Source
+from ridgeback.compare.benchmark.ways.contender import Contender
+from ridgeback.compare.benchmark.ways.timing import nanoseconds
+from ridgeback.compare.motion.motion import Motion, exact_omega
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.orbits.averaging import averaged_decay
+from ridgeback.numeric.orbits.energy import is_linearly_damped
+from ridgeback.numeric.orbits.paper_model import series_frequency
+
+TERMS = (3, 5, 11, 21, 41)
+"""Terms of (14): the three that the paper prints, and as many coefficients as some orders have."""
+
+
+def yardsticks(motion: Motion, sources: Mapping[Source, Array]) -> Iterator[Contender]:
+    """The series model and the exact omega0 at each amplitude, and the linear frequency."""
+    for source, x in sources.items():
+        if motion.setting.is_pendulum:
+            yield from series_model(motion, source, x)
+    if motion.has_backbone:
+        yield exact_at_energy(motion)
+    yield from averaged(motion)
+    k, mu = motion.dynamics.natural_frequency, motion.dynamics.damping
+    flat = np.full(motion.time.size, np.sqrt(max(k * k - mu * mu, 0.0)))
+    yield Contender(Row("linear", "linear oscillator, eq. (3)", "linear"), flat)
+
+
+def series_model(motion: Motion, source: Source, x: Array) -> Iterator[Contender]:
+    """Eq. (14) by its number of terms."""
+    for terms in TERMS:
+        function = partial(series_frequency, k=motion.dynamics.natural_frequency, terms=terms)
+        row = Row(
+            f"series-{terms}-{source}",
+            f"(14), {terms} terms, A(t) from the {source}",
+            "series-model",
+            order=terms,
+            coefficients=terms,
+            amplitude_from=source,
+            language="numpy",
+            time_ns_per_value=nanoseconds(function, x),
+        )
+        yield Contender(row, np.asarray(function(x)))
+
+
+def exact_at_energy(motion: Motion) -> Contender:
+    """The exact omega0 at A(t) of (21): by its closed form, or by quadrature, which is timed on the samples alone."""
+    closed = motion.dynamics.closed_form
+    x = motion.energy_peak
+    cost = (
+        nanoseconds(partial(exact_omega, motion.dynamics), x, values=x.size, repeats=1)
+        if closed is None
+        else nanoseconds(closed, x)
+    )
+    label = "exact omega0 at A(t) from the energy"
+    row = Row("closed-form", label, "closed-form", amplitude_from="energy", time_ns_per_value=cost)
+    return Contender(row, motion.exact_at_energy)
+
+
+# omega0(J(t)), J' = the averaged loss of action; omega_c = sqrt(omega0^2 - mu^2), eq. (3) at a finite amplitude
+def averaged(motion: Motion) -> Iterator[Contender]:
+    """The exact omega0 of the averaged action, which needs no trajectory, and the same under linear damping."""
+    if motion.averaged is None:
+        return
+    began = time.perf_counter()
+    averaged_decay(motion.dynamics, motion.setting.initial, motion.time)
+    seconds = time.perf_counter() - began
+    ways = {"averaged-action": ("exact omega0 of the averaged action", motion.averaged.omega)}
+    mu = motion.dynamics.damping
+    if mu and is_linearly_damped(motion.dynamics, float(motion.averaged.peak[0])):
+        omega = np.sqrt(np.maximum(motion.averaged.omega**2 - mu * mu, 0.0))
+        ways["averaged-damped"] = ("sqrt(omega0^2 - mu^2) of the averaged action", omega)
+    for method, (label, omega) in ways.items():
+        row = Row(
+            method,
+            label,
+            "averaged",
+            amplitude_from="action",
+            time_s_per_track=seconds,
+            time_ns_per_value=seconds / motion.time.size * 1e9,
+        )
+        yield Contender(row, omega)
