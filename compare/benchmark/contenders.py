@@ -10,7 +10,8 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Literal
 
-from ridgeback.common.numbers import relative
+from ridgeback.common.numbers import relative, scientific, two_digits, uncertain
+from ridgeback.common.quantities import duration
 from ridgeback.common.show.brief import Brief
 
 Kind = Literal[
@@ -43,11 +44,13 @@ class Reference(Brief):
     numerical_error: float
     definition: float
     """How far two readings of the same motion differ: below it, omega0(t) of a decay is not defined."""
+    integration: float = 0.0
+    """What the two integrations differ by in phase at the end, over the whole phase."""
 
     @property
     def floor(self) -> float:
         """The error below which two contenders cannot be told apart."""
-        return max(self.numerical_error, self.definition)
+        return max(self.numerical_error, self.definition, self.integration)
 
 
 @dataclass(frozen=True, repr=False)
@@ -120,6 +123,16 @@ class AmplitudeCrossing:
     below_everywhere: bool
     """Without a crossing: whether the expansion is the better one throughout."""
 
+    def words(self) -> str:
+        """Where the expansion is ahead.
+
+        >>> AmplitudeCrossing("pseudo-wigner", 4, "action", 1.234, 0.05, False).words()
+        'A < 1.234 ± 0.050'
+        """
+        if self.amplitude is None:
+            return "always" if self.below_everywhere else "never"
+        return f"A < {uncertain(self.amplitude, self.uncertainty)}"
+
 
 @dataclass(frozen=True)
 class EqualCoefficients:
@@ -158,20 +171,26 @@ class Verdict(Brief):
     """Where the best way ends, in words made from its numbers."""
 
     def sentence(self, reference: Reference) -> str:
-        """The verdict in words."""
-        head = f"{_named(self.best)} errs {_error(self.best)} rms"
+        """The verdict in words: errors and costs of the best way and of the best of another one."""
+        head = f"{_capital(self.best.label)} errs {_error(self.best)} rms{_cost(self.best)}"
         if self.rival is None or self.ratio is None:
             return f"{head}; nothing of another way could be ranked"
-        rival = f"{_named(self.rival)} ({_error(self.rival)})"
+        rival = f"{self.rival.label} ({_error(self.rival)}{_cost(self.rival)})"
         if not self.decided:
             return (
                 f"{head}, and {rival} cannot be told from it: omega0(t) itself is open by {relative(reference.floor)}"
             )
-        return f"{head}, {self.ratio:.2g} times less than {rival}"
+        times = two_digits(self.ratio) if self.ratio < 1e5 else scientific(self.ratio)
+        return f"{head}, {times} times less than {rival}"
 
 
-def _named(row: Row) -> str:
-    return row.label[0].upper() + row.label[1:]
+def _capital(text: str) -> str:
+    return text[0].upper() + text[1:]
+
+
+def _cost(row: Row) -> str:
+    ns = row.time_ns_per_value
+    return "" if ns is None else f" at {duration(1e-9 * ns)} a value"
 
 
 def _error(row: Row) -> str:

@@ -45,24 +45,23 @@ def raw_estimates(rows: Sequence[Row]) -> list[Row]:
 
 
 def by_order(rows: Sequence[Row], reference: Reference) -> Iterator[OrderCrossing]:
-    """For each estimate, the first order from which every higher one errs less."""
+    """For each amplitude and estimate, where the orders pass it."""
     for source in SOURCES:
         series = expansions(rows, source)
         for estimate in raw_estimates(rows) if series else ():
-            error = float(estimate.relative_rms_error or 0.0)
-            worse = [r for r in series if float(r.relative_rms_error or 0.0) >= error]
-            last = worse[-1] if worse else None
-            after = next((r for r in series if last is None or (r.order or 0) > (last.order or 0)), None)
-            sides = [r for r in (last, after) if r is not None]
-            settled = all(abs(float(r.relative_rms_error or 0.0) - error) > reference.floor for r in sides)
-            yield OrderCrossing(
-                estimate.method,
-                error,
-                source,
-                None if last is None else last.order,
-                None if after is None else after.order,
-                settled,
-            )
+            yield passing(series, estimate, source, reference)
+
+
+def passing(series: Sequence[Row], estimate: Row, source: Source, reference: Reference) -> OrderCrossing:
+    """The first order from which every higher one errs less than an estimate; ``series`` is by order."""
+    error = float(estimate.relative_rms_error or 0.0)
+    worse = [r for r in series if float(r.relative_rms_error or 0.0) >= error]
+    last = worse[-1] if worse else None
+    after = next((r for r in series if last is None or (r.order or 0) > (last.order or 0)), None)
+    sides = [r for r in (last, after) if r is not None]
+    settled = all(abs(float(r.relative_rms_error or 0.0) - error) > reference.floor for r in sides)
+    before = None if last is None else last.order
+    return OrderCrossing(estimate.method, error, source, before, None if after is None else after.order, settled)
 
 
 def running_rms(error: Array, window: int) -> Array:
@@ -84,6 +83,8 @@ def by_amplitude(
     place = {row.method: index for index, row in enumerate(rows)}
     smooth = {name: running_rms(errors[index], window)[support] for name, index in place.items()}
     size = amplitude[support]
+    if np.ptp(size) <= _change(size, window):
+        return
     for source in SOURCES:
         for row in expansions(rows, source):
             if row.order in SHOWN_ORDERS:
@@ -97,11 +98,16 @@ def _crossing(row: Row, estimate: Row, source: Source, better: Mask, size: Array
     order = np.argsort(size)
     wrong = np.flatnonzero(~better[order])
     first = int(wrong[0]) if wrong.size else size.size
-    change = float(np.abs(np.gradient(size)).max()) * window
+    change = _change(size, window)
     found = None if first in (0, size.size) else float(size[order][first])
     return AmplitudeCrossing(
         estimate.method, row.order or 0, source, found, change, below_everywhere=first == size.size
     )
+
+
+def _change(size: Array, window: int) -> float:
+    """What a cycle changes the amplitude by, at most, but never less than the rounding of it."""
+    return max(float(np.abs(np.gradient(size)).max()) * window, 1e-9 * float(size.max()))
 
 
 def at_equal_coefficients(rows: Sequence[Row]) -> Iterator[EqualCoefficients]:

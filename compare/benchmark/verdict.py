@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import relative
 from ridgeback.compare.benchmark.contenders import WAYS, Reference, Row, Verdict, Way
+from ridgeback.compare.benchmark.crossings import SOURCES, expansions, passing
 
 
 def judge(rows: Sequence[Row], reference: Reference) -> Verdict:
@@ -30,7 +31,7 @@ def judge(rows: Sequence[Row], reference: Reference) -> Verdict:
         rival=None if rival is None else known[rival],
         ratio=ratio,
         decided=ratio is not None and ratio > 1.0 and _error(known[rival or first]) > reference.floor,
-        limit=_limit(known[first]),
+        limit="; ".join((_limit(known[first]), *_ends(known[first], known.get("estimates"), rows, reference))),
     )
 
 
@@ -68,3 +69,13 @@ def _limit(row: Row) -> str:
     if row.amplitude_from is None:
         return f"it needs the equation, and holds on the limit cycle alone; {largest}"
     return f"it needs the equation and A(t) from the {row.amplitude_from}; {largest}"
+
+
+def _ends(row: Row, estimate: Row | None, rows: Sequence[Row], reference: Reference) -> Iterator[str]:
+    """At which order expansion and best estimate change places, as far as the best row is one of the two."""
+    if estimate is None or row.kind not in ("expansion", "estimate"):
+        return
+    for source in SOURCES if row.kind == "estimate" else (row.amplitude_from,):
+        series = expansions(rows, source) if source is not None else []
+        if series and source is not None and not (source == "energy" and expansions(rows, "action")):
+            yield passing(series, estimate, source, reference).sentence()

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ridgeback.common.numbers import NONE, number, per_cent, rounded_down, threshold, two_digits
+from ridgeback.common.numbers import NONE, number, per_cent, rounded_down, threshold
+from ridgeback.common.quantities import duration
 from ridgeback.compare.benchmark.contenders import WAYS, Row, Way
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import closest
@@ -66,20 +67,6 @@ def cost(row: Row) -> str:
         return f"{track}{duration(1e-9 * value)} a value"
     language = LANGUAGES.get(row.language or "", "")
     return f"{duration(1e-9 * value)} a value" + (f", {language}" if language else "")
-
-
-def duration(seconds: float | None) -> str:
-    """A time to two digits with the unit that suits it.
-
-    >>> duration(2e-9), duration(1.3e-4), duration(0.132), duration(12.0), duration(None)
-    ('2.0 ns', '130 µs', '0.13 s', '12 s', '–')
-    """
-    if seconds is None:
-        return NONE
-    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
-        if seconds >= (0.1 if unit == "s" else 1.0) * size:
-            return f"{two_digits(seconds / size)} {unit}"
-    return f"{two_digits(seconds / 1e-9)} ns"
 
 
 def _card(way: Way, row: Row | None, why: str, rows: tuple[tuple[str, str], ...], text: str = "") -> Card:

@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ridgeback.common.numbers import number, offset, per_cent, two_digits
-from ridgeback.common.quantities import amplitude
+from ridgeback.common.quantities import amplitude, duration
 from ridgeback.compare.benchmark.contenders import OrderCrossing, Reference, Row, Verdict
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import closest
 from ridgeback.compare.motion.results import BiasCause, MotionComparison
-from ridgeback.compare.report.cards import best_of_way, duration
+from ridgeback.compare.report.cards import best_of_way
 from ridgeback.compare.report.naming import REMOVED, capital, estimator, follow, plural, refused_names, short_name
 from ridgeback.compare.study.derived import Derived
 

@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from ridgeback.common.numbers import NONE, number, per_cent, rounded_down, threshold
-from ridgeback.common.quantities import symbol
+from ridgeback.common.quantities import duration, symbol
 from ridgeback.compare.benchmark.contenders import Row as Contender
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.results import BudgetRow
-from ridgeback.compare.report.cards import duration
 from ridgeback.compare.report.naming import capital, short_name
 from ridgeback.compare.study.results import Certified, Range
 from ridgeback.reports.text.align import aligned

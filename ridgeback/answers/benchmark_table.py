@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ridgeback.common.numbers import number, relative
+from ridgeback.common.quantities import duration
 from ridgeback.console.output import json_text
 from ridgeback.console.tables import Row, aligned, csv_text
 
 if TYPE_CHECKING:
+    from ridgeback.compare.benchmark.contenders import OrderCrossing
     from ridgeback.compare.benchmark.contenders import Row as Contender
     from ridgeback.compare.benchmark.results import Benchmark
 
@@ -17,7 +20,8 @@ COLUMNS = (
     *("relative_rms_error", "largest", "mean", "support_start", "support_end", "coverage", "ranked"),
     *("time_ns_per_value", "time_s_per_track", "refused"),
 )
-SHOWN = ("method", "A(t) from", "code", "rms error", "largest", "mean", "ns a value")
+OFF_SCALE = 10.0
+SHOWN = ("method", "A(t) from", "code", "rms error", "largest", "mean", "cost of a value")
 
 
 def benchmark_text(found: Benchmark, style: str) -> str:
@@ -70,16 +74,12 @@ def readable(found: Benchmark) -> str:
     begin, end = (number(x) for x in found.support)
     parts = [
         f"{found.case.title}: {found.case.equation}",
-        f"errors relative to the {found.reference.label}, over t = {begin} to {end}; two of its readings differ by "
-        f"{relative(found.reference.definition)}",
+        f"errors relative to the {found.reference.label}, over t = {begin} to {end}; it is open by "
+        f"{relative(found.reference.floor)}",
         "",
-        aligned(SHOWN, [shown(rows) for rows in ranked]),
+        aligned(SHOWN, [shown(rows) for rows in alike(ranked)]),
         *unranked(found),
-        "",
-        *(
-            f"{crossing.sentence()}{'' if crossing.settled else ' (within what the reference leaves open)'}"
-            for crossing in found.crossings.orders
-        ),
+        *passed(found),
         *equal(found),
         "",
         f"{found.verdict.sentence(found.reference)}; {found.verdict.limit}.",
@@ -96,6 +96,40 @@ def merged(found: Benchmark) -> list[list[Contender]]:
     return list(groups.values())
 
 
+def alike(groups: list[list[Contender]]) -> list[list[Contender]]:
+    """The same, with orders of an expansion whose errors are written alike as one line: the lowest, with its cost."""
+    kept: dict[tuple[object, ...], list[list[Contender]]] = {}
+    for rows in groups:
+        row = rows[0]
+        same = (row.amplitude_from, *(written(x) for x in errors(row))) if row.kind == "expansion" else (row.method,)
+        kept.setdefault(same, []).append(rows)
+    return [shortened(sorted(found, key=lambda rows: rows[0].order or 0)) for found in kept.values()]
+
+
+def shortened(groups: list[list[Contender]]) -> list[Contender]:
+    """The first group; its label names how many higher orders are alike."""
+    if len(groups) == 1:
+        return groups[0]
+    last = groups[-1][0].order
+    label = groups[0][0].label.partition(", A(t) from")[0]
+    more = f"{label}; {len(groups) - 1} up to order {last} alike"
+    return [replace(groups[0][0], label=more), *groups[0][1:]]
+
+
+def errors(row: Contender) -> tuple[float | None, ...]:
+    """The three errors that are shown."""
+    return row.relative_rms_error, row.largest, row.mean
+
+
+def written(value: float | None, *, signed: bool = False) -> str:
+    """A relative error; no digits beyond ten times the frequency itself.
+
+    >>> written(0.0019), written(-25.0, signed=True)
+    ('0.19 %', 'over 1000 %')
+    """
+    return "over 1000 %" if value is not None and abs(value) >= OFF_SCALE else relative(value, signed=signed)
+
+
 def shown(rows: list[Contender]) -> Row:
     """One line of the table."""
     row = rows[0]
@@ -103,11 +137,47 @@ def shown(rows: list[Contender]) -> Row:
         "method": row.label.partition(", A(t) from")[0],
         "A(t) from": row.amplitude_from or "-",
         "code": ", ".join(r.language for r in rows if r.language) or "-",
-        "rms error": relative(row.relative_rms_error),
-        "largest": relative(row.largest),
-        "mean": relative(row.mean, signed=True),
-        "ns a value": ", ".join(number(r.time_ns_per_value, 2) for r in rows),
+        "rms error": written(row.relative_rms_error),
+        "largest": written(row.largest),
+        "mean": written(row.mean, signed=True),
+        "cost of a value": ", ".join(cost(r) for r in rows),
     }
+
+
+def cost(row: Contender) -> str:
+    """What a value costs, with its unit."""
+    return duration(None if row.time_ns_per_value is None else 1e-9 * row.time_ns_per_value)
+
+
+def passed(found: Benchmark) -> list[str]:
+    """Where the expansions pass each estimate: by order, and the amplitude below which an order is ahead."""
+    sources = dict.fromkeys(c.amplitude_from for c in found.crossings.orders)
+    return [line for source in sources for line in at_source(found, source)]
+
+
+def at_source(found: Benchmark, source: str) -> list[str]:
+    """The same at one amplitude."""
+    below = {(c.estimate, c.order): c.words() for c in found.crossings.amplitudes if c.amplitude_from == source}
+    orders = sorted({order for _, order in below})
+    ahead = {order: f"order {order} ahead" for order in orders}
+    lines = [
+        {"estimate": c.estimate, "passed": place(c)} | {ahead[n]: below.get((c.estimate, n), "-") for n in orders}
+        for c in found.crossings.orders
+        if c.amplitude_from == source
+    ]
+    head = f"expansions at A(t) from the {source} against estimates"
+    return ["", head, aligned(["estimate", "passed", *ahead.values()], lines)] if lines else []
+
+
+def place(crossing: OrderCrossing) -> str:
+    """Between which orders an estimate is passed."""
+    if crossing.after is None:
+        text = f"not to order {crossing.before}"
+    elif crossing.before is None:
+        text = f"from order {crossing.after}"
+    else:
+        text = f"between orders {crossing.before} and {crossing.after}"
+    return text if crossing.settled else f"{text}, within what is open"
 
 
 def unranked(found: Benchmark) -> list[str]:
@@ -119,8 +189,9 @@ def unranked(found: Benchmark) -> list[str]:
 
 def equal(found: Benchmark) -> list[str]:
     """The paper's series beside the expansion with as many coefficients."""
-    return [
+    lines = [
         f"{c.coefficients} coefficients, A(t) from the {c.amplitude_from}: {c.terms} terms of (14) "
         f"{relative(c.series_error)}, order {c.order} {relative(c.expansion_error)}"
         for c in found.crossings.equal_coefficients
     ]
+    return ["", *lines] if lines else []

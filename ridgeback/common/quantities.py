@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 import re
 
+from ridgeback.common.numbers import NONE, two_digits
+
 # fmt: off
 _GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -73,3 +75,17 @@ def symbol(name: str) -> str:
     plain = re.sub(r"[\\{}]|_(?=\{?\d)", "", name)
     stem = plain.rstrip("0123456789")
     return _GREEK.get(stem, stem) + plain[len(stem) :].translate(_SUBSCRIPTS)
+
+
+def duration(seconds: float | None) -> str:
+    """A time to two digits with the unit that suits it.
+
+    >>> duration(2e-9), duration(1.3e-4), duration(0.132), duration(12.0), duration(None)
+    ('2.0 ns', '130 µs', '0.13 s', '12 s', '–')
+    """
+    if seconds is None:
+        return NONE
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
+        if seconds >= (0.1 if unit == "s" else 1.0) * size:
+            return f"{two_digits(seconds / size)} {unit}"
+    return f"{two_digits(seconds / 1e-9)} ns"

@@ -7,19 +7,24 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from ridgeback.answers.benchmark_table import COLUMNS, benchmark_text
 from ridgeback.common.errors import InputError
-from ridgeback.compare.benchmark.benchmark import benchmark
+from ridgeback.compare.benchmark.benchmark import assembled, benchmark
 from ridgeback.compare.benchmark.contenders import Reference, Row
 from ridgeback.compare.benchmark.crossings import by_order
 from ridgeback.compare.benchmark.judging import common_support
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import judge
+from ridgeback.compare.benchmark.ways.expansions import theory
 from ridgeback.compare.benchmark.ways.own_correction import corrected, described, held_beyond
-from ridgeback.compare.motion.motion import setting
+from ridgeback.compare.benchmark.ways.slow_flows import flow_of, powers_of
+from ridgeback.compare.motion.motion import Setting, integrate_motion, setting
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.tracking.track import Track
+from ridgeback.symbolic.codegen.fit.fit import minimax
+from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.description import from_text
 
@@ -70,6 +75,37 @@ def test_generated_c_agrees_with_generated_python_and_both_have_a_cost(pendulum:
         assert error == pytest.approx(rows["lindstedt-8-action"].relative_rms_error, rel=1e-9)
 
 
+def test_a_minimax_fit_errs_no_more_than_is_proved_and_less_than_the_series_of_as_many_coefficients(
+    pendulum: Benchmark,
+) -> None:
+    exact = pendulum.errors[[row.method for row in pendulum.contenders].index("averaged-action")]
+    fitted = pendulum.errors[[row.method for row in pendulum.contenders].index("minimax-8-action")]
+    proved = float(minimax(find("pendulum"), Fraction(3, 2), degree=4).error)
+    assert np.nanmax(np.abs((1 + fitted) / (1 + exact) - 1)) < 1.01 * proved
+    assert proved < 1e-7
+    rows = {row.method: row for row in pendulum.contenders}
+    assert rows["minimax-8-action"].coefficients == rows["lindstedt-8-action"].coefficients == 5
+    assert all(rows[name].time_ns_per_value > 0 for name in ("minimax-8-action", "pade-16-action", "nome-16-action"))
+
+
+def test_the_slow_flow_of_a_limit_cycle_is_whole_through_a_power_of_eps() -> None:
+    cycle = find("van-der-pol")
+    flow, series = flow_of(cycle, 4), lindstedt(cycle, 4)
+    for eps in (0.05, 0.1, 0.2):
+        amplitude = brentq(lambda a, eps=eps: float(flow.growth_rate_at(a, eps)), 1.5, 2.5, xtol=1e-14)
+        # omega0 = 1 - eps^2/16 + 17 eps^4/3072 + O(eps^6)
+        assert float(flow.frequency_at(amplitude, eps)) == pytest.approx(float(series(eps)), abs=eps**6)
+    assert powers_of(find("pendulum")) is None
+
+
+def test_an_undamped_motion_has_no_crossing_in_amplitude_and_its_integration_is_a_floor() -> None:
+    found = benchmark(setting(find("bilinear"), duration=60.0, rate=8.0), orders=(2, 4))
+    assert found.crossings.amplitudes == ()
+    assert 0 < found.reference.integration <= found.reference.floor
+    text = benchmark_text(found, "text")
+    assert "expansion, order 2; 1 up to order 4 alike" in text
+
+
 def test_a_correction_is_by_the_methods_own_track_and_makes_it_better(pendulum: Benchmark) -> None:
     for name in ("pseudo-wigner", "spectrogram"):
         better = pendulum.row(f"{name}-corrected")
@@ -108,14 +144,20 @@ def test_json_csv_and_text_say_the_same(pendulum: Benchmark) -> None:
     assert pendulum.verdict.sentence(pendulum.reference) in benchmark_text(pendulum, "text")
 
 
+def of_theory(chosen: Setting) -> Benchmark:
+    """A benchmark of the ways that come from theory alone."""
+    motion = integrate_motion(chosen)
+    return assembled(motion, list(theory(motion, (2, 8), lambda _: None)))
+
+
 def test_damping_of_any_form_and_a_motion_without_a_potential() -> None:
     values = {"mu": Fraction(1, 100), "c3": Fraction(1, 50), "g": Fraction(1, 2)}
     cubic = from_text("u'' + 2*mu*u' + c3*u'**3 + u + g*u**3 = 0", parameters=values)
-    found = benchmark(setting(cubic, initial=(1.2, 0.0), duration=120.0, rate=5.0), orders=(2, 8))
+    found = of_theory(setting(cubic, initial=(1.2, 0.0), duration=120.0, rate=5.0))
     assert found.row("lindstedt-8-action").relative_rms_error < 1.5e-4
     assert found.row("multiple-scales-8").relative_rms_error < 1.5e-3
     inertial = from_text("u'' + u*u'**2 + u + 2*mu*u' = 0", parameters={"mu": Fraction(1, 100)})
-    found = benchmark(setting(inertial, initial=(0.9, 0.0), duration=120.0, rate=5.0), orders=(2, 8))
+    found = of_theory(setting(inertial, initial=(0.9, 0.0), duration=120.0, rate=5.0))
     assert found.row("lindstedt-8-fit").relative_rms_error < 2e-4
     assert found.row("multiple-scales-8").refused is None
     assert next(row for row in found.contenders if row.method.startswith("nome")).refused is not None

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.benchmark import outsiders as home
+from ridgeback.compare.benchmark.ways import outsiders as home
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.tracking.track import Track
