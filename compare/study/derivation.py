@@ -198,13 +198,13 @@ def _checked(prefix: str, check: Check) -> Checked:
 
 
 def described(oscillator: Oscillator) -> str:
-    """The equation with its numbers.
+    """The equation with its numbers; parameters left symbolic have none.
 
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> described(find("duffing"))
     "u'' + 2*mu*u' + k**2*u + eps*u**3 = 0 with mu = 0, k = 1, eps = 1"
     """
-    values = ", ".join(f"{name} = {value}" for name, value in oscillator.parameters.items())
+    values = ", ".join(f"{name} = {value}" for name, value in oscillator.parameters.items() if value is not None)
     return f"{oscillator.equation} with {values}" if values else oscillator.equation
 
 

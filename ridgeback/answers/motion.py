@@ -34,7 +34,7 @@ def transient_output(oscillator: Oscillator, result: Result, demand: Demand) -> 
     from ridgeback.symbolic.flow.slow_flow import SlowFlow
 
     if isinstance(result, LossFlow):
-        raise InputError(result.without_code())
+        raise InputError(result.refusal())
     if not isinstance(result, SlowFlow):
         raise click.UsageError(f"--transient belongs to multiple-scales, not to {result.method}; leave one out")
     from ridgeback.symbolic.flow.transient import closed_form

@@ -13,7 +13,7 @@ from ridgeback.interface.derivation import derivation
 from ridgeback.interface.source import known_form
 from ridgeback.interface.unused import refuse_unused
 from ridgeback.symbolic.codegen import Formula, written
-from ridgeback.symbolic.codegen.closed_forms import mean_form, sine_series
+from ridgeback.symbolic.codegen.formulas.closed_forms import mean_form, sine_series
 from ridgeback.symbolic.codegen.program import MODES as ARITHMETIC
 from ridgeback.symbolic.codegen.program import Mode
 from ridgeback.symbolic.expansion.cost import Budget
@@ -166,23 +166,20 @@ def generate(
     >>> "double pendulum_omega0(double" in source
     True
     """
-    series: Expansion | SlowFlow
+    series: Expansion | PowerExpansion | SlowFlow | LossFlow
     result: Formula
-    if isinstance(formula, PowerExpansion | LossFlow):
-        raise InputError(formula.without_code())
     check_formula(resummed, degrees, growth, terms)
-    if isinstance(formula, Expansion | SlowFlow | Resummation):
+    if isinstance(formula, Expansion | PowerExpansion | SlowFlow | LossFlow | Resummation):
         refuse_unused("a formula that has been derived", method=method, amplitude=amplitude, parameters=parameters)
         system, result = (_system_of(formula) if oscillator is None else as_oscillator(oscillator)), formula
         series = lindstedt(system, formula.order) if isinstance(formula, Resummation) else formula
     else:
         refuse_unused("an oscillator to derive the formula of", oscillator=oscillator)
         system = as_oscillator(formula, parameters=parameters)
-        found = derive(system, order, method=method, amplitude=amplitude, progress=progress)
-        if isinstance(found, PowerExpansion | LossFlow):
-            raise InputError(found.without_code())
-        result = series = found
+        result = series = derive(system, order, method=method, amplitude=amplitude, progress=progress)
     if resummed is not None:
+        if isinstance(series, PowerExpansion | LossFlow):
+            raise InputError(series.refusal())
         result = in_its_place(system, series, resummed, degrees=degrees, growth=growth, terms=terms, up_to=up_to)
     how = cast(Mode, chosen(mode, ARITHMETIC, "mode"))
     form = known_form(system, series, result, up_to=up_to, name=name, mode=how, real=real, motion=motion)

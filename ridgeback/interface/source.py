@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import TypeAlias
 
+from ridgeback.common.errors import InputError
 from ridgeback.compare.study.derivation import described
-from ridgeback.compare.study.derived import Undamped
 from ridgeback.symbolic.codegen import Formula, form_of
 from ridgeback.symbolic.codegen.program import Form, Mode
 from ridgeback.symbolic.codegen.proofs.facts import certified_facts, end_of
+from ridgeback.symbolic.enclosure.enclosure import rounded_down, separatrix
 from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+from ridgeback.symbolic.flow.loss_flow import LossFlow
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.systems.oscillator import Oscillator
+
+Derived: TypeAlias = Expansion | PowerExpansion | SlowFlow | LossFlow
+"""What a derivation gives."""
 
 
 def known_form(
     oscillator: Oscillator,
-    series: Expansion | SlowFlow | None,
+    series: Derived | None,
     result: Formula,
     *,
     up_to: Fraction | None = None,
@@ -27,9 +34,9 @@ def known_form(
 ) -> Form:
     """The coefficient form of a formula of an oscillator; ``series`` is what it was made of, if it was of one."""
     peak = series is None or series.amplitude == "peak"
-    limit = Undamped(oscillator).limit if peak and not free(oscillator) else None
+    limit = end_of_oscillation(oscillator) if peak else None
     end, facts = up_to, tuple[str, ...]()
-    if series is not None and not isinstance(series, SlowFlow) and not isinstance(result, SlowFlow):
+    if isinstance(series, Expansion | PowerExpansion) and not isinstance(result, SlowFlow | LossFlow):
         end = end or end_of(oscillator, series, result, limit)
         facts = () if end is None else certified_facts(oscillator, result, end)
     return form_of(
@@ -45,6 +52,17 @@ def known_form(
     )
 
 
-def free(oscillator: Oscillator) -> bool:
-    """Whether a parameter has no value, so that no limit can be computed."""
-    return any(value is None for value in oscillator.parameters.values())
+def end_of_oscillation(oscillator: Oscillator) -> float | None:
+    """The peak amplitude of the separatrix, proved, as the largest number that is certainly not above it.
+
+    None where there is no other equilibrium, and where it is not decided.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> end_of_oscillation(find("pendulum")), end_of_oscillation(find("tanh"))
+    (3.141592653589793, None)
+    """
+    try:
+        found = separatrix(oscillator)
+    except InputError:
+        return None
+    return None if found.saddle is None or found.peak is None else rounded_down(found.peak)

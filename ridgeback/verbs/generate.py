@@ -20,10 +20,9 @@ from ridgeback.options.system import Choice, choosing
 from ridgeback.options.unused import refuse_unused
 
 if TYPE_CHECKING:
+    from ridgeback.interface.source import Derived
     from ridgeback.symbolic.codegen import Formula
     from ridgeback.symbolic.codegen.program import Form
-    from ridgeback.symbolic.expansion.expansion import Expansion
-    from ridgeback.symbolic.flow.slow_flow import SlowFlow
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
 
@@ -71,7 +70,7 @@ def command(*, choice: Choice, code: Code, request: Request, style: str, output:
     write_text(output, json_text(described_so) if style == "json" else source)
 
 
-def formula_of(oscillator: Oscillator, request: Request, code: Code) -> tuple[Formula, Expansion | SlowFlow | None]:
+def formula_of(oscillator: Oscillator, request: Request, code: Code) -> tuple[Formula, Derived | None]:
     """The formula, and the series that it comes from where there is one."""
     if code.fit is not None:
         from ridgeback.symbolic.codegen.fit.fit import minimax
@@ -79,22 +78,22 @@ def formula_of(oscillator: Oscillator, request: Request, code: Code) -> tuple[Fo
 
         end, real = code.up_to or Fraction(0), REALS[code.real]
         return minimax(oscillator, end, degree=code.degree, tolerance=code.tolerance, real=real), None
+    series = derived(oscillator, request)
+    return _from_series(oscillator, series, code), series
+
+
+def _from_series(oscillator: Oscillator, series: Derived, code: Code) -> Formula:
+    """The series itself, or another formula in its place; raises InputError for one that has none."""
     from ridgeback.common.errors import InputError
     from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
     from ridgeback.symbolic.flow.loss_flow import LossFlow
 
-    series = derived(oscillator, request)
-    if isinstance(series, PowerExpansion | LossFlow):
-        raise InputError(series.without_code())
-    return _from_series(oscillator, series, code), series
-
-
-def _from_series(oscillator: Oscillator, series: Expansion | SlowFlow, code: Code) -> Formula:
-    """The series itself, or another formula in its place."""
     if code.resummed is None:
         return series
+    if isinstance(series, PowerExpansion | LossFlow):
+        raise InputError(series.refusal())
     if code.resummed in ("agm", "sine"):
-        from ridgeback.symbolic.codegen.closed_forms import mean_form, sine_series
+        from ridgeback.symbolic.codegen.formulas.closed_forms import mean_form, sine_series
 
         return mean_form(oscillator) if code.resummed == "agm" else sine_series(oscillator, code.terms or 1)
     at = None if code.up_to is None else (code.up_to,)
@@ -102,7 +101,7 @@ def _from_series(oscillator: Oscillator, series: Expansion | SlowFlow, code: Cod
     return resummed_from(oscillator, series, demand)
 
 
-def form_for(oscillator: Oscillator, series: Expansion | SlowFlow | None, result: Formula, code: Code) -> Form:
+def form_for(oscillator: Oscillator, series: Derived | None, result: Formula, code: Code) -> Form:
     """The code with what is known about the formula: where the oscillation ends, and its certified error."""
     from ridgeback.interface.source import known_form
 

@@ -13,24 +13,28 @@ from typing import TypeAlias
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen.accurate import accurate
-from ridgeback.symbolic.codegen.build import expansion_form, slow_flow_form
-from ridgeback.symbolic.codegen.closed_forms import MeanForm, SineSeries
 from ridgeback.symbolic.codegen.fit.fit import Fit
+from ridgeback.symbolic.codegen.formulas.closed_forms import MeanForm, SineSeries
+from ridgeback.symbolic.codegen.formulas.flows import slow_flow_form
+from ridgeback.symbolic.codegen.formulas.powers import loss_form, power_form
+from ridgeback.symbolic.codegen.formulas.resummations import resummation_form
+from ridgeback.symbolic.codegen.formulas.series import expansion_form
 from ridgeback.symbolic.codegen.languages.registry import find_language, languages
 from ridgeback.symbolic.codegen.naming import checked_identifier, identifier
 from ridgeback.symbolic.codegen.number import REALS
 from ridgeback.symbolic.codegen.program import MODES, Form, Mode
 from ridgeback.symbolic.codegen.proofs.notes import annotated
 from ridgeback.symbolic.codegen.request import CodeRequest
-from ridgeback.symbolic.codegen.resummations import resummation_form
 from ridgeback.symbolic.codegen.splitting import split
 from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+from ridgeback.symbolic.flow.loss_flow import LossFlow
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.resummation.resummation import Resummation
 
 __all__ = ["LANGUAGES", "Formula", "form_of", "generate", "packaged", "written"]
 
-Formula: TypeAlias = "Expansion | SlowFlow | Resummation | MeanForm | SineSeries | Fit"
+Formula: TypeAlias = "Expansion | PowerExpansion | SlowFlow | LossFlow | Resummation | MeanForm | SineSeries | Fit"
 LANGUAGES = tuple(languages())
 DIGEST = 16
 """Hexadecimal digits of the input's hash that are printed."""
@@ -145,6 +149,10 @@ def _built(result: Formula, request: CodeRequest) -> Form:
         return result.form(request)
     if isinstance(result, Resummation):
         return resummation_form(result, request)
+    if isinstance(result, PowerExpansion):
+        return power_form(result, request)
+    if isinstance(result, LossFlow):
+        return loss_form(result, request)
     return slow_flow_form(result, request) if isinstance(result, SlowFlow) else expansion_form(result, request)
 
 

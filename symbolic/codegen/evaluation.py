@@ -117,7 +117,7 @@ def test_points(form: Form, function: Function) -> tuple[tuple[tuple[float, ...]
     """
     cut = single if form.real is FLOAT32 else float
     domain = function.domain
-    low, high = (domain.low, domain.high) if domain.known else (-SPAN, SPAN)
+    low, high = (domain.low, domain.high) if domain.known else (max(domain.low, -SPAN), SPAN)
     inside = [0.0, *(cut(low + (high - low) * i / (POINTS - 2)) for i in range(POINTS - 1))]
     outside = [cut(high * 1.5) if domain.known else math.nan, math.inf]
     return tuple(map(partial(_point, form, function), [*inside, *outside]))

@@ -52,9 +52,9 @@ math np numpy xp numba njit float len list range type isinstance array print sel
 _OWN: Final = """
 k omega0 omega0_slope amplitude
 amplitude_rate growth_rate growth_rate a A out count index table values motion mean t i j n w
-result quotient h half_step middle ends sixth k_inverse k_squared_inverse scaled
+root_of_amplitude size result quotient h half_step middle ends sixth k_inverse scaled natural_frequency phi
 rest root fall rise inner moved distance vanishing grown half_angle
-total gap area ratio m ell q theta theta_squared turn taken pairs odd sign even uneven cosine sine twice u high low
+total gap area ratio ell theta theta_squared turn taken pairs odd sign even uneven cosine sine twice u high low
 high_share low_share high_inside low_inside rounded product lost sum_low share head fraction block
 start stop size point points expected given failed
 """
@@ -63,7 +63,7 @@ _FOLDED: Final = frozenset(word.lower() for word in _TAKEN)
 """Fortran does not tell capitals from small letters."""
 # Horner's intermediate results, what is computed from an argument, and the prefixes of what is computed inside.
 _MADE: Final = re.compile(
-    r"[yz]\d*(_\d+)*|[cs]_sum\d*|([aw]\d*|at|[cs]\d+|omega0|self|total|low|high|root)_.*|k_?\d+"
+    r"[yz]\d*(_\d+)*|[cs]_sum\d*|([aw]\d*|at|[cs]\d+|omega0|self|total|low|high|root|part)_.*"
     r"|.*_(squared|scaled|unchecked|array|test|value|\d+|(by|times)_k(_\d+)?|[hlabrt]{1,2})|__.*"
 )
 _IDENTIFIER: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -140,8 +140,10 @@ def checked_identifier(name: str) -> str:
     return name
 
 
-def argument_names(names: Iterable[str]) -> dict[str, str]:
+def argument_names(names: Iterable[str], *, free: tuple[str, ...] = ()) -> dict[str, str]:
     """The arguments' names by the parameters', no two alike even where only capitals differ, as Fortran takes them.
+
+    Names that are ``free`` mean nothing in this code, though they do in other.
 
     >>> argument_names(("mu", "Mu", "lambda", "lambda_"))
     {'mu': 'mu', 'Mu': 'Mu_v2', 'lambda': 'lambda_', 'lambda_': 'lambda_v2'}
@@ -149,7 +151,7 @@ def argument_names(names: Iterable[str]) -> dict[str, str]:
     seen: set[str] = set()
     found = {}
     for name in names:
-        plain, count = argument_name(name), 1
+        plain, count = name if name in free else argument_name(name), 1
         while plain.lower() in seen:
             count += 1
             plain = f"{argument_name(name).rstrip('_')}_v{count}"

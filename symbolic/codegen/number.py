@@ -12,7 +12,7 @@ from flint import arb, ctx, fmpq
 from sympy import Expr
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.enclosure.ball_functions import number
+from ridgeback.symbolic.arithmetic.balls import number_ball
 
 Exact: TypeAlias = "fmpq | Expr"
 """A rational, or a closed real number such as sqrt(2)."""
@@ -120,7 +120,7 @@ class Number:
         bits = 2 * self.real.digits
         while bits <= DECIDED:
             with ctx.workprec(bits):
-                held = number(self.exact)
+                held = number_ball(self.exact)
                 low, high = (rounded(fraction(end.fmpq()), self.real) for end in (held.lower(), held.upper()))
             if low == high:
                 return low
@@ -130,7 +130,7 @@ class Number:
     @property
     def ball(self) -> arb:
         """The exact number at FLINT's working precision."""
-        return arb(self.exact) if isinstance(self.exact, fmpq) else number(self.exact)
+        return arb(self.exact) if isinstance(self.exact, fmpq) else number_ball(self.exact)
 
     @property
     def decimal_exponent(self) -> int:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 
 from flint import fmpq
+from sympy import Expr
 
 from ridgeback.symbolic.codegen.number import FLOAT64, Real
 from ridgeback.symbolic.codegen.program import (
@@ -17,6 +18,7 @@ from ridgeback.symbolic.codegen.program import (
     Polynomial,
     Steps,
     Terms,
+    needed,
 )
 
 K = "k"
@@ -50,16 +52,16 @@ def nested(steps: Steps, name: str, variables: tuple[str, ...], terms: Mapping[t
     return steps.horner(name, variables[-1], inner)
 
 
-def measured(steps: Steps, name: str, dimension: int) -> str:
-    """A quantity over its power of k, computed when there is one; return the name of what is computed.
+def measured(steps: Steps, name: str, dimension: int, k: str = K) -> str:
+    """A quantity over its power of the natural frequency ``k``, computed when there is one; the name of that.
 
     A name in brackets, as ``(k)``, is that of 1.
     """
     if dimension == 0:
         return name
     if name.startswith("("):
-        return K if dimension < 0 else steps.once("k_inverse", Operation.DIVIDE, steps.number(1), K)
-    power = steps.power(K, abs(dimension))
+        return k if dimension < 0 else steps.once("k_inverse", Operation.DIVIDE, steps.number(1), k)
+    power = steps.power(k, abs(dimension))
     suffix = "" if abs(dimension) == 1 else f"_{abs(dimension)}"
     if dimension > 0:
         return steps.once(f"{name}_by_k{suffix}", Operation.DIVIDE, name, power)
@@ -79,8 +81,12 @@ def polynomial_function(
     real: Real = FLOAT64,
     before: Steps | None = None,
     symbol: str = "y",
+    where: tuple[tuple[str, Expr], ...] = (),
+    k: str = K,
 ) -> Function:
     """A polynomial in ``variables``, each first divided by the power of k that ``units`` gives it, times ``factor``.
+
+    ``before`` computes the values of the names in ``where``, of which those are kept that are read.
 
     >>> from ridgeback.symbolic.codegen.number import Number
     >>> terms = {(0,): Number(fmpq(1)), (2,): Number(fmpq(-1, 16))}
@@ -91,7 +97,7 @@ def polynomial_function(
     kept: Terms = {powers: c for powers, c in terms.items() if c.exact != 0}
     steps, units = before or Steps(real), units or {}
     used = [any(powers[i] for powers in kept) for i in range(len(variables))]
-    names = [measured(steps, v, units.get(v, 0)) if u else v for v, u in zip(variables, used, strict=True)]
+    names = [measured(steps, v, units.get(v, 0), k) if u else v for v, u in zip(variables, used, strict=True)]
     shift = out_of_range(kept, real) if len(variables) == 1 else 0
     rows = kept
     if shift:
@@ -101,9 +107,9 @@ def polynomial_function(
     value: Operand = nested(steps, symbol, tuple(names), rows) if rows else steps.number(0)
     if factor:
         value = steps.multiply("result", factor, value)
-    return Function(
-        name, summary, arguments, tuple(steps.taken), value, domain, (), Polynomial(variables, kept, factor)
-    )
+    read = {v for v, u in zip(variables, used, strict=True) if u} | {factor}
+    told = Polynomial(variables, kept, factor, tuple(pair for pair in where if pair[0] in read))
+    return Function(name, summary, arguments, needed(steps.taken, value), value, domain, (), told)
 
 
 def out_of_range(terms: Terms, real: Real) -> int:

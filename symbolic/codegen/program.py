@@ -11,10 +11,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from fractions import Fraction
 from functools import cached_property
 from typing import Final, Literal, TypeAlias
 
 from flint import fmpq
+from sympy import Expr
 
 from ridgeback.symbolic.codegen.number import FLOAT64, Exact, Number, Real
 
@@ -33,6 +35,8 @@ class Operation(Enum):
     MULTIPLY = "*"
     DIVIDE = "/"
     SQUARE_ROOT = "sqrt"
+    ROOT = "root of a degree that is no power of two"
+    """Of a positive number; made of the others, see ``_root``."""
     FLOOR = "floor"
     ABSOLUTE = "abs"
     MULTIPLY_ADD = "a*b + c"
@@ -120,6 +124,8 @@ class Polynomial:
     variables: tuple[str, ...]
     terms: Terms
     factor: str = ""
+    where: tuple[tuple[str, Expr], ...] = ()
+    """Values of the variables and of the factor that are no arguments."""
 
 
 @dataclass(frozen=True)
@@ -203,8 +209,52 @@ def lowered_step(step: Step, real: Real) -> Iterator[Step]:
         yield from _two_sum(step)
     elif step.operation is Operation.TWO_PRODUCT:
         yield from _two_product(step, real)
+    elif step.operation is Operation.ROOT:
+        yield from _root(step, real)
     else:
         yield step
+
+
+FIRST_BITS: Final = 20
+"""Binary digits of 1/d that a root begins with."""
+
+
+def _root(step: Step, real: Real) -> Iterator[Step]:
+    """y = x^(1/d): repeated square roots by the binary digits of 1/d, then Newton's y - (y^d - x)/(d y^(d-1)).
+
+    The start errs by the share 2^-20 |ln x|, and a step takes a share e to (d - 1) e^2/2.
+    """
+    x, degree = step.operands
+    assert isinstance(degree, Number)  # noqa: S101 - a root is made with a number
+    d, y, s, p, t = int(degree.nearest), step.name, *(f"{step.name}_{letter}" for letter in "srt")
+    part, begun = x, False
+    for i in range(1, FIRST_BITS + 1):
+        yield Step(s, Operation.SQUARE_ROOT, (part,))
+        part = s
+        if (2**i // d) % 2:
+            yield Step(y, Operation.MULTIPLY, (y if begun else s, s if begun else Number(fmpq(1), real)))
+            begun = True
+    for _ in range(newton_steps(d, real)):
+        yield Step(p, Operation.MULTIPLY, (y, y))
+        for _ in range(d - 3):
+            yield Step(p, Operation.MULTIPLY, (p, y))
+        yield Step(t, Operation.MULTIPLY, (p, y))
+        yield Step(t, Operation.SUBTRACT, (t, x))
+        yield Step(t, Operation.DIVIDE, (t, p))
+        yield Step(t, Operation.DIVIDE, (t, degree))
+        yield Step(y, Operation.SUBTRACT, (y, t))
+
+
+def newton_steps(d: int, real: Real) -> int:
+    """How many steps leave less than a sixteenth of the unit roundoff.
+
+    >>> newton_steps(3, FLOAT64), newton_steps(7, FLOAT64)
+    (3, 3)
+    """
+    share, count = Fraction(-real.low * 7, 10 * 2**FIRST_BITS), 0
+    while share > real.unit / 16:
+        share, count = Fraction(d, 2) * share * share, count + 1
+    return count
 
 
 def _two_sum(step: Step) -> Iterator[Step]:

@@ -152,11 +152,11 @@ class PowerExpansion(Displayed):
             f"{self.method} gives the frequency only, and {self.system} has no series for the harmonics of u"
         )
 
-    def without_code(self) -> str:
-        """Why no code is written of it, nor another formula made."""
+    def refusal(self) -> str:
+        """Why no other formula is made of it."""
         return (
-            f"{self.system}: omega0 begins with A^({self.growth}) and rises in steps of A^(1/{self.root}), and code "
-            "and resummations are of power series in A only; derive --format python prints the formula"
+            f"{self.system}: omega0 begins with A^({self.growth}) and rises in steps of A^(1/{self.root}), and "
+            "resummations are of power series in A only; use the series itself"
         )
 
     def beside_leading(self) -> Expansion:

@@ -157,16 +157,16 @@ class LossFlow(ShownSlowFlow):
                 for term in terms
             ]
 
-    def without_code(self) -> str:
-        """Why no code is written of it, nor another formula made."""
+    def refusal(self) -> str:
+        """Why no other formula is made of it, nor a transient."""
         return (
-            f"{self.system}: the losses are not analytic at rest, and code, resummations and transients are of power "
-            "series only; derive --format python prints the formulas, simulate integrates the motion"
+            f"{self.system}: the losses are not analytic at rest, and harmonics, resummations and transients are of "
+            "power series only; generate writes the rates as code, simulate integrates the motion"
         )
 
     def harmonic_rows(self) -> list[dict[str, object]]:
         """Raise InputError: averaging gives the rates only."""
-        raise InputError(self.without_code())
+        raise InputError(self.refusal())
 
     def sentence(self) -> str:
         """What is left out, in one line."""

@@ -69,7 +69,7 @@ def resum(
     """
     oscillator = as_oscillator(oscillator)
     if isinstance(series, PowerExpansion):
-        raise InputError(series.without_code())
+        raise InputError(series.refusal())
     if kind not in KINDS:
         raise InputError(f"no resummation {kind!r}; there are {', '.join(KINDS)}")
     if growth and kind != "map":

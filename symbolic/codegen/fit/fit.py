@@ -12,9 +12,9 @@ from sympy import Expr
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import ball
-from ridgeback.symbolic.codegen.build import OMEGA0, SCALING, frequency_argument, limit_fact
 from ridgeback.symbolic.codegen.fit.remez import Best, remez
 from ridgeback.symbolic.codegen.fit.surrogate import Surrogate, surrogate
+from ridgeback.symbolic.codegen.formulas.wording import OMEGA0, SCALING, frequency_argument, limit_fact
 from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real, fraction, rounded
 from ridgeback.symbolic.codegen.polynomial import K, derivative, polynomial_function
 from ridgeback.symbolic.codegen.program import Argument, Form, Terms

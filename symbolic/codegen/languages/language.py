@@ -16,6 +16,7 @@ from ridgeback.symbolic.codegen.comments import comment_text
 from ridgeback.symbolic.codegen.number import FLOAT32, Number
 from ridgeback.symbolic.codegen.program import (
     MODES,
+    Domain,
     Form,
     Function,
     Horner,
@@ -238,7 +239,7 @@ def exact_text(text: str) -> str:
     """An exact number for a comment; its letters, digits and a stroke are harmless in every language.
 
     >>> exact_text("-1/16"), exact_text("sqrt(2)*/")
-    ('-1/16', 'sqrt(2) :')
+    ('-1/16', 'sqrt(2) /')
     """
     plain = text.replace(", ", "").replace("/", "").replace("-", "")
     return text if plain.isdigit() else comment_text(text)
@@ -249,9 +250,18 @@ def domain_facts(form: Form) -> list[str]:
     found = []
     for domain in dict.fromkeys(f.domain for f in form.functions):
         if not domain.known:
-            found.append(f"Domain: every finite {domain.argument}; elsewhere the result is not a number.")
+            found.append(f"Domain: every finite {domain.argument}{lowest(domain)}; elsewhere not a number.")
         elif domain.low == -domain.high:
             found.append(f"Domain: |{domain.argument}| <= {domain.high!r}; elsewhere the result is not a number.")
         else:
             found.append(f"Domain: {domain.low!r} <= {domain.argument} <= {domain.high!r}; elsewhere not a number.")
     return found
+
+
+def lowest(domain: Domain) -> str:
+    """Where a domain begins that does not hold all finite numbers.
+
+    >>> lowest(Domain("A", 0.0, 3.0))
+    ' from 0.0 on'
+    """
+    return "" if domain.low < 0 else f" from {domain.low!r} on"

@@ -58,6 +58,7 @@ class Latex(Language):
             opened = rf"{factor} \Bigl( {first}" if factor and rest else f"{factor} {first}"
             lines = [f"{left} &= {opened}", *(rf"&\quad {term}" for term in rest)]
             lines[-1] += r" \Bigr)" if factor and rest else ""
+            lines = [*(f"{symbol(name)} &= {latex(value)}" for name, value in function.polynomial.where), *lines]
         comment = "\n".join(self.remark(line) for line in self.about(function))
         joined = " \\\\\n".join(lines)
         return f"{comment}\n\\begin{{align*}}\n{joined}\n\\end{{align*}}"
@@ -143,6 +144,8 @@ def _operation(step: Step) -> str:
             return rf"{a} \cdot {rest[0]} + {rest[1]}"
         case Operation.SQUARE_ROOT:
             return rf"\sqrt{{{a}}}"
+        case Operation.ROOT:
+            return rf"\sqrt[{others[0]}]{{{a}}}"
         case Operation.ABSOLUTE:
             return rf"\left|{a}\right|"
     return rf"\left\lfloor {a} \right\rfloor"

@@ -1,11 +1,13 @@
 r"""u(t; A) from the harmonics of an expansion, each a series in the amplitude.
 
 u = sum_m [ C_m(A) cos(m theta) + S_m(A) sin(m theta) ],      theta = omega0(A) t
+
+Of a slow flow the phase theta is an argument beside the amplitude: both change in time, as the transient has them.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen.motions.trigonometry import clenshaw, cosine_and_sine
@@ -23,12 +25,14 @@ from ridgeback.symbolic.codegen.program import (
 from ridgeback.symbolic.series.trigonometric import degree, harmonic
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from ridgeback.symbolic.codegen.number import Real
     from ridgeback.symbolic.expansion.expansion import Expansion
+    from ridgeback.symbolic.series.trigonometric import Trig
 
 TIME = Argument("t", "time; the phase is zero at t = 0")
+PHASE = Argument("phi", "phase, in radians")
 
 
 class Series(Protocol):
@@ -49,23 +53,51 @@ def motion_functions(series: Series, expansion: Expansion) -> list[Function]:
     """
     if expansion.waveform is None:
         raise InputError(f"{expansion.method} gives the frequency only; use lindstedt for the motion u(t)")
-    parts: dict[tuple[str, int], Function] = {}
-    for multiple in range(max(map(degree, expansion.waveform)) + 1):
-        pairs = [harmonic(p, multiple) for p in expansion.waveform]
+
+    def made(name: str, summary: str, values: Sequence[Any]) -> Function:
+        return series.function(name, summary, values, rate=0)
+
+    parts = _harmonics(expansion.waveform, made, "omega0 t")
+    steps = Steps(series.real)
+    rate = inlined(steps, series.function("omega0", "", expansion.coefficients, rate=1), "w")
+    theta = steps.multiply("theta", rate, TIME.name)
+    arguments = (TIME, *series.arguments)
+    return [*parts.values(), _motion(steps, theta, parts, arguments, series.domain, "Displacement u at time t.")]
+
+
+def flow_motion(
+    waveform: Sequence[Trig],
+    made: Callable[[str, str, Sequence[Any]], Function],
+    arguments: tuple[Argument, ...],
+    domain: Domain,
+    real: Real,
+) -> list[Function]:
+    """The coefficients of cos and sin of each multiple of phi as functions of the amplitude, and u(phi, a)."""
+    parts = _harmonics(waveform, made, PHASE.name)
+    summary = "Displacement u at the phase phi and the amplitude a."
+    return [*parts.values(), _motion(Steps(real), PHASE.name, parts, (PHASE, *arguments), domain, summary)]
+
+
+Parts: TypeAlias = "dict[tuple[str, int], Function]"
+
+
+def _harmonics(waveform: Sequence[Trig], made: Callable[[str, str, Sequence[Any]], Function], phase: str) -> Parts:
+    """A function for each coefficient of u that does not vanish."""
+    parts: Parts = {}
+    for multiple in range(max(map(degree, waveform)) + 1):
+        pairs = [harmonic(p, multiple) for p in waveform]
         for index, kind in enumerate(("cosine", "sine")):
             values = [pair[index] for pair in pairs]
             if any(value != 0 for value in values):
-                summary = f"Coefficient of the {kind} of {multiple} omega0 t in u." if multiple else "Mean of u."
+                summary = f"Coefficient of the {kind} of {multiple} {phase} in u." if multiple else "Mean of u."
                 name = f"{kind}_{multiple}" if multiple else "mean"
-                parts[kind, multiple] = series.function(name, summary, values, rate=0)
-    rate = series.function("omega0", "", expansion.coefficients, rate=1)
-    return [*parts.values(), _motion(series, rate, parts)]
+                parts[kind, multiple] = made(name, summary, values)
+    return parts
 
 
-def _motion(series: Series, rate: Function, parts: dict[tuple[str, int], Function]) -> Function:
-    steps = Steps(series.real)
-    omega = inlined(steps, rate, "w")
-    theta = steps.multiply("theta", omega, TIME.name)
+def _motion(
+    steps: Steps, theta: str, parts: Parts, arguments: tuple[Argument, ...], domain: Domain, summary: str
+) -> Function:
     cosine, sine = cosine_and_sine(steps, theta)
     twice = steps.add("twice", cosine, cosine)
     sums = {}
@@ -78,9 +110,7 @@ def _motion(series: Series, rate: Function, parts: dict[tuple[str, int], Functio
         value = steps.add("u", value, mean)
     if any(kind == "sine" for kind, _ in parts):
         value = steps.add("u", value, steps.multiply("sine", sine, sums["sine"][1]))
-    arguments = (TIME, *series.arguments)
-    body = needed(steps.taken, value)
-    return Function("motion", "Displacement u at time t.", arguments, body, value, series.domain)
+    return Function("motion", summary, arguments, needed(steps.taken, value), value, domain)
 
 
 def inlined(steps: Steps, function: Function, prefix: str, bound: Mapping[str, str] | None = None) -> Operand:

@@ -21,14 +21,19 @@ if TYPE_CHECKING:
 STEP = Argument("h", "the time that goes by")
 
 
-def transient_functions(phase: Function, amplitude: Function, domain: Domain, real: Real) -> tuple[Function, Function]:
-    """a after a time h, and what the phase has grown by, from the two sides of the slow flow."""
+def transient_functions(
+    phase: Function, amplitude: Function, domain: Domain, real: Real, *, stops: bool = False
+) -> tuple[Function, Function]:
+    """a after a time h, and what the phase has grown by, from the two sides of the slow flow.
+
+    ``stops``: whether the motion comes to rest in a finite time, as by dry friction; a is then 0 and not negative.
+    """
     first, *others = amplitude.arguments
     arguments = (first, STEP, *others)
     after = "Amplitude after a time h, by one step of Runge and Kutta's rule of order 4."
     grown = "Growth of the phase over a time h, by the same step."
     return (
-        _step("amplitude_after", after, arguments, phase, amplitude, domain, real),
+        _step("amplitude_after", after + " 0 from rest on." * stops, arguments, phase, amplitude, domain, real, stops),
         _step("phase_after", grown, arguments, phase, amplitude, domain, real),
     )
 
@@ -41,6 +46,7 @@ def _step(
     amplitude: Function,
     domain: Domain,
     real: Real,
+    stops: bool = False,
 ) -> Function:
     steps, a, h = Steps(real), arguments[0].name, STEP.name
     half = steps.multiply("half_step", steps.number(fmpq(1, 2)), h)
@@ -56,4 +62,7 @@ def _step(
     total = steps.add("total", steps.add("ends", first, fourth), steps.add("middle", middle, middle))
     moved = steps.multiply("moved", steps.divide("sixth", h, steps.number(6)), total)
     result = steps.add("result", a, moved) if name == "amplitude_after" else moved
+    if stops:
+        size = steps.assign("size", Operation.ABSOLUTE, result)
+        result = steps.multiply("result", steps.number(fmpq(1, 2)), steps.add("result", result, size))
     return Function(name, summary, arguments, needed(steps.taken, result), result, domain)

@@ -167,6 +167,8 @@ class _Analysis:
                 return self.rounded(*quotient(x[0], x[1]))
             case Operation.SQUARE_ROOT:
                 return self.rounded(*square_root(x[0]))
+            case Operation.ROOT:
+                return any_root(x[0], int(float(x[1].exact)), self.real)
             case Operation.ABSOLUTE:
                 return Computed(abs(x[0].exact), x[0].error)
             case Operation.FLOOR if x[0].exact.rad() == 0 and x[0].error == 0:
@@ -216,6 +218,21 @@ def square_root(x: Computed) -> tuple[arb, arb]:
     least = x.exact.lower() - x.error
     below = x.exact.lower().sqrt()
     return x.exact.sqrt(), x.error / below if least >= 0 and x.exact > 0 else arb("inf")
+
+
+def any_root(x: Computed, degree: int, real: Real) -> Computed:
+    """The root that ``program._root`` computes: besides what x' - x does, its last step errs by 2 units of roundoff.
+
+    With d - 1 products y^d errs by the share (d - 1) u, its correction so by u y, and the last difference by u y more;
+    what is left of Newton's error and the roundings of a correction of that size are in the last quarter.
+    """
+    least, most = x.exact.lower() - x.error, x.exact.upper() + x.error
+    if not (least > arb(2) ** (real.low + 2 * real.digits) / 2 and most < arb(2) ** (real.high - 1)):
+        return Computed(arb.nan(), arb("inf"))  # where y^d may over- or underflow
+    value = x.exact.root(degree)
+    unit = arb(fmpq(9 * real.unit.numerator, 4 * real.unit.denominator))
+    error = x.error * least.root(degree) / (degree * least)
+    return Computed(value, (error + unit * (value + error)).upper(), error.upper())
 
 
 def bound(form: Form, function: Function) -> Bound | None:

@@ -7,10 +7,11 @@ from typing import Final, TypeAlias
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.certificates.at_amplitudes import certified_frequencies
-from ridgeback.symbolic.codegen.closed_forms import MeanForm, SineSeries
 from ridgeback.symbolic.codegen.fit.fit import Fit
+from ridgeback.symbolic.codegen.formulas.closed_forms import MeanForm, SineSeries
 from ridgeback.symbolic.codegen.proofs.notes import upwards
 from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.resummation.elliptic_nome import NomeForm
 from ridgeback.symbolic.resummation.mapping import CutPlane
 from ridgeback.symbolic.resummation.pade import RationalForm
@@ -18,14 +19,15 @@ from ridgeback.symbolic.resummation.resummation import Resummation
 from ridgeback.symbolic.singularities.settled import settled_limits
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
-Formula: TypeAlias = "Expansion | Resummation | MeanForm | SineSeries | Fit"
+Series: TypeAlias = "Expansion | PowerExpansion"
+Formula: TypeAlias = "Expansion | PowerExpansion | Resummation | MeanForm | SineSeries | Fit"
 SHARES: Final = (Fraction(1, 4), Fraction(1, 2), Fraction(3, 4))
 """Where in the range the error is certified."""
 INSIDE: Final = Fraction(999, 1000)
 """A range ends this far before a pole."""
 
 
-def reach_of(oscillator: Oscillator, series: Expansion, formula: Expansion | Resummation) -> Fraction | None:
+def reach_of(oscillator: Oscillator, series: Series, formula: Series | Resummation) -> Fraction | None:
     """The end of the range that a formula is described for: the radius of convergence, less before a pole.
 
     None when the series does not show it.
@@ -40,7 +42,7 @@ def reach_of(oscillator: Oscillator, series: Expansion, formula: Expansion | Res
     return None if radius is None else before_pole(Fraction(f"{radius:.6g}"), formula)
 
 
-def before_pole(reach: Fraction, formula: Expansion | Resummation) -> Fraction:
+def before_pole(reach: Fraction, formula: Series | Resummation) -> Fraction:
     """The same range, or less when the formula has a pole in it or ends where the oscillation does."""
     if isinstance(formula, NomeForm) or (isinstance(formula, RationalForm) and isinstance(formula.mapping, CutPlane)):
         return INSIDE * reach
@@ -48,7 +50,7 @@ def before_pole(reach: Fraction, formula: Expansion | Resummation) -> Fraction:
     return reach if pole is None else min(reach, INSIDE * Fraction(float(pole)))
 
 
-def end_of(oscillator: Oscillator, series: Expansion, formula: Formula, limit: float | None) -> Fraction | None:
+def end_of(oscillator: Oscillator, series: Series, formula: Formula, limit: float | None) -> Fraction | None:
     """The end of the domain where none is given: the end of the oscillation, or of the series' convergence."""
     if isinstance(formula, Fit):
         return formula.end

@@ -6,11 +6,13 @@ from collections.abc import Iterable
 from dataclasses import replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
+from typing import Final
 
 from flint import arb
+from sympy import Add
 
 from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real, fraction
-from ridgeback.symbolic.codegen.program import Form, Function, Operand, Operation, Statement, lowered
+from ridgeback.symbolic.codegen.program import Form, Function, Operand, Operation, Statement, Step, lowered
 from ridgeback.symbolic.codegen.proofs.bounds import Bound, bound
 from ridgeback.symbolic.enclosure.enclosure import rounded_down
 
@@ -29,6 +31,8 @@ def rounding_notes(form: Form, function: Function) -> tuple[str, ...]:
         return (bound_note(function, found),)
     if function.polynomial is None or form.mode == "accurate":
         return ()
+    if any(value.has(Add) for _, value in function.polynomial.where):
+        return ()  # a difference of parameters may cancel, and its error then has no share of the terms as a bound
     return (rounding_note(roundings(function.body, function.result), form.real),)
 
 
@@ -77,9 +81,17 @@ def roundings(body: Iterable[Statement], result: Operand) -> int:
             return 0 if exact else 1
         return known.get(operand, 0)
 
-    for step in lowered(body):
-        known[step.name] = _count(step.operation, [of(o) for o in step.operands])
+    for statement in body:
+        if isinstance(statement, Step) and statement.operation is Operation.ROOT:
+            known[statement.name] = of(statement.operands[0]) + ROOT_COUNT
+            continue
+        for step in lowered((statement,)):
+            known[step.name] = _count(step.operation, [of(o) for o in step.operands])
     return of(result)
+
+
+ROOT_COUNT: Final = 3
+"""A root errs by at most 9/4 u, see ``bounds.any_root``."""
 
 
 def _count(operation: Operation, m: list[int]) -> int:

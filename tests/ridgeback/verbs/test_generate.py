@@ -44,7 +44,7 @@ def test_a_resummation_as_code_with_its_pole(ridgeback: Ridgeback) -> None:
     public = json.loads(source_of(ridgeback, *words, "--format", "json"))
     assert (public["method"], public["language"]) == ("Pade [4/4]", "python")
     assert public["source"] == text
-    assert "[3:5]" in source_of(ridgeback, *words, "--degrees", "3/5", "--language", "c", "--up-to", "2")
+    assert "[3/5]" in source_of(ridgeback, *words, "--degrees", "3/5", "--language", "c", "--up-to", "2")
     assert "no enclosure" not in source_of(ridgeback, "van-der-pol", "--order", "8", "--resummed", "pade")
     assert "double w = A_squared/moved;" in source_of(ridgeback, "duffing", "--resummed", "map", "--language", "c")
 

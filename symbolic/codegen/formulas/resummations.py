@@ -8,7 +8,7 @@ from flint import fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.rational_function import Coefficients
-from ridgeback.symbolic.codegen.build import (
+from ridgeback.symbolic.codegen.formulas.wording import (
     OMEGA0,
     SCALING,
     common_facts,
@@ -135,8 +135,8 @@ def _nome(formula: NomeForm, A: str, steps: Steps) -> Operand:
         low = steps.root(f"low_{n}", steps.multiply("area", high, low))
         high = steps.multiply(f"high_{n}", number_of(steps, Fraction(1, 2)), total)
     ratio = steps.divide("ratio", gap, total)
-    m = steps.multiply("m", ratio, ratio)
-    ell = steps.multiply("ell", number_of(steps, Fraction(1, 16)), m)
+    ratio_squared = steps.multiply("ratio_squared", ratio, ratio)
+    ell = steps.multiply("ell", number_of(steps, Fraction(1, 16)), ratio_squared)
     q = _series(steps, "y", ell, formula.nome_series)
     theta = _series(steps, "z", str(q), theta_3(len(formula.nome_series) - 1))
     return steps.divide("quotient", high, steps.multiply("theta_squared", theta, theta))

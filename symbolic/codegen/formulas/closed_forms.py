@@ -16,7 +16,14 @@ from flint import arb, ctx, fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import ball
-from ridgeback.symbolic.codegen.build import OMEGA0, SCALING, frequency_argument, limit_fact, variable_meaning
+from ridgeback.symbolic.codegen.formulas.resummations import means_steps, number_of
+from ridgeback.symbolic.codegen.formulas.wording import (
+    OMEGA0,
+    SCALING,
+    frequency_argument,
+    limit_fact,
+    variable_meaning,
+)
 from ridgeback.symbolic.codegen.motions.trigonometry import sine_of_small
 from ridgeback.symbolic.codegen.naming import variable_name
 from ridgeback.symbolic.codegen.polynomial import K
@@ -24,7 +31,6 @@ from ridgeback.symbolic.codegen.program import Argument, Domain, Form, Function,
 from ridgeback.symbolic.codegen.proofs.bounds import upper
 from ridgeback.symbolic.codegen.proofs.notes import upwards
 from ridgeback.symbolic.codegen.request import CodeRequest
-from ridgeback.symbolic.codegen.resummations import means_steps, number_of
 from ridgeback.symbolic.resummation.elliptic_nome import Means, NomeForm, PendulumMeans, nome
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -73,7 +79,7 @@ class SineSeries:
         coefficients: dict[int, Operand] = {2 * n: steps.number(squared_binomial(n)) for n in range(self.terms)}
         result = steps.divide("result", K, steps.horner("total", str(z), coefficients))
         facts = (
-            f"Method: series of the period in sin({means.c} A:2), {self.terms} terms, exact rational coefficients.",
+            f"Method: series of the period in sin({means.c} A/2), {self.terms} terms, exact rational coefficients.",
             f"Truncation: for |{domain.argument}| <= {domain.high!r} the relative error against the exact frequency is "
             f"at most {upwards(tail(means, self.terms, domain.high))}, proved.",
         )
