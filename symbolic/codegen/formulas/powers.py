@@ -136,7 +136,7 @@ class _Powers:
         if self.degree == 1 and lowest >= 0:
             return domain
         smallest = (self.real.low + 2 * self.real.digits) / max(1, -lowest)
-        return replace(domain, low=2.0 ** int(math.ceil(smallest)))
+        return replace(domain, low=math.ldexp(1.0, math.ceil(smallest)))
 
     @cached_property
     def called(self) -> dict[str, str]:
