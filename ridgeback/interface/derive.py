@@ -186,7 +186,7 @@ def generate(
     return written(form, language)
 
 
-def _system_of(formula: Expansion | SlowFlow | Resummation) -> Oscillator:
+def _system_of(formula: Expansion | PowerExpansion | SlowFlow | LossFlow | Resummation) -> Oscillator:
     """The oscillator that a formula names, which the catalogue must know."""
     try:
         return find(formula.system)
