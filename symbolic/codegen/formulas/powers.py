@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from sympy import Add, Expr, Rational, Symbol, expand
+from sympy import Add, Expr, Rational, Symbol, ceiling, expand
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen.expressions import exact_number, rooted, valued
@@ -136,7 +136,7 @@ class _Powers:
         if self.degree == 1 and lowest >= 0:
             return domain
         smallest = (self.real.low + 2 * self.real.digits) / max(1, -lowest)
-        return replace(domain, low=math.ldexp(1.0, math.ceil(smallest)))
+        return replace(domain, low=math.ldexp(1.0, int(ceiling(smallest))))
 
     @cached_property
     def called(self) -> dict[str, str]:
