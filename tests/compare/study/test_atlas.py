@@ -13,7 +13,7 @@ from ridgeback.answers.atlas_table import cells, markdown
 from ridgeback.common.errors import InputError
 from ridgeback.compare.study.atlas import atlas
 
-DOCS = Path(__file__).resolve().parents[3] / "docs" / "atlas.md"
+DOCS = Path(__file__).resolve().parents[3] / "docs" / "results" / "atlas.md"
 
 
 def toda() -> float:
