@@ -22,6 +22,7 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.common.errors import InputError as InputError
     from ridgeback.compare.benchmark.results import Benchmark as Benchmark
     from ridgeback.compare.binding.bind import bind as bind
+    from ridgeback.compare.drift.results import DriftComparison as DriftComparison
     from ridgeback.compare.identification.confusion import confusion as confusion
     from ridgeback.compare.identification.results import Identification as Identification
     from ridgeback.compare.recording.measurements import measure_recordings as measure_recordings
@@ -34,6 +35,7 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.interface.benchmark import benchmark as benchmark
     from ridgeback.interface.derive import derive as derive
     from ridgeback.interface.derive import generate as generate
+    from ridgeback.interface.drift import drift as drift
     from ridgeback.interface.estimate import backbone as backbone
     from ridgeback.interface.estimate import estimate as estimate
     from ridgeback.interface.estimate import half_cycles as half_cycles

@@ -41,6 +41,31 @@ _SUBDIVISIONS = 4  # of each step, when looking for sign changes
 
 
 @dataclass(frozen=True)
+class Drift:
+    """A force whose parameters change with time.
+
+    Parameters
+    ----------
+    force : callable
+        (t, u, u') to f, on plain floats.
+    changing : callable
+        (t, u) to dV/dt at fixed u, of arrays of u, where there is a potential.
+    frozen : callable
+        A time to the oscillator with the parameters of that time.
+    linear : bool
+        Whether u' enters as 2 mu(t) u' or not at all, so that the action decays by the integral of mu alone.
+    text : str
+        What drifts how, for messages.
+    """
+
+    force: Callable[[float, float, float], float]
+    changing: Callable[[float, Array], Array]
+    frozen: Callable[[float], Dynamics]
+    linear: bool
+    text: str
+
+
+@dataclass(frozen=True)
 class Solution:
     """All that an integration finds; ``rest_from`` is when friction holds the motion, None where it goes on."""
 
@@ -67,7 +92,9 @@ class Integration:
         atol: Array,
         most: float = MAX_EVALUATIONS,
         progress: Progress = silent,
+        drift: Drift | None = None,
     ) -> None:
+        self.drift = drift
         self.dynamics, self.method, self.rtol, self.atol, self.most = dynamics, method, rtol, atol, most
         self.progress = progress
         self.limits = well(dynamics)
@@ -75,7 +102,7 @@ class Integration:
         self.switches = dynamics.switches
         self.side_u = self.side_v = 1
 
-    def slope(self, _: float, y: Array) -> Any:
+    def slope(self, t: float, y: Array) -> Any:
         """Right-hand side of the first-order system; NaN (a rejected step) where f overflows."""
         self.evaluations += 1
         if self.evaluations > MAX_EVALUATIONS:
@@ -85,7 +112,7 @@ class Integration:
             )
         u, v = float(y[0]), float(y[1])
         try:
-            return v, -self.force(u, v)
+            return v, -(self.force(u, v) if self.drift is None else self.drift.force(t, u, v))
         except (OverflowError, ValueError, ZeroDivisionError):
             return v, math.nan
 
@@ -117,6 +144,7 @@ class Integration:
             self.guard(solver, message, bound)
             if len(times) % TOLD == 0:
                 self.progress(float(solver.t) / duration, f"integrating by {self.method}")
+                self.limits = self.limits if self.drift is None else well(self.drift.frozen(float(solver.t)))
             if len(times) % PILOT == 0:
                 self.refuse_too_much(len(times), float(solver.t), float(solver.t) - times[-RECENT], duration)
             pieces.append(solver.dense_output())
@@ -246,7 +274,7 @@ class Integration:
 
         def value_and_slope(t: Array) -> tuple[Array, Array]:
             u, v = dense(t)
-            return (u, v) if part == 0 else (v, self.accelerations(u, v))
+            return (u, v) if part == 0 else (v, self.accelerations(t, u, v))
 
         fine = np.unique(np.linspace(steps[:-1], steps[1:], _SUBDIVISIONS + 1))
         values = value_and_slope(fine)[0]
@@ -258,5 +286,8 @@ class Integration:
             times, points = np.append(0.0, times), np.vstack((states[0], points))
         return times, points
 
-    def accelerations(self, u: Array, v: Array) -> Array:
+    def accelerations(self, t: Array, u: Array, v: Array) -> Array:
+        if self.drift is not None:
+            states = zip(t.tolist(), u.tolist(), v.tolist(), strict=True)
+            return np.array([-self.drift.force(*state) for state in states])
         return np.array([-self.dynamics.force(a, b) for a, b in zip(u.tolist(), v.tolist(), strict=True)])

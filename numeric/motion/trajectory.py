@@ -16,6 +16,7 @@ from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
 from ridgeback.numeric.motion.integration import (
     SOLVERS,
+    Drift,
     Integration,
     Interpolant,
     Solution,
@@ -106,6 +107,7 @@ def integrate(
     rtol: float = 1e-12,
     atol: float | None = None,
     progress: Progress = silent,
+    drift: Drift | None = None,
 ) -> Trajectory:
     """Solve ``u'' + f(u, u') = 0`` from an initial state.
 
@@ -128,6 +130,8 @@ def integrate(
         Absolute tolerance on u, by default ``rtol`` times the size of the initial state; that on u' is k times it.
     progress : callable
         Told the share of the time that is integrated.
+    drift : Drift, optional
+        How its force changes with time; ``dynamics`` is then the oscillator of time 0.
 
     Returns
     -------
@@ -159,14 +163,14 @@ def integrate(
         raise InputError(f"atol = {atol!r} must be finite and positive")
     tolerance = np.array([absolute, absolute * k])
     if method != AUTO:
-        solution = Integration(dynamics, method, rtol, tolerance, progress=progress).run(state, duration)
+        solution = Integration(dynamics, method, rtol, tolerance, progress=progress, drift=drift).run(state, duration)
         return _sampled(dynamics, solution, method, duration, rate, rtol)
     usual = EVALUATIONS_PER_CYCLE * duration * k / (2 * math.pi)
     for chosen, most in (("DOP853", min(STIFF + 20.0 * usual, MAX_EVALUATIONS)), ("Radau", MAX_EVALUATIONS)):
         with suppress(TooManyStepsError):
-            solution = Integration(dynamics, chosen, rtol, tolerance, most, progress).run(state, duration)
+            solution = Integration(dynamics, chosen, rtol, tolerance, most, progress, drift).run(state, duration)
             return _sampled(dynamics, solution, chosen, duration, rate, rtol)
-    solution = Integration(dynamics, "DOP853", rtol, tolerance, progress=progress).run(state, duration)
+    solution = Integration(dynamics, "DOP853", rtol, tolerance, progress=progress, drift=drift).run(state, duration)
     return _sampled(dynamics, solution, "DOP853", duration, rate, rtol)
 
 

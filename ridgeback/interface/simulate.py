@@ -8,6 +8,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
 from ridgeback.common.progress import Progress, Wanted, showing
 from ridgeback.compare.binding.bind import bind
+from ridgeback.compare.binding.drift import bind_drift
 from ridgeback.compare.binding.heyoka import integrate_heyoka
 from ridgeback.interface.orbits import bound
 from ridgeback.numeric.motion.dynamics import Dynamics
@@ -15,6 +16,7 @@ from ridgeback.numeric.motion.taylor import integrate_taylor
 from ridgeback.numeric.motion.trajectory import METHODS, Trajectory, integrate
 from ridgeback.numeric.orbits import energy
 from ridgeback.numeric.orbits.energy import EnergyTerms
+from ridgeback.symbolic.flow.drift import drifting
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
@@ -33,6 +35,7 @@ def simulate(
     rtol: float | None = None,
     parameters: Mapping[str, Value] | None = None,
     about: str | None = None,
+    drift: Mapping[str, str] | None = None,
     progress: Wanted = None,
 ) -> Trajectory:
     """Integrate the equation of motion.
@@ -56,6 +59,9 @@ def simulate(
         Relative tolerance of SciPy's methods (1e-12 by default).
     parameters, about : optional
         As for :func:`ridgeback.oscillator`.
+    drift : mapping of str to str, optional
+        Parameters that change with the time t, such as ``{"L": "1+0.01*t"}``, by SciPy's methods;
+        :func:`ridgeback.drift` holds omega0 by the action against such a motion.
     progress : bool or callable, optional
         ``True`` shows a bar; a function is told the share done and the step.  heyoka tells nothing.
 
@@ -83,6 +89,8 @@ def simulate(
         raise InputError(f"digits belong to method 'taylor'; {name} works in double precision")
     if rtol is not None and name not in METHODS:
         raise InputError(f"rtol belongs to {', '.join(METHODS)}, not to {name}; leave it out")
+    if drift:
+        return drifted(oscillator, drift, initial, duration, rate, name, rtol, parameters, about, progress)
     if isinstance(oscillator, Dynamics):
         with showing(progress) as told:
             return of_dynamics(oscillator, initial, duration, rate, name, digits, rtol, told)
@@ -92,6 +100,33 @@ def simulate(
         return integrate_heyoka(system, start, duration=duration, rate=rate)
     with showing(progress) as told:
         return of_dynamics(bind(system), start, duration, rate, name, digits, rtol, told)
+
+
+def drifted(
+    oscillator: OscillatorLike | Dynamics,
+    laws: Mapping[str, str],
+    initial: tuple[float, float] | None,
+    duration: float,
+    rate: float,
+    method: str,
+    rtol: float | None,
+    parameters: Mapping[str, Value] | None,
+    about: str | None,
+    progress: Wanted,
+) -> Trajectory:
+    """Integrate an oscillator some of whose parameters change with time."""
+    if isinstance(oscillator, Dynamics):
+        raise InputError("an oscillator that is bound to numbers has no parameters left to drift; give it unbound")
+    if method not in METHODS:
+        raise InputError(f"{method} follows no drift; use one of {', '.join(METHODS)}")
+    own = drifting(as_oscillator(oscillator, parameters=parameters, about=about), laws)
+    dynamics, law = bind_drift(own, duration)
+    start = own.start.initial if initial is None else initial
+    tolerance = 1e-12 if rtol is None else rtol
+    with showing(progress) as told:
+        return integrate(
+            dynamics, start, duration=duration, rate=rate, method=method, rtol=tolerance, drift=law, progress=told
+        )
 
 
 def of_dynamics(

@@ -90,6 +90,18 @@ def assignment(text: str) -> tuple[str, Fraction]:
     return name.strip(), rational(value)
 
 
+def law(text: str) -> tuple[str, str]:
+    """A parameter and its law in time, which is read when the oscillator is there.
+
+    >>> law("L = 1+0.01*t")
+    ('L', '1+0.01*t')
+    """
+    name, equals, right = (part.strip() for part in text.partition("="))
+    if not (equals and right) or not NAME.fullmatch(name):
+        raise ValueError(f"{shown(text)} is no law of a parameter; write for example L=1+0.01*t")
+    return name, right
+
+
 def pair(text: str) -> tuple[float, float]:
     """Two numbers with a comma between.
 
@@ -227,6 +239,7 @@ def weights(text: str) -> dict[str, int]:
     return found
 
 
+LAW = written(law)
 PAIR = written(pair)
 WEIGHTS = written(weights)
 BAND = written(band)

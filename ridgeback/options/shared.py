@@ -9,9 +9,10 @@ from typing import Any, TypeVar
 import click
 
 from ridgeback.console.output import STDOUT, output_path
-from ridgeback.options.arguments import ASSIGNMENT, WEIGHTS
+from ridgeback.options.arguments import ASSIGNMENT, LAW, WEIGHTS
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
+Given = TypeVar("Given", Fraction, str)
 
 METHODS = ("lindstedt", "multiple-scales", "energy-integral")
 AMPLITUDES = ("peak", "trough", "fundamental", "action", "energy")
@@ -33,6 +34,19 @@ def set_option(command: Decorated) -> Decorated:
         multiple=True,
         metavar="NAME=VALUE",
         help="Give a parameter a value, exactly as written (0.01 is 1/100).  Repeatable.",
+    )(command)
+
+
+def drift_option(command: Decorated) -> Decorated:
+    """``--drift NAME=LAW``, repeatable."""
+    return click.option(
+        "--drift",
+        "laws",
+        type=LAW,
+        multiple=True,
+        metavar="NAME=P(t)",
+        help="Let a parameter change slowly with the time t, e.g. L=1+0.01*t, and hold omega0 at its conserved action "
+        "against the cycle frequency.  Repeatable.",
     )(command)
 
 
@@ -100,15 +114,15 @@ def expansion_options(command: Decorated) -> Decorated:
     return command
 
 
-def unique(assignments: tuple[tuple[str, Fraction], ...]) -> dict[str, Fraction]:
+def unique(assignments: tuple[tuple[str, Given], ...], option: str = "--set") -> dict[str, Given]:
     """The parameters by name; click.UsageError when one is set twice.
 
     >>> unique((("k", Fraction(2)),))
     {'k': Fraction(2, 1)}
     """
-    values: dict[str, Fraction] = {}
+    values: dict[str, Given] = {}
     for name, value in assignments:
         if name in values:
-            raise click.UsageError(f"--set gives {name} twice; keep one of the values")
+            raise click.UsageError(f"{option} gives {name} twice; keep one of them")
         values[name] = value
     return values
