@@ -54,7 +54,7 @@ PUBLIC: Final = (
     Public("resum", "symbolic.resummation.by_name", _PROVE, "another formula from the coefficients of a series"),
     Public("limits", "symbolic.singularities.settled:settled_limits", _PROVE, "where a series converges, and why"),
     Public("simulate", "interface.simulate", _SIMULATE, "a trajectory, by any of the integrators"),
-    Public("drift", "interface.drift", _SIMULATE, "a motion under drifting parameters, beside omega0 by the action"),
+    Public("drift", "interface.drift", _SIMULATE, "a motion under a drift, and omega0 by its action"),
     Public("energy_terms", "interface.simulate", _SIMULATE, "kinetic, potential and lost energy along a trajectory"),
     Public("bind", "compare.binding.bind", _SIMULATE, "an oscillator with its numbers, as functions of floats"),
     Public("read_recording", "numeric.recording.reading", _READ, "one signal from a file"),
