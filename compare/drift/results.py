@@ -45,7 +45,7 @@ class DriftComparison(Displayed):
     --------
     >>> from ridgeback.compare.drift.comparison import compare_drift
     >>> compare_drift("linear", {"k": "1+t/50"}, duration=60.0, rate=4.0)
-    <DriftComparison: linear with k = t/50 + 1, omega0 by the action within 9.2e-05, expected 9.2e-05>
+    <DriftComparison: linear with k = t/50 + 1, omega0 by the action within 9.5e-05, expected 9.5e-05>
     """
 
     INDEX: ClassVar[tuple[str, ...]] = ("time_s",)
