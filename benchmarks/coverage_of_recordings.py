@@ -183,6 +183,26 @@ def modulated(rng: np.random.Generator) -> Record:
     return Record(x, 40.0, Motion(ones, omega, 0.0 * ones, ones > 0), 0.05)
 
 
+def struck_twice(rng: np.random.Generator) -> Record:
+    """A damped oscillation that a second blow sets off again, at another phase."""
+    t = np.arange(1200) / RATE
+    at, g, w = rng.uniform(1.2, 1.8), 0.01 * TWO_PI * FREQUENCY, TWO_PI * FREQUENCY
+    before, after = t < at, rng.uniform(0, TWO_PI)
+    a = np.where(before, np.exp(-g * t), 0.8 * np.exp(-g * (t - at)))
+    x = a * np.cos(w * t + np.where(before, 0.0, after)) + 0.01 * rng.normal(size=t.size)
+    return Record(x, RATE, Motion(a, np.full(t.size, w), np.full(t.size, -g), t >= 0), 0.01)
+
+
+def jumping(rng: np.random.Generator) -> Record:
+    """A steady oscillation whose frequency jumps by up to a third."""
+    t = np.arange(800) / 40.0
+    ratio, at = 1.0 + rng.uniform(0.03, 0.33), rng.uniform(6.0, 14.0)
+    omega = TWO_PI * 3.0 * np.where(t < at, 1.0, ratio)
+    x = np.cos(TWO_PI * 3.0 * (np.minimum(t, at) + ratio * np.maximum(t - at, 0.0))) + 0.01 * rng.normal(size=t.size)
+    ones = np.ones(t.size)
+    return Record(x, 40.0, Motion(ones, omega, 0.0 * ones, ones > 0), 0.01)
+
+
 KINDS: dict[str, Kind] = {
     "damping ratio 0.3 %, 60 cycles": damped(0.003, 60.0),
     "damping ratio 1 %, 60 cycles": damped(0.01, 60.0),
@@ -210,6 +230,17 @@ KINDS: dict[str, Kind] = {
     "1/f noise": damped(0.01, 40.0, noise=0.001, spoil=coloured(0.03)),
     "a chirp that rises to six times": chirp,
     "a swinging frequency": modulated,
+    "struck twice": struck_twice,
+    "a frequency that jumps": jumping,
+    "two modes 2 % apart": damped(0.003, 120.0, spoil=second_mode(0.5, 20.4, 0.003)),
+    "hum at twice the frequency": damped(0.01, 40.0, spoil=hum(0.1, 40.0)),
+    "three modes": damped(
+        0.006,
+        40.0,
+        spoil=lambda x, t, rng: second_mode(0.3, 17.0, 0.005)(second_mode(0.5, 24.0, 0.005)(x, t, rng), t, rng),
+    ),
+    "damping ratio 15 %, 4 cycles": damped(0.15, 4.0),
+    "damping ratio 1 %, strong noise": damped(0.01, 60.0, noise=0.1),
 }
 
 

@@ -15,9 +15,10 @@ from scipy.optimize import least_squares
 from ridgeback.common.errors import InputError
 from ridgeback.compare.identification.candidates import DampingLaw, Model, level_at
 from ridgeback.compare.identification.potentials import Shape
-from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.estimators.higher_harmonics import carrier
+from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.orbits.slow_flow import motion
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.signal.local_line import local_line
@@ -45,6 +46,8 @@ class Data:
     anchor_phase: Array
     anchor_log: Array
     anchor_weight: Array
+    kept: Mask
+    """Samples that count: not clipped."""
 
     @property
     def cycle(self) -> float:
@@ -67,10 +70,16 @@ class Fit:
         return float(self.residual @ self.residual)
 
 
-def prepare(recording: Recording, track: Track) -> Data:
-    """Measure what a fit starts from; InputError when the backbone cannot be measured."""
-    first = float(recording.time[0])
-    measured = backbone(track, recording.values, recording.rate, start=first)
+def prepare(
+    recording: Recording, track: Track, *, models: SignalModels | None = None, kept: Mask | None = None
+) -> Data:
+    """Measure what a fit starts from, by ``models`` of the samples if there are any; only ``kept`` samples count.
+
+    Raises InputError when the backbone cannot be measured.
+    """
+    first, kept = float(recording.time[0]), np.ones(recording.values.size, dtype=np.bool_) if kept is None else kept
+    wrong = None if kept.all() else ~kept
+    measured = backbone(track, recording.values, recording.rate, start=first, exclude=wrong, models=models)
     x = recording.values - measured.offset
     phase, size = demodulated(x, recording.rate, track, first)
     length = max(float(measured.amplitude.max()), float(size.max()))
@@ -87,6 +96,7 @@ def prepare(recording: Recording, track: Track) -> Data:
         anchor_phase=phase[at],
         anchor_log=np.log(np.maximum(amplitude[at], 1e-6)),
         anchor_weight=amplitude[at],
+        kept=kept,
     )
 
 
@@ -207,12 +217,12 @@ def refined(model: Model, data: Data, start: Array) -> Fit:
 
 def residual_variance(model: Model, data: Data, theta: Array) -> float:
     """Variance of the samples less the model: the offset is free."""
-    return float(np.var(model.signal(theta, data.time) - data.x))
+    return float(np.var((model.signal(theta, data.time) - data.x)[data.kept]))
 
 
 def failed(model: Model, data: Data, theta: Array) -> Fit:
     """What stands for a fit that did not converge: an infinite residual, never the best."""
-    return Fit(model, theta, np.full(data.x.size, np.inf), np.eye(theta.size))
+    return Fit(model, theta, np.full(int(data.kept.sum()), np.inf), np.eye(theta.size))
 
 
 def by_samples(model: Model, data: Data, theta: Array, tolerance: float) -> Fit:
@@ -220,7 +230,7 @@ def by_samples(model: Model, data: Data, theta: Array, tolerance: float) -> Fit:
     limits = bounds(model, data)
 
     def samples(values: Array) -> Array:
-        return model.signal(values, data.time) - data.x
+        return np.asarray((model.signal(values, data.time) - data.x)[data.kept])
 
     try:
         begin = np.clip(theta, *limits)

@@ -3,50 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
-from ridgeback.compare.identification.candidates import (
-    ALL_LAWS,
-    BACKBONE,
-    LAWS,
-    NAMES,
-    VAN_DER_POL,
-    DampingLaw,
-    Model,
-    backbone_model,
-    models_of,
-)
-from ridgeback.compare.identification.fitting import Data, Fit, fit, prepare, refit
+from ridgeback.compare.identification.candidates import ALL_LAWS, LAWS, NAMES, DampingLaw
+from ridgeback.compare.identification.fits import Ranked, rank
+from ridgeback.compare.identification.fitting import Data, prepare
 from ridgeback.compare.identification.preparation import Prepared, prepared
-from ridgeback.compare.identification.ranking import CLEAR, CRITERIA, candidate, criterion, effective_number
+from ridgeback.compare.identification.quantities import refuse_another_quantity
+from ridgeback.compare.identification.ranking import CLEAR, CRITERIA, candidate
 from ridgeback.compare.identification.results import Identification, MeasuredBackbone, Prediction
-from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.recording.recording import Recording
 
-MOST_TERMS = 4
-WORTH_TRYING = 9.0
-"""Other damping laws are tried where the residual's variance is at most this many times the least one."""
 FEWEST_CYCLES = 6
-
-
-@dataclass(frozen=True)
-class Ranked:
-    """Fits in order of their criterion, with the criteria and the effective samples that they count."""
-
-    fits: tuple[Fit, ...]
-    scores: tuple[float, ...]
-    effective: float
-    failed: tuple[str, ...]
-
-    @property
-    def weights(self) -> Array:
-        """Akaike weights."""
-        raw = np.exp(-0.5 * (np.array(self.scores) - self.scores[0]))
-        return np.asarray(raw / raw.sum())
 
 
 def identify(
@@ -109,12 +80,13 @@ def identify(
     progress(0.0, "frequency track")
     ready = prepared(recording, span=span) if isinstance(recording, Recording) else recording
     used = ready.recording
-    data = prepare(used, ready.track)
+    data = prepare(used, ready.track, models=ready.models, kept=ready.kept)
     cycles = float(data.time[-1]) / data.cycle
     if cycles < FEWEST_CYCLES:
         raise InputError(f"{used.source}: {cycles:.1f} cycles are too few to tell oscillators apart; give 6 or more")
     ranked = rank(data, names, allowed, kind, progress)
-    said = (*used.notes, *ready.notes, *data.measured.notes, *notes)
+    refuse_another_quantity(ready, data, ranked, progress)
+    said = (*ready.notes, *used.notes, *(() if ready.doubt else data.measured.notes), *notes)
     return assembled(ready, data, ranked, kind, said, prediction)
 
 
@@ -139,60 +111,6 @@ def checked(
     return names, tuple(law for law in ALL_LAWS if law in laws)
 
 
-def rank(data: Data, names: tuple[str, ...], laws: tuple[DampingLaw, ...], kind: str, progress: Progress) -> Ranked:
-    """Fit every candidate with the first damping law, the promising ones with the others, and order them."""
-    first, failed = [], []
-    for i, name in enumerate(names):
-        progress(0.1 + 0.6 * i / len(names), name)
-        try:
-            first.append(best_with(name, laws[0], data))
-        except InputError as error:
-            failed.append(str(error))
-    if not first:
-        raise InputError("no candidate could be fitted: " + "; ".join(failed))
-    least = min(f.sum_of_squares for f in first)
-    kept = []
-    for i, found in enumerate(first):
-        progress(0.7 + 0.2 * i / len(first), f"{found.model.name}, other damping laws")
-        tried = polished(found, laws[1:], data) if found.sum_of_squares <= WORTH_TRYING * least else [found]
-        kept.append(min(tried, key=lambda f: criterion(f, f.residual.size, kind)))
-    best = min(kept, key=lambda f: criterion(f, f.residual.size, kind))
-    effective = min(float(data.x.size), effective_number(best.residual) + best.model.count)
-    scored = sorted(((criterion(f, effective, kind), i) for i, f in enumerate(kept)))
-    return Ranked(tuple(kept[i] for _, i in scored), tuple(s for s, _ in scored), effective, tuple(failed))
-
-
-def best_with(name: str, law: DampingLaw, data: Data) -> Fit:
-    """The fit of a candidate; a polynomial backbone with as many terms as BIC asks for."""
-    if name != BACKBONE:
-        return fit(models_of(name, law), data)
-    fits = [fit(backbone_model(terms, law), data) for terms in range(1, MOST_TERMS + 1)]
-    return min(fits, key=lambda f: criterion(f, f.residual.size, "bic"))
-
-
-def polished(found: Fit, laws: tuple[DampingLaw, ...], data: Data) -> list[Fit]:
-    """The fit to rounding, and the same class with other damping laws, started from it."""
-    fine = refit(found.model, data, found.theta)
-    if found.model.name == VAN_DER_POL:
-        return [fine]
-    tried = [fine]
-    for law in laws:
-        model = with_law(found, law)
-        if model.size > found.model.size:
-            theta = np.insert(fine.theta, 1 + found.model.size, 0.05 * abs(fine.theta[found.model.size]))
-            tried.append(refit(model, data, theta))
-        else:
-            tried.append(fit(model, data))
-    return tried
-
-
-def with_law(found: Fit, law: DampingLaw) -> Model:
-    """The model of a fit with another damping law."""
-    if found.model.name == BACKBONE:
-        return backbone_model(found.model.size - found.model.rates - 2, law)
-    return models_of(found.model.name, law)
-
-
 def assembled(
     ready: Prepared, data: Data, ranked: Ranked, kind: str, notes: tuple[str, ...], prediction: Prediction | None
 ) -> Identification:
@@ -205,12 +123,14 @@ def assembled(
     )
     near = tuple(c.name for c in candidates if c.delta < CLEAR)
     measured = data.measured
-    return Identification(
+    found = Identification(
         source=recording.source,
         column=recording.name,
         unit=recording.units,
         rate=recording.rate,
-        samples=data.x.size,
+        samples=int(data.kept.sum()),
+        noise=np.nan if ready.noise is None else ready.noise,
+        doubt=ready.doubt,
         effective_samples=ranked.effective,
         criterion_name=kind,
         candidates=candidates,
@@ -228,3 +148,4 @@ def assembled(
         failed=ranked.failed,
         prediction=prediction,
     )
+    return found.without_intervals() if found.unclaimed else found

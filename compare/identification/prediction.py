@@ -17,8 +17,9 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.identification.candidates import LAWS, NAMES
+from ridgeback.compare.identification.fits import Ranked, rank
 from ridgeback.compare.identification.fitting import Data, Fit, demodulated, fit, prepare, refit
-from ridgeback.compare.identification.identify import FEWEST_CYCLES, Ranked, checked, rank
+from ridgeback.compare.identification.identify import FEWEST_CYCLES, checked
 from ridgeback.compare.identification.preparation import Prepared, local_track, part_of, prepared
 from ridgeback.compare.identification.ranking import covariance, spread_along
 from ridgeback.compare.identification.results import NORMAL_95, Prediction
@@ -100,9 +101,9 @@ def predict(
     offset = float(used.values.mean())
     phase, _ = demodulated(used.values - offset, used.rate, whole, start)
     cut = cut_after(phase, cycles, used)
-    first = part_of(used, used.time[:cut], used.values[:cut], used.rate)
+    first = part_of(used, slice(cut))
     track = local_track(first)
-    data = prepare(first, track)
+    data = prepare(first, track, kept=ready.kept[:cut])
     ranked = rank(data, names, allowed, kind, progress)
     rest = measured_rest(used, whole, phase, first.time[-1] - start)
     progress(0.95, "prediction")
@@ -180,8 +181,8 @@ def rehearsed(first: Recording, track: Track, kept: Weighted) -> Array:
     phase, _ = demodulated(first.values - float(first.values.mean()), first.rate, track, start)
     cut = int(np.searchsorted(phase - phase[0], REHEARSAL * (phase[-1] - phase[0]))) + 1
     try:
-        early = part_of(first, first.time[:cut], first.values[:cut], first.rate)
-        data = prepare(early, local_track(early))
+        early = part_of(first, slice(cut))
+        data = prepare(early, local_track(early), kept=~early.clipped)
         rest = measured_rest(first, track, phase, float(early.time[-1]) - start)
         again = Weighted(tuple(refit(f.model, data, fit(f.model, data).theta) for f in kept.fits), kept.weights)
         mean, deviation = again.ahead(data, rest.time)

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import signal
+from scipy.ndimage import maximum_filter1d
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.components.tones import beside_notes
+from ridgeback.numeric.estimators.estimate import estimate, estimation
+from ridgeback.numeric.harmonics.signal_model import SignalModels
+from ridgeback.numeric.recording.quantity import named_quantity
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.tracking.track import Track
 
@@ -18,6 +22,7 @@ PER_CYCLE = 24
 """Samples per cycle that are kept when a recording is thinned."""
 ENOUGH = 6000
 MOST_SAMPLES = 60_000
+ARTICLES = {"velocity": "a velocity", "acceleration": "an acceleration"}
 WINDOW_CYCLES = 4.0
 """Window of the local harmonic least squares that start the fits; their border values are one-sided fits."""
 
@@ -27,15 +32,23 @@ class Prepared:
     """What identification and prediction of one recording share."""
 
     recording: Recording
-    """The part used, thinned."""
+    """The part used, thinned: one oscillation, without what was found beside it."""
     track: Track
     """Its fundamental frequency over time."""
     notes: tuple[str, ...]
-    """What was left out or thinned."""
+    """What was left out, taken off or thinned."""
+    kept: Mask
+    """Samples that count: not clipped."""
+    models: SignalModels | None = None
+    """Models of the samples without any oscillator in mind, where an interval can rest on them."""
+    noise: float | None = None
+    """Standard deviation of what such a model leaves, in the signal's unit."""
+    doubt: str = ""
+    """Why no model of one oscillation can be trusted, if so."""
 
 
 def prepared(recording: Recording, *, span: tuple[float, float] | None = None) -> Prepared:
-    """Thin a recording to what fits need and track its fundamental.
+    """Make one oscillation of a recording: thinned, where it stands above the noise, without tones beside it.
 
     Parameters
     ----------
@@ -47,7 +60,8 @@ def prepared(recording: Recording, *, span: tuple[float, float] | None = None) -
     Raises
     ------
     InputError
-        For a span without samples, more samples than fit the budget, and a signal that noise alone explains.
+        For a span without samples, more samples than fit the budget, a signal that noise alone explains, and one that
+        is no displacement by its name or unit.
 
     Examples
     --------
@@ -56,8 +70,38 @@ def prepared(recording: Recording, *, span: tuple[float, float] | None = None) -
     >>> prepared(long).notes
     ('Every 7th sample was used, after a low-pass filter.',)
     """
+    named = named_quantity(recording)
+    if named:
+        raise InputError(
+            f"{recording.label}: by its name or unit this is of {ARTICLES[named]}, and oscillators are told apart by "
+            f"the displacement; give --quantity {named}, which converts it, or --quantity displacement if it is one"
+        )
     used, notes = usable(recording, span)
-    return Prepared(used, local_track(used).of_oscillation(), notes)
+    wrong = used.clipped if used.clipped.any() else None
+    start = float(used.time[0])
+    try:
+        found = estimation(used.values, used.rate, method="harmonic-least-squares", start=start, wrong=wrong)
+    except InputError:
+        return Prepared(used, local_track(used).of_oscillation(), notes, ~used.clipped)
+    track = found.track.of_oscillation()
+    if not found.modelled or track.used.doubt or track.interval is None:
+        doubt = track.used.doubt or track.no_interval or ""
+        return Prepared(used, local_track(used).of_oscillation(), notes, ~used.clipped, doubt=doubt)
+    alone, where = in_its_span(used, track, found.samples.x)
+    here = replace(track, used=replace(track.used, span=None))
+    said = (*where, *beside_notes(track.used.tones, track.used.spikes), *notes)
+    return Prepared(alone, here, said, ~alone.clipped, found.claimed_models, track.used.noise)
+
+
+def in_its_span(recording: Recording, track: Track, values: Array) -> tuple[Recording, tuple[str, ...]]:
+    """The samples that a track is of, with these values, and a note that says which are left out."""
+    if track.used.span is None:
+        return replace(recording, values=values), ()
+    first, last = (round((time - recording.time[0]) * recording.rate) for time in track.used.span)
+    cut, (begin, end) = slice(first, last + 1), track.used.span
+    part = part_of(replace(recording, values=values), cut)
+    why = track.used.span_why or "the amplitude stands above the noise"
+    return part, (f"{why[0].upper()}{why[1:]} from t = {begin:.6g} to {end:.6g}; the rest is left out.",)
 
 
 def usable(recording: Recording, span: tuple[float, float] | None) -> tuple[Recording, tuple[str, ...]]:
@@ -70,12 +114,20 @@ def usable(recording: Recording, span: tuple[float, float] | None) -> tuple[Reco
                 f"{recording.source}: {np.count_nonzero(keep)} samples lie within {span[0]:g} to {span[1]:g}; "
                 f"the recording runs from {recording.time[0]:g} to {recording.time[-1]:g}"
             )
-        recording = part_of(recording, recording.time[keep], recording.values[keep], recording.rate)
+        first, last = int(np.flatnonzero(keep)[0]), int(np.flatnonzero(keep)[-1])
+        recording = part_of(recording, slice(first, last + 1))
         notes.append(f"Only times from {span[0]:g} to {span[1]:g} were used.")
     factor = thinning(recording)
     if factor > 1:
         values = signal.decimate(recording.values, factor, ftype="fir", zero_phase=True)
-        recording = part_of(recording, recording.time[::factor], values, recording.rate / factor)
+        recording = replace(
+            recording,
+            time=recording.time[::factor],
+            values=values,
+            rate=recording.rate / factor,
+            clipped=maximum_filter1d(recording.clipped, 2 * factor + 1)[::factor],
+            filled=recording.filled[::factor],
+        )
         notes.append(f"Every {factor}th sample was used, after a low-pass filter.")
     if recording.values.size > MOST_SAMPLES:
         raise InputError(
@@ -85,10 +137,14 @@ def usable(recording: Recording, span: tuple[float, float] | None) -> tuple[Reco
     return recording, tuple(notes)
 
 
-def part_of(recording: Recording, time: Array, values: Array, rate: float) -> Recording:
-    """The same recording with other samples."""
-    return Recording(
-        time, values, rate, recording.name, recording.units, recording.source, recording.sha256, recording.notes
+def part_of(recording: Recording, cut: slice) -> Recording:
+    """The same recording with some of its samples."""
+    return replace(
+        recording,
+        time=recording.time[cut],
+        values=recording.values[cut],
+        clipped=recording.clipped[cut],
+        filled=recording.filled[cut],
     )
 
 

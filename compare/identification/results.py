@@ -6,8 +6,9 @@ own unit; bands are 95 % intervals.  Arrays are one-dimensional float64 and read
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
@@ -20,6 +21,8 @@ NORMAL_95 = 1.959963984540054
 """The 97.5 % point of the normal distribution: half the width of a 95 % interval in standard deviations."""
 
 
+ABOVE_NOISE, NOTABLE = 2.0, 0.01
+"""Times the noise, and share of the signal's rms, that a candidate leaves which is not the one."""
 POOR = 0.6
 """Share of the signal's rms that the best candidate may leave before the verdict says that none describes it."""
 
@@ -99,6 +102,18 @@ class Candidate(_Values, Brief):
     note: str = ""
     has_equation: bool = True
     """False for a polynomial backbone: a slow flow without an equation of motion."""
+
+    def without_intervals(self) -> Candidate:
+        """The same without a claim on any deviation."""
+        unknown = np.full_like(self.amplitude, np.nan)
+        return replace(
+            self,
+            parameters=tuple(replace(one, standard_deviation=math.nan) for one in self.parameters),
+            omega_low=unknown,
+            omega_high=unknown,
+            growth_rate_low=unknown,
+            growth_rate_high=unknown,
+        )
 
     def parameter(self, name: str) -> Parameter:
         """The parameter of this name; KeyError without one."""
@@ -186,6 +201,11 @@ class Identification(ShownIdentification, _Values):
         Candidates that could not be fitted, each with the reason.
     prediction : Prediction, optional
         The rest of the decay from its first cycles, where that was asked for.
+    noise : float
+        Standard deviation of what a model without any oscillator in mind leaves, in the signal's unit; NaN where no
+        such model holds.
+    doubt : str
+        Why the samples are not those of one oscillation, if so.
 
     Examples
     --------
@@ -211,6 +231,8 @@ class Identification(ShownIdentification, _Values):
     notes: tuple[str, ...] = ()
     failed: tuple[str, ...] = ()
     prediction: Prediction | None = None
+    noise: float = math.nan
+    doubt: str = ""
 
     @property
     def best(self) -> Candidate:
@@ -228,6 +250,28 @@ class Identification(ShownIdentification, _Values):
         return self.unexplained <= POOR
 
     @property
+    def unclaimed(self) -> str:
+        """Why no interval of a parameter is claimed; empty where they are."""
+        if not self.described:
+            return f"the best candidate leaves {self.unexplained:.0%} of the signal's rms"
+        if self.doubt:
+            return self.doubt
+        if self.best.residual > ABOVE_NOISE * self.noise and self.unexplained > NOTABLE:
+            return (
+                f"the best candidate leaves {self.best.residual / self.noise:.2g} times the noise that a model without "
+                "any oscillator in mind leaves"
+            )
+        return ""
+
+    def without_intervals(self) -> Identification:
+        """The same without a claim on any deviation; of what was measured too, where that is in doubt."""
+        data = self.data
+        if self.doubt:
+            unknown = np.full_like(data.amplitude, np.nan)
+            data = replace(data, omega_sd=unknown, growth_rate_sd=unknown)
+        return replace(self, candidates=tuple(c.without_intervals() for c in self.candidates), data=data)
+
+    @property
     def verdict(self) -> str:
         """The ranking in one or two sentences: which class, how sure, and which others cannot be told apart from it."""
         best, others = self.best, [c for c in self.candidates[1:] if c.name in self.indistinguishable]
@@ -243,7 +287,8 @@ class Identification(ShownIdentification, _Values):
         elif len(self.candidates) > 1:
             second = self.candidates[1]
             text += f"; next comes {second.title}, {name} {second.delta:.4g} higher"
-        return f"{text}. What it leaves unexplained is {self.unexplained:.2g} of the signal's rms."
+        why = f" No interval is claimed: {self.unclaimed}." if self.unclaimed else ""
+        return f"{text}. What it leaves unexplained is {self.unexplained:.2g} of the signal's rms.{why}"
 
     def record(self) -> dict[str, object]:
         """All fields by name, and the verdict that follows from them."""

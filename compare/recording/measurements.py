@@ -20,10 +20,9 @@ from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.backbone.combined import CombinedBackbone, combine
 from ridgeback.numeric.backbone.damping import growth_columns
 from ridgeback.numeric.backbone.half_cycles import HalfCycles, half_cycles
-from ridgeback.numeric.components.tones import Tone
+from ridgeback.numeric.components.tones import Tone, beside_notes
 from ridgeback.numeric.estimators.amplitude import amplitude_of, estimate_amplitude
 from ridgeback.numeric.estimators.estimate import Estimation, estimation
-from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.signal.decimation import Samples, every, every_flag
 from ridgeback.numeric.tracking.track import NORMAL_95, AmplitudeTrack, Track
@@ -204,11 +203,11 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
     track = found.track
     if harmonic > 1:
         return of_harmonic(recording, found, harmonic, words.get("band"))
-    told = (*beside_notes(track), *recording.notes)
+    told = (*beside_notes(track.used.tones, track.used.spikes), *recording.notes)
     if track.used.doubt:
         return Measurement(recording, track, None, (f"No interval and no amplitude: {track.used.doubt}.", *told))
     wanted = found.request is not None and found.request.options.bias and track.no_interval is not None
-    if wanted and models_of(found, claimed=False) is None:
+    if wanted and not found.modelled:
         return Measurement(recording, track, None, (f"No amplitude: {track.no_interval}.", *told))
     try:
         used = as_tracked(recording, found.samples)
@@ -218,25 +217,13 @@ def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **
             used.rate,
             start=float(used.time[0]),
             exclude=marked(used),
-            models=models_of(found),
+            models=found.claimed_models,
         )
     except InputError as error:
         reason = str(error) if track.presence is None or track.presence.found else track.presence.reason
         return Measurement(recording, track, None, (*told, f"No amplitude: {reason}."))
     curve = replace(curve, units=recording.units)
     return Measurement(recording, track, curve, (*hum_notes(curve), *told, *curve.notes))
-
-
-def beside_notes(track: Track) -> tuple[str, ...]:
-    """What was found beside the oscillation, in words."""
-    notes = []
-    if track.used.tones:
-        listed = "; ".join(tone.said() for tone in track.used.tones)
-        notes.append(f"Beside the oscillation, fitted with it and taken off: {listed}.")
-    if track.used.spikes:
-        what = "sample lies" if track.used.spikes == 1 else "samples lie"
-        notes.append(f"{track.used.spikes} {what} far outside the noise (spikes); they enter no fit.")
-    return tuple(notes)
 
 
 def hum_notes(curve: Backbone) -> tuple[str, ...]:
@@ -247,17 +234,6 @@ def hum_notes(curve: Backbone) -> tuple[str, ...]:
     if not (steady and tone.mains):
         return ()
     return (f"The strongest component is no decay: {tone.said()}; give a --band round the oscillation that you mean.",)
-
-
-def models_of(found: Estimation, *, claimed: bool = True) -> SignalModels | None:
-    """The models of all of the signal, where the track claims an interval that rests on them, if that is asked for."""
-    request = found.request
-    if request is None or (claimed and found.track.interval is None):
-        return None
-    try:
-        return request.models
-    except InputError:
-        return None
 
 
 def samples_behind(track: Track, recording: Recording) -> Samples:

@@ -19,6 +19,8 @@ from ridgeback.numeric.signal.search_band import half_tapers
 
 SURE = 8.0
 """A line that is none has a probability of e^-8, 3 in 10,000."""
+LEAST = 1e-3
+"""Of the oscillation's amplitude, that another component must have: what a model of a clean signal leaves is none."""
 NEIGHBOURS = 0.2
 """Of the spectrum, whose median is the level."""
 FEWEST_NEIGHBOURS = 101

@@ -15,11 +15,11 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from scipy.fft import rfft, rfftfreq
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
-from ridgeback.numeric.components.lines import clearest_line, colour
+from ridgeback.numeric.components.doubts import doubt
+from ridgeback.numeric.components.lines import LEAST, clearest_line, colour
 from ridgeback.numeric.components.spikes import spikes
 from ridgeback.numeric.components.tones import Tone, fitted_tone
 from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
@@ -30,23 +30,15 @@ from ridgeback.numeric.signal.search_band import strongest_frequency
 
 GAIN, STRICTER = 12.0, 3.0
 """Fall of the criterion that is wanted, and what a parameter counts beyond Akaike's 2."""
-LEAST = 1e-3
-"""Of the oscillation's amplitude, that another component must have: what a model of a clean signal leaves is none."""
 MOST_TONES = 6
 TURNS, RESTED = 30, 0.02
 """Of fitting in turns: most of them, and the fall of the criterion in one with which it ends."""
+SAME = 0.1
+"""Of the noise, by which tones may differ between two models."""
 ROUNDS = 3
 """In which spikes are looked for."""
 OF_A_HARMONIC = 0.3
 """Distance from a multiple of the oscillation, in its frequency, within which a line is taken for that harmonic's."""
-FEWEST, THREE_SIGMA = 16, 3.0
-"""Ordinates of a spectrum that tell a level of noise, and deviations by which two levels differ."""
-STEADY = 0.15
-"""Of the logarithm of an amplitude, that it may swing by in a model of many knots."""
-MANY, CLOSE = 8, 3.0
-"""Intervals between knots and cycles in each, from which on models that still gain show no end of it."""
-NEAR = 1.45
-"""Factor from the oscillation within which a line is in its band."""
 
 
 @dataclass(frozen=True)
@@ -127,9 +119,7 @@ def separated(
     omega = float(np.average(models.best.omega, weights=models.best.size**2))
     known = models.coloured(colour(left, rate, omega, models.best.basis.count))
     single = np.where(sound, filled - total(tones, time), models.best.samples())
-    return Separated(
-        single, known, sound, tones, count, in_the_way(left, rate, models.best) or unfinished(models, left)
-    )
+    return Separated(single, known, sound, tones, count, doubt(known, filled, left, rate, guide))
 
 
 @lru_cache(maxsize=2)
@@ -154,58 +144,6 @@ def separated_once(
     )
 
 
-def in_the_way(left: Array, rate: float, model: SplineModel) -> str:
-    """Why a model cannot be trusted: a line in its band that is left; empty where there is none."""
-    line = clearest_line(left, rate, LEAST * float(model.size.max()))
-    low, high = float(model.omega.min()) / NEAR, float(model.omega.max()) * NEAR
-    if line is None or not low < line < high:
-        return ""
-    return (
-        f"another component near {line / TWO_PI:.4g} cycles per unit shares the band, and no model of both fits; "
-        "give a --band or a --span in which there is one oscillation"
-    )
-
-
-def unfinished(models: SignalModels, left: Array) -> str:
-    """Why models cannot be trusted that go on gaining to the finest knots; empty where they do not.
-
-    Where what they leave in their band is as weak as beyond it, they have come to the noise, and the end is at hand;
-    an amplitude that swings all the same is that of beats.
-    """
-    best = min(models.others, key=lambda model: model.criterion)
-    exact = best.noise < LEAST * float(best.size.max())
-    if exact or best is not models.others[-1] or best.breaks.size - 1 < MANY or best.cycles > CLOSE:
-        return ""
-    if is_white(left, models.best.band) and swing(models.best) < STEADY:
-        return ""
-    return (
-        f"models of one oscillation go on gaining down to a knot every {best.cycles:.2g} cycles, as they do with "
-        "several components or jumps; give a --band or a --span in which there is one oscillation"
-    )
-
-
-def swing(model: SplineModel) -> float:
-    """How far the logarithm of a model's amplitude goes from a parabola, rms."""
-    log = np.log(model.size)
-    return float(np.std(log - np.polyval(np.polyfit(model.time, log, 2), model.time)))
-
-
-# Means of n ordinates of the periodogram of white noise scatter by 1/sqrt(n) of their expectation.
-def is_white(left: Array, band: tuple[float, float]) -> bool:
-    """Whether the power per ordinate in a band, rad per sample, is not above that beyond it by THREE_SIGMA or more.
-
-    >>> white, t = np.random.default_rng(1).normal(size=800), np.arange(800)
-    >>> is_white(white, (0.1, 0.8)), is_white(white + np.cos(0.4 * t), (0.1, 0.8))
-    (True, False)
-    """
-    power, w = np.abs(rfft(left)) ** 2, TWO_PI * rfftfreq(left.size)
-    inside, beyond = power[(w > band[0]) & (w < band[1])], power[w > band[1]]
-    if min(inside.size, beyond.size) < FEWEST:
-        return False
-    allowed = 1.0 + THREE_SIGMA * math.sqrt(1.0 / inside.size + 1.0 / beyond.size)
-    return bool(inside.mean() < allowed * beyond.mean())
-
-
 def total(tones: tuple[Tone, ...], time: Array) -> Array:
     """The sum of tones."""
     return np.sum([tone.samples(time) for tone in tones], axis=0) if tones else np.zeros(time.size)
@@ -228,15 +166,31 @@ def with_tones(
         found = one_more(x, rate, models, here, known)
         if found is None:
             break
-        beside = np.concatenate([tone.tangent(time) for tone in found], axis=1)
         try:
-            fewer = signal_models(
-                x - total(found, time), rate, guide, half=half, multiples=multiples, known=replace(known, beside=beside)
-            )
+            fewer = beside(x, rate, guide, half, multiples, known, found)
+            again_found = in_turns(x, fewer.best, found, known)[1]
+            if float(np.abs(total(again_found, time) - total(found, time)).max()) > SAME * fewer.best.noise:
+                fewer, found = beside(x, rate, guide, half, multiples, known, again_found), again_found
         except InputError:
             break
         models, here = fewer, found
     return models, here
+
+
+def beside(
+    x: Array,
+    rate: float,
+    guide: Array,
+    half: int,
+    multiples: tuple[int, ...] | None,
+    known: Known,
+    tones: tuple[Tone, ...],
+) -> SignalModels:
+    """Models of the oscillation beside tones, whose error is in theirs."""
+    time = np.arange(x.size) / rate
+    tangent = np.concatenate([tone.tangent(time) for tone in tones], axis=1)
+    left = x - total(tones, time)
+    return signal_models(left, rate, guide, half=half, multiples=multiples, known=replace(known, beside=tangent))
 
 
 def one_more(
@@ -246,10 +200,9 @@ def one_more(
     least = min(model.criterion + STRICTER * (model.parameters - model.basis.count) for model in models.others)
     tried: list[float] = []
     best: tuple[float, tuple[Tone, ...]] | None = None
-    if not suspicious(x, rate, models, tones):
-        return None
     simple = tuple(plain(x - total(tones, models.best.time), models.best, known))
-    for model in (*simple, *models.others):
+    every = models.others if suspicious(x, rate, models, tones) else ()
+    for model in (*simple, *every):
         line = clearest_line(residual(x, model, tones), rate, LEAST * float(model.size.max()))
         if line is None or any(abs(line - before) < TWO_PI * rate / x.size for before in tried):
             continue
@@ -294,9 +247,13 @@ def together(
     x: Array, model: SplineModel, tones: tuple[Tone, ...], line: float, known: Known
 ) -> tuple[float, tuple[Tone, ...]]:
     """Akaike's criterion of a model and its tones with one more, fitted in turns, and the tones."""
-    time, sound = model.time, known.sound_of(x.size)
-    found = (*tones, fitted_tone(residual(x, model, tones), time, line, sound))
-    score = math.inf
+    more = fitted_tone(residual(x, model, tones), model.time, line, known.sound_of(x.size))
+    return in_turns(x, model, (*tones, more), known)
+
+
+def in_turns(x: Array, model: SplineModel, found: tuple[Tone, ...], known: Known) -> tuple[float, tuple[Tone, ...]]:
+    """The criterion of a model and tones, each fitted to what the others leave until nothing moves, and the tones."""
+    time, sound, score = model.time, known.sound_of(x.size), math.inf
     for _ in range(TURNS):
         model = again(x - total(found, time), model, known)
         for i, tone in enumerate(found):

@@ -106,3 +106,19 @@ def iterated(left: Array, time: Array, tone: Tone, sound: Array, *, free: bool) 
             inverse = np.linalg.pinv(jacobian.T @ jacobian)
             deviation = float(np.sqrt(inverse[3, 3] * np.mean(residual**2)))
     return Tone(omega, growth if free else 0.0, tone.size), deviation
+
+
+def beside_notes(tones: tuple[Tone, ...], spikes: int) -> tuple[str, ...]:
+    """What was found beside an oscillation, in words.
+
+    >>> beside_notes((), 1)
+    ('1 sample lies far outside the noise (spikes); they enter no fit.',)
+    """
+    notes = []
+    if tones:
+        listed = "; ".join(tone.said() for tone in tones)
+        notes.append(f"Beside the oscillation, fitted with it and taken off: {listed}.")
+    if spikes:
+        what = "sample lies" if spikes == 1 else "samples lie"
+        notes.append(f"{spikes} {what} far outside the noise (spikes); they enter no fit.")
+    return tuple(notes)

@@ -21,6 +21,7 @@ from ridgeback.numeric.estimators.peak import by_pseudo_wigner, by_smoothed_pseu
 from ridgeback.numeric.estimators.phase import by_harmonic_least_squares, by_hilbert, by_zero_crossing
 from ridgeback.numeric.estimators.polynomial_peak import by_polynomial_wigner
 from ridgeback.numeric.estimators.reassigned_ridge import by_reassigned_spectrogram, by_synchrosqueezing
+from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.model_fit.family import Family
 from ridgeback.numeric.model_fit.fit import fitted
 from ridgeback.numeric.model_fit.track import model_track
@@ -40,6 +41,17 @@ class Estimation:
     track: Track
     samples: Samples
     request: Request | None
+
+    @property
+    def modelled(self) -> bool:
+        """Whether a model of all of the track's stretch settled."""
+        return self.request is not None and has_model(self.request)
+
+    @property
+    def claimed_models(self) -> SignalModels | None:
+        """The models of the track's stretch, where it claims an interval that rests on them."""
+        claimed = self.request is not None and self.track.interval is not None and has_model(self.request)
+        return self.request.models if claimed and self.request is not None else None
 
 
 def without_bias(track: Track, remove_bias: bool) -> Track:

@@ -11,6 +11,7 @@ leaves, noise, is divided by the divisor of the fundamental's mean frequency, so
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -25,6 +26,56 @@ from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, prepared
 ORDERS = {"displacement": 0, "velocity": 1, "acceleration": 2}
 """How often the displacement is differentiated."""
 ROUNDS = 2
+GIVEN = "quantity"
+"""The fact of a recording that says what was measured, where somebody said so."""
+NAMED = {
+    "acceleration": (
+        re.compile(r"(?<![a-z])(acc|accel|accelerations?|accelerometer|beschleunigung)(?![a-z])"),
+        re.compile(r"(m|mm|cm|rad|deg)[ /_]*(s\^?-?2|s\*\*2|s²)"),
+    ),
+    "velocity": (
+        re.compile(r"(?<![a-z])(vel|velo|velocity|speed|geschwindigkeit)(?![a-z])"),
+        re.compile(r"(m|mm|cm|rad|deg)[ /_]+s(?![\^\d*²])"),
+    ),
+}
+"""Names and units of columns that say what was measured."""
+
+
+def named_quantity(recording: Recording) -> str:
+    """What a recording's name and unit say that it is; empty where they say nothing, or somebody said it.
+
+    >>> x, rate = np.cos(0.3 * np.arange(40)), 10.0
+    >>> named_quantity(Recording.from_arrays(x, rate, name="acc_z", units="m/s^2"))
+    'acceleration'
+    >>> named_quantity(Recording.from_arrays(x, rate, name="v", units="mm/s")), named_quantity(
+    ...     Recording.from_arrays(x, rate, name="accuracy", units="mm"))
+    ('velocity', '')
+    """
+    if GIVEN in recording.facts:
+        return ""
+    name, unit = recording.name.lower(), recording.units.lower()
+    for quantity, (names, units) in NAMED.items():
+        if names.search(name.replace("_", " ")) or units.fullmatch(unit):
+            return quantity
+    return ""
+
+
+def as_said(recording: Recording, quantity: str | None) -> Recording:
+    """The displacement behind a recording of this quantity; where nobody said what it is, as it is.
+
+    A name or a unit that speaks of another quantity than a displacement is told in a note then.
+    """
+    if quantity is not None:
+        return as_displacement(recording, quantity)
+    named = named_quantity(recording)
+    if not named:
+        return recording
+    note = (
+        f"By its name or unit the column is of {'an acceleration' if named == 'acceleration' else 'a velocity'}: "
+        f"amplitude and growth rate below are of that, and its harmonics are not those of the displacement; "
+        f"--quantity {named} converts it."
+    )
+    return replace(recording, notes=(note, *recording.notes))
 
 
 def as_displacement(recording: Recording, quantity: str) -> Recording:
@@ -59,8 +110,9 @@ def as_displacement(recording: Recording, quantity: str) -> Recording:
     if quantity not in ORDERS:
         raise InputError(f"quantity {quantity!r} is unknown; use one of {', '.join(ORDERS)}")
     order = ORDERS[quantity]
+    facts = {**recording.facts, GIVEN: quantity}
     if order == 0:
-        return recording
+        return replace(recording, facts=facts)
     x, rate = recording.values, recording.rate
     wrong = recording.clipped if recording.clipped.any() else None
     samples = replace(checked(x, rate, start=0.0, what="quantity", at_least=FEWEST_SAMPLES), wrong=wrong)
@@ -72,12 +124,24 @@ def as_displacement(recording: Recording, quantity: str) -> Recording:
     wave = sum((converted(model, h, order) for h in (1, *model.multiples)), np.zeros(x.size, dtype=np.complex128))
     omega = float(np.average(model.omega, weights=model.size**2))
     rest = (request.signal.x - model.samples(keep=lambda h: h > 0)) / (omega if order == 1 else -(omega**2))
-    unit = f"{recording.units} {'s' if order == 1 else 's^2'}".strip()
+    unit = integrated_unit(recording.units, order)
     note = (
-        f"The {quantity} was converted to a displacement ({unit}), harmonic by harmonic along a model of the signal; "
-        "its mean is not known."
+        f"The {quantity} was converted to a displacement{f' ({unit})' if unit else ''}, harmonic by harmonic along a "
+        "model of the signal; its mean is not known."
     )
-    return replace(recording, values=wave.real + rest - rest.mean(), units=unit, notes=(note, *recording.notes))
+    return replace(
+        recording, values=wave.real + rest - rest.mean(), units=unit, notes=(note, *recording.notes), facts=facts
+    )
+
+
+def integrated_unit(unit: str, order: int) -> str:
+    """The unit of an integral over time.
+
+    >>> integrated_unit("mm/s", 1), integrated_unit("m/s^2", 2), integrated_unit("g", 2), integrated_unit("", 2)
+    ('mm', 'm', 'g s^2', '')
+    """
+    seconds = "s" if order == 1 else "s^2"
+    return unit.removesuffix(f"/{seconds}") if unit.endswith(f"/{seconds}") or not unit else f"{unit} {seconds}"
 
 
 def converted(model: SplineModel, multiple: int, order: int) -> ComplexArray:

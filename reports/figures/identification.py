@@ -153,6 +153,8 @@ def parameter_table(candidate: Candidate) -> Table:
 def _with_interval(parameter: Parameter) -> tuple[str, str]:
     low, high = parameter.interval()
     half = 0.5 * (high - low)
+    if np.isnan(half):
+        return number(parameter.value, 4), "not claimed"
     if not half > 0:
         return number(parameter.value, 6), "exact"
     places = int(np.clip(1 - np.floor(np.log10(half)), 0, 12))

@@ -10,7 +10,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.binding.family import family_of
-from ridgeback.compare.recording.measurements import as_tracked, marked, models_of, samples_behind
+from ridgeback.compare.recording.measurements import as_tracked, marked, samples_behind
 from ridgeback.interface.signals import SignalLike, as_recording
 from ridgeback.interface.unused import refuse_unused
 from ridgeback.numeric.backbone import backbone as along
@@ -373,7 +373,7 @@ def backbone(
         return replace(half_cycles(used, progress=progress, **settings).backbone(), units=used.units)
     if track is None:
         found = estimation_of(used, name, progress, **settings)
-        curve = measured_along(found.track, as_tracked(used, found.samples), window_seconds, models_of(found))
+        curve = measured_along(found.track, as_tracked(used, found.samples), window_seconds, found.claimed_models)
     else:
         curve = measured_along(track, as_tracked(used, samples_behind(track, used)), window_seconds, None)
     return replace(curve, units=used.units)

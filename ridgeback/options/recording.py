@@ -21,16 +21,18 @@ DETRENDS = ("none", "linear", "slow")
 
 @dataclass(frozen=True)
 class Treatment:
-    """Which times count, and what is to be done with uneven ones, gaps and drift."""
+    """Which times count, what is to be done with uneven ones, gaps and drift, and what was measured."""
 
     resample: float | None = None
     fill: float | None = None
     detrend: str = "none"
     span: tuple[float, float] | None = None
     unit: str | None = None
+    quantity: str | None = None
+    """What was measured; None where nobody says so."""
 
     def given(self) -> dict[str, Any]:
-        """What was asked for, by the names of the readers' arguments."""
+        """What was asked of the readers, by the names of their arguments."""
         said = {
             "resample": self.resample,
             "fill": self.fill,
@@ -50,19 +52,18 @@ class Reading:
     rate: float | None = None
     run_column: str | None = None
     treatment: Treatment = field(default_factory=Treatment)
-    quantity: str = "displacement"
 
     def one(self, file: str) -> Recording:
         """The longest stretch of the one signal; the file's own problems are named by the reader."""
-        from ridgeback.numeric.recording.quantity import as_displacement
+        from ridgeback.numeric.recording.quantity import as_said
         from ridgeback.numeric.recording.reading import read_recording
 
         where: dict[str, Any] = {"column": self.column, "time_column": self.time_column, "rate": self.rate}
-        return as_displacement(read_recording(file, **where, **self.treatment.given()), self.quantity)
+        return as_said(read_recording(file, **where, **self.treatment.given()), self.treatment.quantity)
 
     def all(self, files: Sequence[str]) -> tuple[Recording, ...]:
         """Every stretch of every channel of every run."""
-        from ridgeback.numeric.recording.quantity import as_displacement
+        from ridgeback.numeric.recording.quantity import as_said
         from ridgeback.numeric.recording.reading import read_recordings
 
         found = read_recordings(
@@ -73,11 +74,11 @@ class Reading:
             run_column=self.run_column,
             **self.treatment.given(),
         )
-        return tuple(as_displacement(one, self.quantity) for one in found)
+        return tuple(as_said(one, self.treatment.quantity) for one in found)
 
 
 def treatment_options(command: Command) -> Command:
-    """Give a verb ``--span``, ``--resample``, ``--fill`` and ``--detrend``, as one ``treatment``."""
+    """Give a verb ``--quantity``, ``--span``, ``--resample``, ``--fill``, ``--detrend``, as one ``treatment``."""
 
     @wraps(command)
     def wrapped(
@@ -87,9 +88,10 @@ def treatment_options(command: Command) -> Command:
         detrend: str,
         span: tuple[float, float] | None,
         unit: str | None,
+        quantity: str | None,
         **rest: Any,
     ) -> None:
-        command(*args, treatment=Treatment(resample, fill, detrend, span, unit), **rest)
+        command(*args, treatment=Treatment(resample, fill, detrend, span, unit, quantity), **rest)
 
     return added(wrapped, TREATMENT_OPTIONS)
 
@@ -105,11 +107,10 @@ def reading_options(command: Command) -> Command:
         time_column: str | None,
         rate: float | None,
         run_column: str | None,
-        quantity: str,
         treatment: Treatment,
         **rest: Any,
     ) -> None:
-        command(*args, reading=Reading(column, time_column, rate, run_column, treatment, quantity), **rest)
+        command(*args, reading=Reading(column, time_column, rate, run_column, treatment), **rest)
 
     return added(wrapped, PLACE_OPTIONS)
 
@@ -126,15 +127,15 @@ PLACE_OPTIONS = (
         "--rate", type=POSITIVE, default=None, metavar="R", help="Samples per second, in place of a time column."
     ),
     click.option("--run-column", default=None, metavar="NAME", help="The column that numbers the runs."),
+)
+TREATMENT_OPTIONS = (
     click.option(
         "--quantity",
         type=click.Choice(("displacement", "velocity", "acceleration")),
-        default="displacement",
-        show_default=True,
-        help="What was measured; a velocity or an acceleration is converted, each harmonic by its frequency.",
+        default=None,
+        help="What was measured; a velocity or an acceleration is converted, each harmonic by its frequency.  Default: "
+        "a displacement, unless its name, its unit or its waveform say otherwise.",
     ),
-)
-TREATMENT_OPTIONS = (
     click.option(
         "--span",
         type=SPAN,

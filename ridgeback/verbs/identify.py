@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isnan
 from typing import TYPE_CHECKING
 
 import click
@@ -133,13 +134,13 @@ def prose(found: Identification) -> str:
         f"{found.source}, {found.column}{unit}: {found.samples} samples at {found.rate:g} per second, "
         f"of which {found.effective_samples:.0f} are independent",
         found.verdict,
+        *found.notes,
         aligned(["candidate", "damping", "parameters", "delta", "weight", "residual"], ranking(found)),
         best_of(found),
     ]
     if found.prediction is not None:
         parts.append(prediction_of(found.prediction))
     parts += [c.name + ": " + c.note for c in found.candidates[:1] if c.note]
-    parts += list(found.notes)
     return "\n\n".join(parts) + "\n"
 
 
@@ -164,7 +165,7 @@ def best_of(found: Identification) -> str:
         {
             "parameter": p.name,
             "value": readable(p.value),
-            "±": f"{p.standard_deviation:.2g}",
+            "±": "-" if isnan(p.standard_deviation) else f"{p.standard_deviation:.2g}",
             "unit": p.unit,
             "meaning": p.meaning,
         }

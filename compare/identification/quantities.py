@@ -1,0 +1,71 @@
+"""Whether samples that nobody named are a displacement: their waveform against their backbone says so.
+
+An oscillator's force makes both its backbone and the harmonics of its displacement.  The h-th harmonic of a velocity
+is h times, that of an acceleration h^2 times as strong beside the fundamental: where no equation comes down to the
+noise, and one does once the samples are taken for another quantity, they are of that.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress, silent
+from ridgeback.compare.identification.candidates import BACKBONE, LAWS, VAN_DER_POL
+from ridgeback.compare.identification.fits import Ranked, rank
+from ridgeback.compare.identification.fitting import Data, Fit, prepare
+from ridgeback.compare.identification.preparation import ARTICLES, Prepared, local_track
+from ridgeback.numeric.recording.quantity import GIVEN, as_displacement
+
+CONTRADICTED = 60.0
+"""Twice the fall of the log likelihood below that of the noise alone, from which on an equation is out."""
+AGREES = 0.05
+"""Share of that fall, beside a third of CONTRADICTED, that may be left for the right one: slow flows are series."""
+NOTHING = 1e-3
+"""Noise over amplitude below which an equation's slow flow, a series, is not held against it."""
+AS_OTHER = ("duffing-hardening", "duffing-softening", "pendulum", "helmholtz-duffing")
+"""Smooth laws with harmonics, one of which the quantity must agree with."""
+
+
+def refuse_another_quantity(ready: Prepared, data: Data, ranked: Ranked, progress: Progress = silent) -> None:
+    """Refuse samples that an equation describes down to the noise once they are taken for a velocity or acceleration.
+
+    Raises
+    ------
+    InputError
+        That names the quantity, where nobody said what was measured.
+    """
+    equations = [found for found in ranked.fits if found.model.name not in (BACKBONE, VAN_DER_POL)]
+    if GIVEN in ready.recording.facts or ready.noise is None or not equations:
+        return
+    lost = min(fall(found, ready.noise / data.length) for found in equations)
+    if lost < CONTRADICTED:
+        return
+    for quantity, left in described_as(ready, ready.noise / data.length, progress):
+        if left < AGREES * lost + CONTRADICTED / 3.0:
+            raise InputError(
+                f"{ready.recording.label}: the waveform contradicts a displacement, and is that of {ARTICLES[quantity]}"
+                f" of an oscillator that leaves no more than the noise; give --quantity {quantity}, which converts it, "
+                "or --quantity displacement to have it taken for one all the same"
+            )
+
+
+def described_as(ready: Prepared, noise: float, progress: Progress) -> Iterator[tuple[str, float]]:
+    """The fall of the best equation for the samples taken for each other quantity; ``noise`` over the amplitude."""
+    for quantity in ARTICLES:
+        progress(0.9, f"the waveform as that of {ARTICLES[quantity]}")
+        try:
+            turned = as_displacement(ready.recording, quantity)
+            data = prepare(turned, local_track(turned), kept=ready.kept)
+            found = rank(data, AS_OTHER, LAWS, "bic", silent).fits[0]
+        except InputError:
+            continue
+        yield quantity, fall(found, noise)
+
+
+# -2 ln L = n ln(RSS / n) + const
+def fall(found: Fit, noise: float) -> float:
+    """Twice the fall of the log likelihood of a fit below that of what a free model leaves, over the amplitude."""
+    left, n = found.sum_of_squares / found.residual.size, found.residual.size
+    return n * math.log(max(left, math.ulp(0.0)) / max(noise, NOTHING) ** 2)

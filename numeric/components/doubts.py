@@ -1,0 +1,120 @@
+"""Why models of one oscillation cannot be trusted, though they settled: what they leave of the samples says so."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.fft import rfft, rfftfreq
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.components.lines import LEAST, clearest_line
+from ridgeback.numeric.harmonics.local_fit import Shape, harmonic_fit
+from ridgeback.numeric.harmonics.signal_model import SignalModels
+from ridgeback.numeric.harmonics.spline_model import SplineModel
+from ridgeback.numeric.signal.samples import TWO_PI
+
+FEWEST, THREE_SIGMA = 16, 3.0
+"""Ordinates of a spectrum that tell a level of noise, and deviations by which two levels differ."""
+STEADY = 0.05
+"""Of the logarithm of an amplitude, that it may swing by in a model of many knots."""
+MANY, CLOSE = 8, 5.0
+"""Intervals between knots and cycles in each, from which on models that gain by them may be following beats."""
+NEAR = 1.45
+"""Factor from the oscillation within which a line is in its band."""
+WINDOW_CYCLES, FEWEST_WINDOWS, MOST_WINDOWS = 4.0, 5, 200
+"""Of short stretches whose noise is held against that of the whole: their length, and how many of them."""
+ROUGH = 3.0
+"""Times the noise of short stretches, that a model of the whole leaves which is not that of one smooth oscillation."""
+
+
+def doubt(models: SignalModels, x: Array, left: Array, rate: float, guide: Array) -> str:
+    """Why models cannot be trusted that leave ``left`` of samples ``x``, tones in them; empty where they can."""
+    return in_the_way(left, rate, models.best) or unfinished(models, left) or uneven(models.best, x, rate, guide)
+
+
+def uneven(model: SplineModel, x: Array, rate: float, guide: Array) -> str:
+    """Why a model cannot be trusted that leaves far more than short stretches by themselves do: a jump in its way.
+
+    Tones beside the oscillation stay in ``x``: what was taken for them may be the jump.
+
+    >>> from ridgeback.numeric.harmonics.signal_model import signal_models
+    >>> t, noise = np.arange(480) / 16.0, 0.003 * np.random.default_rng(1).normal(size=480)
+    >>> for second in (6.0, 8.0):
+    ...     guide = np.where(t < 15.0, 6.0, second)
+    ...     x = np.cos(guide * t) + noise
+    ...     print(uneven(signal_models(x, 16.0, guide, half=30, multiples=()).best, x, 16.0, guide)[:39])
+    <BLANKLINE>
+    a model of the whole leaves 47 times as
+    """
+    if model.noise < LEAST * float(model.size.max()):
+        return ""
+    half = round(0.5 * WINDOW_CYCLES * TWO_PI * rate / float(np.median(model.omega)))
+    centres = np.arange(half, x.size - half, max(half, x.size // MOST_WINDOWS))
+    if centres.size < FEWEST_WINDOWS:
+        return ""
+    try:
+        fit = harmonic_fit(x, rate, guide, half=half, shape=Shape(model.multiples), centres=centres)
+    except InputError:
+        return ""
+    typical = float(np.median(fit.noise))
+    if model.noise <= ROUGH * typical:
+        return ""
+    ratio = f"{model.noise / typical:.2g}" if typical > 0.0 else "many"
+    return (
+        f"a model of the whole leaves {ratio} times as much as stretches of {WINDOW_CYCLES:g} cycles by themselves, as "
+        "it does where the motion jumps; give a --span in which it goes on smoothly"
+    )
+
+
+def in_the_way(left: Array, rate: float, model: SplineModel) -> str:
+    """Why a model cannot be trusted: a line in its band that is left; empty where there is none."""
+    line = clearest_line(left, rate, LEAST * float(model.size.max()))
+    low, high = float(model.omega.min()) / NEAR, float(model.omega.max()) * NEAR
+    if line is None or not low < line < high:
+        return ""
+    return (
+        f"another component near {line / TWO_PI:.4g} cycles per unit shares the band, and no model of both fits; "
+        "give a --band or a --span in which there is one oscillation"
+    )
+
+
+def unfinished(models: SignalModels, left: Array) -> str:
+    """Why models cannot be trusted that go on gaining to fine knots; empty where they do not.
+
+    Where what they leave in their band is as weak as beyond it, they have come to the noise, and the end is at hand;
+    an amplitude that swings all the same is that of beats.
+    """
+    best = min(models.others, key=lambda model: model.criterion)
+    exact = best.noise < LEAST * float(best.size.max())
+    if exact or best.breaks.size - 1 < MANY or best.cycles > CLOSE:
+        return ""
+    if is_white(left, models.best.band) and swing(models.best) < STEADY:
+        return ""
+    return (
+        f"models of one oscillation go on gaining down to a knot every {best.cycles:.2g} cycles, as they do with "
+        "several components or jumps; give a --band or a --span in which there is one oscillation"
+    )
+
+
+def swing(model: SplineModel) -> float:
+    """How far the logarithm of a model's amplitude goes from a parabola, rms."""
+    log = np.log(model.size)
+    return float(np.std(log - np.polyval(np.polyfit(model.time, log, 2), model.time)))
+
+
+# Means of n ordinates of the periodogram of white noise scatter by 1/sqrt(n) of their expectation.
+def is_white(left: Array, band: tuple[float, float]) -> bool:
+    """Whether the power per ordinate in a band, rad per sample, is not above that beyond it by THREE_SIGMA or more.
+
+    >>> white, t = np.random.default_rng(1).normal(size=800), np.arange(800)
+    >>> is_white(white, (0.1, 0.8)), is_white(white + np.cos(0.4 * t), (0.1, 0.8))
+    (True, False)
+    """
+    power, w = np.abs(rfft(left)) ** 2, TWO_PI * rfftfreq(left.size)
+    inside, beyond = power[(w > band[0]) & (w < band[1])], power[w > band[1]]
+    if min(inside.size, beyond.size) < FEWEST:
+        return False
+    allowed = 1.0 + THREE_SIGMA * math.sqrt(1.0 / inside.size + 1.0 / beyond.size)
+    return bool(inside.mean() < allowed * beyond.mean())

@@ -1,0 +1,95 @@
+"""Identification of recordings as people have them: borders, clipping, hum, other quantities, and no claim in doubt."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from ridgeback.common.errors import InputError
+from ridgeback.compare.identification.identify import identify
+from ridgeback.compare.identification.results import Identification
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.motion.dynamics import duffing
+from ridgeback.numeric.motion.trajectory import integrate
+from ridgeback.numeric.recording.quantity import as_displacement, as_said
+from ridgeback.numeric.recording.recording import Recording
+
+RNG = np.random.default_rng(11)
+FEW = ("linear", "duffing-hardening")
+
+
+def near(found: Identification, name: str, truth: float) -> bool:
+    """Whether a parameter lies within 3.5 of its deviations."""
+    parameter = found.best.parameter(name)
+    return abs(parameter.value - truth) < 3.5 * parameter.standard_deviation < 0.05 * abs(truth)
+
+
+def of(x: Array, rate: float, name: str = "u") -> Recording:
+    """A recording with noise of 0.003 of its largest sample."""
+    return Recording.from_arrays(x + 0.003 * np.abs(x).max() * RNG.normal(size=x.size), rate, name=name)
+
+
+def test_what_is_held_and_stopped_is_left_out_and_said() -> None:
+    t = np.arange(900) / 20.0
+    moving = np.exp(-0.01 * (t - 4.0)) * np.cos(6.0 * (t - 4.0))
+    found = identify(of(np.where(t < 4.0, 1.0, np.where(t < 40.0, moving, 0.0)), 20.0), candidates=FEW)
+    assert found.best.name == "linear"
+    assert near(found, "mu", 0.01)
+    assert found.unexplained < 0.01
+    assert any("the rest is left out" in note for note in found.notes)
+
+
+def test_clipped_samples_enter_no_fit() -> None:
+    t = np.arange(600) / 20.0
+    recording = of(np.exp(-0.05 * t) * np.cos(12.0 * t), 20.0)
+    clipped = Recording.from_arrays(np.clip(recording.values, -0.6, 0.6), 20.0, name="u")
+    found = identify(clipped, candidates=("linear",))
+    assert found.samples < 600
+    assert near(found, "mu", 0.05)
+    assert near(found, "a0", 1.0)
+
+
+def test_a_hum_is_taken_off_and_said() -> None:
+    t = np.arange(900) / 15.0
+    found = identify(of(np.exp(-0.05 * t) * np.cos(12.0 * t) + 0.05 * np.cos(13.5 * t), 15.0), candidates=FEW)
+    assert near(found, "mu", 0.05)
+    assert any("a steady tone" in note for note in found.notes)
+
+
+@pytest.fixture(scope="module")
+def accelerated() -> Array:
+    dynamics = duffing(k=12.0, eps=60.0, mu=0.05)
+    run = integrate(dynamics, (1.0, 0.0), duration=25.0, rate=25.0, rtol=1e-9)
+    return np.asarray([-dynamics.force(u, v) for u, v in zip(run.u, run.velocity, strict=True)])
+
+
+def test_a_waveform_that_contradicts_a_displacement_is_refused(accelerated: Array) -> None:
+    recording = of(accelerated, 25.0)
+    with pytest.raises(InputError, match="waveform contradicts a displacement, and is that of an acceleration"):
+        identify(recording, candidates=FEW)
+    found = identify(as_displacement(recording, "acceleration"), candidates=FEW)
+    assert found.best.name == "duffing-hardening"
+    assert near(found, "mu", 0.05)
+    assert near(found, "eps", 60.0)
+    insisted = identify(as_displacement(recording, "displacement"), candidates=FEW)
+    assert "No interval is claimed: the best candidate leaves" in insisted.verdict
+    assert all(math.isnan(one.standard_deviation) for one in insisted.best.parameters)
+
+
+def test_a_name_that_says_another_quantity_is_believed(accelerated: Array) -> None:
+    recording = of(accelerated, 25.0, name="acc_z")
+    with pytest.raises(InputError, match="give --quantity acceleration"):
+        identify(recording, candidates=FEW)
+    assert "--quantity acceleration converts it" in as_said(recording, None).notes[0]
+    assert as_said(recording, "acceleration").notes[0].startswith("The acceleration was converted")
+
+
+def test_no_interval_is_claimed_where_no_candidate_describes_the_samples() -> None:
+    t = np.arange(240) / 8.0
+    jumping = np.where(t < 15.0, np.cos(6.0 * t), np.cos(8.0 * t))
+    found = identify(of(jumping, 8.0), candidates=("linear",), laws=("linear",))
+    assert found.unclaimed
+    assert found.unclaimed in found.verdict
+    assert np.isnan(found.best.omega_low).all()
