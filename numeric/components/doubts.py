@@ -99,9 +99,9 @@ def unfinished(models: SignalModels, left: Array) -> str:
 
 
 def swing(model: SplineModel) -> float:
-    """How far the logarithm of a model's amplitude goes from a parabola, rms."""
-    log = np.log(model.size)
-    return float(np.std(log - np.polyval(np.polyfit(model.time, log, 2), model.time)))
+    """How far the logarithm of a model's amplitude goes from a parabola in its phase, rms."""
+    log, turned = np.log(model.size), model.phase / float(model.phase[-1])
+    return float(np.std(log - np.polyval(np.polyfit(turned, log, 2), turned)))
 
 
 # Means of n ordinates of the periodogram of white noise scatter by 1/sqrt(n) of their expectation.

@@ -101,25 +101,27 @@ def separated(
     ([(14.0, 0.0)], 0.003)
     """
     sound = np.ones(x.size, dtype=np.bool_) if excluded is None else ~excluded
-    filled, time = x, np.arange(x.size) / rate
+    filled = x
     if not sound.all():
         bare = signal_models(x, rate, guide, half=half, multiples=(), known=Known(sound.astype(float)))
         filled = np.where(sound, x, bare.best.samples())
-    models, tones = with_tones(filled, rate, guide, half, multiples, sound, most)
+    given = Given(filled, rate, guide, half, multiples, sound)
+    models, tones = with_tones(given, (), most)
     count = 0
     for _ in range(ROUNDS):
-        left, cycle = residual(filled, models.best, tones), TWO_PI * rate / float(np.median(guide))
-        off = spikes(left, cycle, float(models.best.size.max())) & sound
+        left, cycle = residual(given.x, models.best, tones), TWO_PI * rate / float(np.median(guide))
+        off = spikes(left, cycle, float(models.best.size.max())) & given.sound
         if not off.any():
             break
-        sound, count = sound & ~off, count + int(off.sum())
-        filled = np.where(sound, x, models.best.samples() + total(tones, time))
-        models, tones = with_tones(filled, rate, guide, half, multiples, sound, most)
-    left = residual(filled, models.best, tones)
+        sound, count = given.sound & ~off, count + int(off.sum())
+        filled = np.where(sound, x, models.best.samples() + total(tones, given.time))
+        given = replace(given, x=filled, sound=sound)
+        models, tones = with_tones(given, tones, most)
+    left = residual(given.x, models.best, tones)
     omega = float(np.average(models.best.omega, weights=models.best.size**2))
     known = models.coloured(colour(left, rate, omega, models.best.basis.count))
-    single = np.where(sound, filled - total(tones, time), models.best.samples())
-    return Separated(single, known, sound, tones, count, doubt(known, filled, left, rate, guide))
+    single = np.where(given.sound, given.x - total(tones, given.time), models.best.samples())
+    return Separated(single, known, given.sound, tones, count, doubt(known, given.x, left, rate, guide))
 
 
 @lru_cache(maxsize=2)
@@ -154,53 +156,65 @@ def residual(x: Array, model: SplineModel, tones: tuple[Tone, ...]) -> Array:
     return x - model.samples() - total(tones, model.time)
 
 
-def with_tones(
-    x: Array, rate: float, guide: Array, half: int, multiples: tuple[int, ...] | None, sound: Mask, most: int
-) -> tuple[SignalModels, tuple[Tone, ...]]:
-    """Models of the oscillation, and the tones beside it, one after the other as long as they gain."""
-    time, tones = np.arange(x.size) / rate, ()
-    here: tuple[Tone, ...] = tones
-    known = Known(None if sound.all() else sound.astype(float))
-    models = signal_models(x, rate, guide, half=half, multiples=multiples, known=known)
-    for _ in range(most):
-        found = one_more(x, rate, models, here, known)
+@dataclass(frozen=True)
+class Given:
+    """Samples with what is known of them: ``separated`` says what each is; ``sound`` those that count."""
+
+    x: Array
+    rate: float
+    guide: Array
+    half: int
+    multiples: tuple[int, ...] | None
+    sound: Mask
+
+    @property
+    def time(self) -> Array:
+        """From the first sample on."""
+        return np.arange(self.x.size) / self.rate
+
+    @property
+    def known(self) -> Known:
+        """In the words of the models."""
+        return Known(None if self.sound.all() else self.sound.astype(float))
+
+    def beside(self, tones: tuple[Tone, ...]) -> SignalModels:
+        """Models of the oscillation beside tones, whose error is in theirs."""
+        time, known = self.time, self.known
+        if tones:
+            known = replace(known, beside=np.concatenate([tone.tangent(time) for tone in tones], axis=1))
+        left = self.x - total(tones, time)
+        return signal_models(left, self.rate, self.guide, half=self.half, multiples=self.multiples, known=known)
+
+
+def with_tones(given: Given, here: tuple[Tone, ...], most: int) -> tuple[SignalModels, tuple[Tone, ...]]:
+    """Models of the oscillation, and the tones beside it: those that are here, and more as long as they gain."""
+    models = given.beside(here)
+    while len(here) < most:
+        found = one_more(given, models, here)
         if found is None:
             break
         try:
-            fewer = beside(x, rate, guide, half, multiples, known, found)
-            again_found = in_turns(x, fewer.best, found, known)[1]
-            if float(np.abs(total(again_found, time) - total(found, time)).max()) > SAME * fewer.best.noise:
-                fewer, found = beside(x, rate, guide, half, multiples, known, again_found), again_found
+            models, here = settled(given, found)
         except InputError:
             break
-        models, here = fewer, found
     return models, here
 
 
-def beside(
-    x: Array,
-    rate: float,
-    guide: Array,
-    half: int,
-    multiples: tuple[int, ...] | None,
-    known: Known,
-    tones: tuple[Tone, ...],
-) -> SignalModels:
-    """Models of the oscillation beside tones, whose error is in theirs."""
-    time = np.arange(x.size) / rate
-    tangent = np.concatenate([tone.tangent(time) for tone in tones], axis=1)
-    left = x - total(tones, time)
-    return signal_models(left, rate, guide, half=half, multiples=multiples, known=replace(known, beside=tangent))
+def settled(given: Given, tones: tuple[Tone, ...]) -> tuple[SignalModels, tuple[Tone, ...]]:
+    """Models beside tones, and the tones beside those models."""
+    models = given.beside(tones)
+    new = in_turns(given.x, models.best, tones, given.known)[1]
+    moved = float(np.abs(total(new, given.time) - total(tones, given.time)).max())
+    return (given.beside(new), new) if moved > SAME * models.best.noise else (models, tones)
 
 
-def one_more(
-    x: Array, rate: float, models: SignalModels, tones: tuple[Tone, ...], known: Known
-) -> tuple[Tone, ...] | None:
+def one_more(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> tuple[Tone, ...] | None:
     """The tones with one more beside the oscillation; None where none is worth its parameters."""
-    least = min(model.criterion + STRICTER * (model.parameters - model.basis.count) for model in models.others)
+    x, rate, known = given.x, given.rate, given.known
+    goal = min(model.criterion + STRICTER * (model.parameters - model.basis.count) for model in models.others) - GAIN
     tried: list[float] = []
-    best: tuple[float, tuple[Tone, ...]] | None = None
-    simple = tuple(plain(x - total(tones, models.best.time), models.best, known))
+    found: tuple[Tone, ...] | None = None
+    simple = tuple(plain(x - total(tones, given.time), models.best, known))
     every = models.others if suspicious(x, rate, models, tones) else ()
     for model in (*simple, *every):
         line = clearest_line(residual(x, model, tones), rate, LEAST * float(model.size.max()))
@@ -209,11 +223,11 @@ def one_more(
         if is_harmonic(line, model):
             continue
         tried += [] if any(model is one for one in simple) else [line]
-        score, found = together(x, model, tones, line, known)
-        small = any(tone.amplitude < LEAST * float(model.size.max()) for tone in found)
-        if not small and (best is None or score < best[0]):
-            best = score, found
-    return best[1] if best is not None and best[0] < least - GAIN else None
+        score, more = together(x, model, tones, line, known, goal)
+        small = any(tone.amplitude < LEAST * float(model.size.max()) for tone in more)
+        if not small and score < goal:
+            goal, found = score, more
+    return found
 
 
 def suspicious(x: Array, rate: float, models: SignalModels, tones: tuple[Tone, ...]) -> bool:
@@ -244,17 +258,22 @@ def is_harmonic(line: float, model: SplineModel) -> bool:
 
 
 def together(
-    x: Array, model: SplineModel, tones: tuple[Tone, ...], line: float, known: Known
+    x: Array, model: SplineModel, tones: tuple[Tone, ...], line: float, known: Known, goal: float
 ) -> tuple[float, tuple[Tone, ...]]:
     """Akaike's criterion of a model and its tones with one more, fitted in turns, and the tones."""
     more = fitted_tone(residual(x, model, tones), model.time, line, known.sound_of(x.size))
-    return in_turns(x, model, (*tones, more), known)
+    return in_turns(x, model, (*tones, more), known, goal=goal)
 
 
-def in_turns(x: Array, model: SplineModel, found: tuple[Tone, ...], known: Known) -> tuple[float, tuple[Tone, ...]]:
-    """The criterion of a model and tones, each fitted to what the others leave until nothing moves, and the tones."""
+def in_turns(
+    x: Array, model: SplineModel, found: tuple[Tone, ...], known: Known, *, goal: float = math.inf
+) -> tuple[float, tuple[Tone, ...]]:
+    """The criterion of a model and tones, each fitted to what the others leave until nothing moves, and the tones.
+
+    Given up where the criterion falls too slowly to come to the ``goal`` in the turns that are left.
+    """
     time, sound, score = model.time, known.sound_of(x.size), math.inf
-    for _ in range(TURNS):
+    for turn in range(1, TURNS + 1):
         model = again(x - total(found, time), model, known)
         for i, tone in enumerate(found):
             others = (*found[:i], *found[i + 1 :])
@@ -263,7 +282,7 @@ def in_turns(x: Array, model: SplineModel, found: tuple[Tone, ...], known: Known
         parameters = model.parameters - model.basis.count + sum(tone.tangent(time).shape[1] for tone in found)
         off, floor = residual(x, model, found) * sound, 1e-14 * float(model.size.max())
         before, score = score, akaike(off, model.band, count=model.count, parameters=parameters, floor=floor)
-        if before - score < RESTED:
+        if before - score < RESTED or score + STRICTER * parameters - (before - score) * (TURNS - turn) > goal:
             break
     return score + STRICTER * parameters, found
 

@@ -13,7 +13,6 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.arrays import Mask
 from ridgeback.numeric.estimators.auto import for_auto, for_least_squares
-from ridgeback.numeric.estimators.clear_stretch import clear_stretch, followed_stretch
 from ridgeback.numeric.estimators.global_harmonics import by_harmonic_splines, with_spline_interval
 from ridgeback.numeric.estimators.higher_harmonics import harmonic_with_interval, locked_track
 from ridgeback.numeric.estimators.memory import check_memory, without_room
@@ -28,6 +27,7 @@ from ridgeback.numeric.model_fit.track import model_track
 from ridgeback.numeric.signal.decimation import PER_CYCLE, Samples, checked, decimated
 from ridgeback.numeric.signal.presence import presence
 from ridgeback.numeric.tracking.choices import Scope
+from ridgeback.numeric.tracking.own_stretch import has_model, in_its_stretch
 from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, Request, prepared, refuse_cross_term
 from ridgeback.numeric.tracking.settings import refuse_unused
 from ridgeback.numeric.tracking.track import NORMAL_95, Track
@@ -293,36 +293,6 @@ def estimation(
 def without_bias_of(request: Request) -> Request:
     """The same request without the bias: that of noise is not to be estimated."""
     return replace(request, options=replace(request.options, bias=False))
-
-
-def in_its_stretch(request: Request, samples: Samples) -> Request:
-    """The request for the samples whose amplitude stands above the noise."""
-    stretch = clear_stretch(request)
-    if stretch is not None:
-        return part_of(request, samples, stretch, "the amplitude stands above the noise")
-    if not request.options.bias or has_model(request):
-        return request
-    followed = followed_stretch(request)
-    if followed is None:
-        return request
-    part = part_of(request, samples, followed, "the frequency changes slowly enough to be followed")
-    return part if has_model(part) else request
-
-
-def has_model(request: Request) -> bool:
-    """Whether a model of all of the samples settles."""
-    try:
-        return request.models is not None
-    except InputError:
-        return False
-
-
-def part_of(request: Request, samples: Samples, stretch: slice, why: str) -> Request:
-    """The request for some of the samples, and the reason that they are those."""
-    first = samples.start + stretch.start / samples.rate
-    wrong = None if samples.wrong is None else samples.wrong[stretch]
-    part = prepared(replace(samples, x=samples.x[stretch], start=first, wrong=wrong), request.options)
-    return replace(part, signal=replace(part.signal, span_why=why))
 
 
 def with_motion_of(request: Request, samples: Samples) -> Samples:

@@ -109,3 +109,31 @@ def test_a_tone_meets_its_bound() -> None:
     ]
     assert np.std([tone.omega for tone in found]) == pytest.approx(bound[2], rel=0.3)
     assert np.std([tone.growth for tone in found]) == pytest.approx(bound[3], rel=0.3)
+
+
+def test_close_modes_are_told_apart_by_a_plain_oscillation() -> None:
+    """Two beats a record: many knots could follow them, which leave no line."""
+    t = np.arange(2400) / RATE
+    rng = np.random.default_rng(2)
+    x = sum(a * np.exp(-0.38 * t) * np.cos(2 * np.pi * f * t) for a, f in ((1.0, 20.0), (0.5, 20.4)))
+    track = estimate(x + 0.01 * rng.normal(size=t.size), RATE)
+    assert [round(tone.omega / (2 * np.pi), 1) for tone in track.used.tones] == [20.4]
+    assert track.interval is not None
+    assert np.mean(track.interval.holds(np.full(t.size, 2 * np.pi * 20.0))) > 0.8
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_modes_that_cross_claim_nothing(seed: int) -> None:
+    """A frequency that falls from 22 through a mode at 21.5."""
+    t = np.arange(1600) / RATE
+    a = np.exp(-0.4 * t)
+    phase = 2 * np.pi * 20.0 * (t + 0.1 * (1.0 - a**2) / 0.8)
+    other = 0.3 * np.exp(-0.54 * t) * np.cos(2 * np.pi * 21.5 * t + seed)
+    x = a * np.cos(phase) + other + 0.01 * np.random.default_rng(seed).normal(size=t.size)
+    assert estimate(x, RATE).no_interval is not None
+
+
+def test_a_frequency_that_jumps_claims_nothing() -> None:
+    t = np.arange(240) / 8.0
+    x = np.where(t < 15.0, np.cos(6.0 * t), np.cos(8.0 * t)) + 0.003 * np.random.default_rng(1).normal(size=240)
+    assert estimate(x, 8.0).no_interval is not None

@@ -22,6 +22,8 @@ WEAKER = 0.5
 """What is cut has, on the mean, at most this share of the clearness of what is kept."""
 ROUGH = 1.5
 """A residual above that of the next windows inside by this factor is that of a jump."""
+LOUD = 0.2
+"""Of the amplitude, that a fit leaves where there is a motion which it does not follow: what is cut is quiet."""
 NEAR, MOSTLY = 1.6, 0.5
 """Where the search band's guide strays from its centre by more than this factor there is nothing to guide it, unless
 most of the power is there: a long chirp."""
@@ -61,6 +63,9 @@ def clear_stretch(request: Request) -> slice | None:
     first, last = int(clear[0]), int(clear[-1])
     outside = np.concatenate([clearness[:first], clearness[last + 1 :]])
     if outside.size == 0 or float(outside.mean()) > WEAKER * float(np.median(clearness[clear])):
+        return None
+    beyond = np.concatenate([fit.noise[:first], fit.noise[last + 1 :]])
+    if float(np.median(beyond)) > LOUD * float(np.median(np.abs(fit.amplitude[clear]))):
         return None
     begin, end = 0, x.size
     if first > 0:
