@@ -25,6 +25,7 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.compare.drift.results import DriftComparison as DriftComparison
     from ridgeback.compare.identification.confusion import confusion as confusion
     from ridgeback.compare.identification.results import Identification as Identification
+    from ridgeback.compare.motion.harmonics.components import Components as Components
     from ridgeback.compare.recording.measurements import measure_recordings as measure_recordings
     from ridgeback.compare.recording.samples import Sample as Sample
     from ridgeback.compare.recording.samples import sample as sample
@@ -33,6 +34,7 @@ if TYPE_CHECKING:  # what the table of ``public`` says, for those who read types
     from ridgeback.compare.study.certified import certified_rows as certified_rows
     from ridgeback.compare.study.results import Study as Study
     from ridgeback.interface.benchmark import benchmark as benchmark
+    from ridgeback.interface.components import components as components
     from ridgeback.interface.derive import derive as derive
     from ridgeback.interface.derive import generate as generate
     from ridgeback.interface.drift import drift as drift

@@ -8,6 +8,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
+from ridgeback.compare.benchmark.account import account
 from ridgeback.compare.benchmark.crossings import crossings
 from ridgeback.compare.benchmark.judging import common_support, coverages, judged, reference_of, relative_errors
 from ridgeback.compare.benchmark.results import Benchmark
@@ -96,4 +97,5 @@ def assembled(motion: Motion, contenders: list[Contender]) -> Benchmark:
         time=motion.time,
         amplitude=amplitude,
         errors=errors,
+        account=account(motion),
     )

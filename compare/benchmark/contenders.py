@@ -44,13 +44,11 @@ class Reference(Brief):
     numerical_error: float
     definition: float
     """How far two readings of the same motion differ: below it, omega0(t) of a decay is not defined."""
-    integration: float = 0.0
-    """What the two integrations differ by in phase at the end, over the whole phase."""
 
     @property
     def floor(self) -> float:
         """The error below which two contenders cannot be told apart."""
-        return max(self.numerical_error, self.definition, self.integration)
+        return max(self.numerical_error, self.definition)
 
 
 @dataclass(frozen=True, repr=False)

@@ -92,17 +92,7 @@ def reference_of(motion: Motion, support: Mask) -> Reference:
         label="cycle frequency of the integrated solution",
         numerical_error=max(rms(motion.cycle.interpolation_error_at(time)), integration_error(motion)),
         definition=rms(motion.cycle.spread_at(time)),
-        integration=_integration(motion),
     )
-
-
-# a phase error of |delta u| / A at the end of the record, over the whole phase
-def _integration(motion: Motion) -> float:
-    """Relative error of the mean frequency that the two integrations leave open; 0 where there was only one."""
-    run = motion.trajectory
-    phase = float(np.mean(motion.known_omega)) * (motion.time[-1] - motion.time[0])
-    error = motion.disagreement / (float(np.abs(run.u).max()) * phase)
-    return float(error) if np.isfinite(error) else 0.0
 
 
 def integration_error(motion: Motion) -> float:

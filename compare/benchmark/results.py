@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ridgeback.compare.benchmark.account import Account
 from ridgeback.compare.benchmark.contenders import Crossings, Reference, Row, Verdict
 from ridgeback.compare.benchmark.shown import ShownBenchmark
 from ridgeback.compare.motion.results import Case
@@ -40,6 +41,8 @@ class Benchmark(ShownBenchmark):
         Amplitude there, in the unit of u.
     errors : array of float, shape (R, N)
         Signed relative error of each row along the motion; NaN where it gives nothing.
+    account : Account, optional
+        The motion's energy (15)-(19), its components (7), and which multiples its sampling folds.
 
     Examples
     --------
@@ -58,6 +61,7 @@ class Benchmark(ShownBenchmark):
     time: Array
     amplitude: Array
     errors: Array
+    account: Account | None = None
 
     def __post_init__(self) -> None:
         freeze(self)

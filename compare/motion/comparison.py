@@ -12,9 +12,9 @@ from ridgeback.compare.binding.heyoka import integrate_heyoka
 from ridgeback.compare.motion.error_budget import budget
 from ridgeback.compare.motion.error_norms import failure, score
 from ridgeback.compare.motion.estimate_curves import RECIPES, WIGNER, Outcome, Recipe, estimates
+from ridgeback.compare.motion.harmonics.overtones import FOLDING_DB, Overtones, folding_of, overtones
 from ridgeback.compare.motion.model_curves import LOW_ORDERS, model_curves
 from ridgeback.compare.motion.motion import CHECKED, Motion, Setting, integrate_motion
-from ridgeback.compare.motion.overtones import Overtones, overtones
 from ridgeback.compare.motion.paper_statements import Evidence, statements
 from ridgeback.compare.motion.planes import spectrogram_image, wigner_plane
 from ridgeback.compare.motion.reconstruction import KnownMotion, known_motion, reconstruct
@@ -34,6 +34,8 @@ from ridgeback.compare.study.derived import Derived, derive
 HIGH_ORDER = 20
 TOP_MULTIPLE = 8
 """Highest multiple of the fundamental that the spectrograms show."""
+WHOLE = 11
+"""The whole band of the derivative is shown where half the rate is below this multiple: something is folded there."""
 SIGNED_TOP = 2.3
 """The same for the Wigner distribution: fundamental, ridge and the cross term with the third harmonic."""
 
@@ -143,6 +145,7 @@ def assemble(
         wigner_u=plane,
         harmonics=tones.curves,
         statements=statements(evidence),
+        folding=folding_of(motion, tones.of_velocity),
         wigner_bias=bias,
     )
 
@@ -199,11 +202,19 @@ def _images(motion: Motion, curves: tuple[Curve, ...]) -> tuple[Image, Image, Si
     run = motion.trajectory
     fastest, slowest = float(motion.known_omega.max()), float(motion.known_omega.min())
     top, period = TOP_MULTIPLE * fastest, 2 * np.pi / slowest
-    name = motion.setting.case().symbol
+    name, nyquist = motion.setting.case().symbol, np.pi * run.rate
     wigner, unit = _named(curves, WIGNER), motion.setting.time_unit
     return (
         spectrogram_image(run.u, run.rate, period=period, top=top, name=f"Spectrogram of {name}", unit=unit),
-        spectrogram_image(run.velocity, run.rate, period=period, top=top, name=f"Spectrogram of {name}′", unit=unit),
+        spectrogram_image(
+            run.velocity,
+            run.rate,
+            period=period,
+            top=max(top, nyquist) if nyquist < WHOLE * fastest else top,
+            name=f"Spectrogram of {name}′",
+            unit=unit,
+            floor_db=FOLDING_DB,
+        ),
         wigner_plane(
             run.u,
             run.rate,

@@ -16,20 +16,19 @@ from ridgeback.common.numbers import decibels, offset, per_cent, scientific, sig
 from ridgeback.common.quantities import frequency, short_amplitude
 from ridgeback.compare.motion.error_norms import relative_error
 from ridgeback.compare.motion.estimate_curves import SMOOTHED, WIGNER, WIGNER_OF_VELOCITY
-from ridgeback.compare.motion.model_curves import CLOSED_FORM, LOW_ORDERS, expansion_name
-from ridgeback.compare.motion.motion import Motion
-from ridgeback.compare.motion.order_analysis import Orders, Ripple, ripple
-from ridgeback.compare.motion.overtones import (
-    FOLDING_DB,
+from ridgeback.compare.motion.harmonics.folding import folded_sentence
+from ridgeback.compare.motion.harmonics.order_analysis import Orders, Ripple, ripple
+from ridgeback.compare.motion.harmonics.overtones import (
     Overtone,
     Overtones,
     even_sentence,
-    folded_sentence,
-    folding,
+    folding_of,
     ratio_error,
     seen,
     slope,
 )
+from ridgeback.compare.motion.model_curves import CLOSED_FORM, LOW_ORDERS, expansion_name
+from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.reconstruction import model_phase, relative_rms
 from ridgeback.compare.motion.results import BiasCause, Curve, Reconstruction, Score, Statement, WignerBias
 from ridgeback.numeric.arrays import Array, Mask
@@ -162,14 +161,11 @@ def _derivative(e: Evidence) -> Statement:
     multiples = e.overtones.multiples
     gains = [f"{m} by {v.level_db(m) - u.level_db(m):.1f} dB (20 log {m} = {20 * np.log10(m):.1f})" for m in multiples]
     raised = f"Differentiation raises harmonic {', '.join(gains)}. " if gains else ""
-    run = e.motion.trajectory
-    fastest = float(e.motion.known_omega.max()) / (2.0 * np.pi)
-    found = folding(seen(e.motion, v, least_db=FOLDING_DB), fastest, run.rate)
     return Statement(
         figure=3,
         title="Time-frequency plane of the derivative",
         paper="The higher harmonics stand out more, by the factor ω² in the power spectrum; two are aliased.",
-        measured=(f"{raised}{folded_sentence(found, fastest, run.rate, e.hertz)}"),
+        measured=(f"{raised}{folded_sentence(folding_of(e.motion, v), e.hertz)}"),
     )
 
 

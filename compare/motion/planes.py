@@ -33,6 +33,7 @@ def spectrogram_image(
     overlays: tuple[Curve, ...] = (),
     start: float = 0.0,
     unit: str = "",
+    floor_db: float = FLOOR_DB,
 ) -> Image:
     """Spectrogram of ``x`` with a window of a few periods, up to the angular frequency ``top``; ``unit`` is of time."""
     seconds = min(WINDOW_CYCLES * period, 0.5 * x.size / rate)
@@ -43,7 +44,7 @@ def spectrogram_image(
         f"Hann window of {seconds:.3g} {unit or 'time units'}; {rate:.4g} samples per {unit or 'time unit'}.  Shown "
         "from half a window inside the record: nearer its ends the window would see past them."
     )
-    return image(whole, top=top, name=name, overlays=overlays, note=note)
+    return image(whole, top=top, name=name, overlays=overlays, note=note, floor_db=floor_db)
 
 
 def columns(plane: Distribution, keep: Mask) -> Distribution:

@@ -12,6 +12,7 @@ from enum import Enum
 from typing import Literal
 
 from ridgeback.common.show.brief import Brief
+from ridgeback.compare.motion.harmonics.folding import Folding
 from ridgeback.numeric.arrays import Array, Mask
 
 Kind = Literal["reference", "model", "expansion", "estimate"]
@@ -233,6 +234,8 @@ class MotionComparison(Brief):
     harmonics: tuple[Curve, ...]
     """Harmonic tracks (omega of the harmonic itself, not divided), their predictions, and the raw peak."""
     statements: tuple[Statement, ...]
+    folding: Folding
+    """Which multiples the sampling rate folds back."""
     wigner_bias: WignerBias | None = None
     """Why the full Wigner peak is off; None for an oscillator without a potential."""
 

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ridgeback.common.numbers import number, offset, per_cent, two_digits
-from ridgeback.common.quantities import amplitude, duration
+from ridgeback.common.quantities import amplitude, duration, frequency
 from ridgeback.compare.benchmark.contenders import OrderCrossing, Reference, Row, Verdict
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import closest
+from ridgeback.compare.motion.harmonics.folding import folded_sentence
 from ridgeback.compare.motion.results import BiasCause, MotionComparison
 from ridgeback.compare.report.cards import best_of_way
 from ridgeback.compare.report.naming import REMOVED, capital, estimator, follow, plural, refused_names, short_name
@@ -106,7 +107,12 @@ def findings(found: Benchmark, decay: MotionComparison, derived: Derived | None,
     start
         Peak amplitude at the start, in the unit of u.
     """
-    said = [*_about_start(decay, derived, start), *_from_contenders(found), *_about_wigner(decay, found)]
+    said = [
+        *_about_start(decay, derived, start),
+        *_from_contenders(found),
+        *_about_wigner(decay, found),
+        *_about_sampling(decay),
+    ]
     ranked = sorted(said, key=lambda finding: finding.rank)
     return tuple(finding.text for finding in ranked[:MOST])
 
@@ -121,6 +127,12 @@ def _about_start(decay: MotionComparison, derived: Derived | None, start: float)
             f"{number(radius)} of the series in A: there more orders make it worse."
         )
         yield Finding(0, text)
+
+
+def _about_sampling(decay: MotionComparison) -> Iterator[Finding]:
+    """The paper's footnote 3: which multiples this rate folds back."""
+    if decay.folding.folded:
+        yield Finding(1, folded_sentence(decay.folding, lambda omega: frequency(omega, decay.case.time_unit)))
 
 
 def _from_contenders(found: Benchmark) -> Iterator[Finding]:

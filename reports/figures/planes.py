@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ridgeback.common.numbers import decibels, minus
+from ridgeback.common.quantities import frequency
+from ridgeback.compare.motion.harmonics.folding import Folding, folded, folded_sentence
 from ridgeback.compare.motion.results import Curve, Image, MotionComparison, SignedPlane
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.figure import Figure
@@ -28,22 +30,22 @@ def planes(decay: MotionComparison) -> Figure:
     """Spectrogram and Wigner distribution of the motion, side by side."""
     clock = Clock(decay.case.time_unit)
     span = (float(decay.time[0]), float(decay.time[-1]))
-    strong = _strong(decay)
-    left = level_plane("spectrogram", decay.spectrogram_u, clock, span, decay.reference, strong)
+    image = decay.spectrogram_velocity if decay.folding.folded else decay.spectrogram_u
+    strong = _strong(decay, image)
+    left = level_plane("spectrogram", image, clock, span, decay.reference, strong, decay.folding)
     right = signed_plane("wigner", decay.wigner_u, clock, span)
     return Figure(
         key="planes",
         wide=left + right,
         narrow="",
-        caption=_caption(decay, strong),
+        caption=_caption(decay, image, strong),
         many="two",
         label="Spectrogram and Wigner distribution",
     )
 
 
-def _strong(decay: MotionComparison) -> list[int]:
+def _strong(decay: MotionComparison, image: Image) -> list[int]:
     """Multiples of the fundamental that are ridges of the spectrogram: leakage of a stronger one falls off sideways."""
-    image = decay.spectrogram_u
     known = decay.reference.valid & np.isfinite(decay.reference.omega)
     omega = np.interp(image.time, decay.reference.time[known], decay.reference.omega[known])
     found = []
@@ -64,15 +66,24 @@ def _nearest(axis: Array, values: Array) -> NDArray[np.intp]:
     return np.asarray(np.abs(axis[:, None] - values[None, :]).argmin(axis=0))
 
 
-def _caption(decay: MotionComparison, strong: Sequence[int]) -> str:
+def _caption(decay: MotionComparison, image: Image, strong: Sequence[int]) -> str:
     listed = ", ".join(f"{m} ω₀" for m in strong if m > 1)
-    first = f"Left: {decay.spectrogram_u.note.split('.  ')[0]}; thin lines are multiples of the reference"
+    first = f"Left: {image.note.split('.  ')[0]}; thin lines are multiples of the reference"
     first += f", {listed} standing out." if listed else "; no harmonic stands out."
+    first += _folded(decay)
     bias = _bias(decay)
     return (
         f"{first} Shaded: the window would leave the record. Right: blue positive, orange negative, fringes are cross "
         f"terms; dashed the reference, thick the ridge{bias}."
     )
+
+
+def _folded(decay: MotionComparison) -> str:
+    """Which multiples the sampling folds, and which rates would fold the two highest alone."""
+    if not decay.folding.folded:
+        return ""
+    said = folded_sentence(decay.folding, lambda omega: frequency(omega, decay.case.time_unit))
+    return f" Dashed: multiples beyond half the sampling rate, where they are folded back to. {said}"
 
 
 def _bias(decay: MotionComparison) -> str:
@@ -132,8 +143,9 @@ def level_plane(
     span: tuple[float, float],
     reference: Curve | None,
     multiples: Sequence[int] = (1,),
+    folding: Folding | None = None,
 ) -> str:
-    """One plane in decibels, with multiples of a curve over it and a bar of its colours."""
+    """One plane in decibels, with multiples of a curve over it, folded ones dashed, and a bar of its colours."""
     panel = _frame(span, image.omega, clock)
     box = _box(panel, image.time, image.omega, clock)
     share = np.clip((image.level_db - image.floor_db) / -image.floor_db, 0.0, 1.0)
@@ -149,21 +161,34 @@ def level_plane(
         x = panel.x.of(reference.time)
         inside = (reference.time >= image.time[0]) & (reference.time <= image.time[-1])
         names = []
-        for m in multiples:
-            y = np.where(inside, panel.y.of(m * shown(reference) * clock.factor), np.nan)
+        lines = [(m * shown(reference), f"{m} ω₀" if m > 1 else "ω₀", "rd nf") for m in multiples]
+        if folding is not None:
+            lines += [
+                (folded(m * shown(reference), folding.rate), f"{m} ω₀, folded", "rd d2 nf") for m in folding.folded
+            ]
+        for omega, words, style in lines:
+            y = np.where(inside, panel.y.of(omega * clock.factor), np.nan)
             y = np.where(y >= panel.top, y, np.nan)
             if np.isfinite(y).any():
-                marks.append(curve(x, y, "rd nf"))
+                marks.append(curve(x, y, style))
                 last = int(np.flatnonzero(np.isfinite(y))[-1])
-                beside = float(x[last]) < SIZE[0] - 40
-                at = (float(x[last]) + (3 if beside else -4), float(y[last]) + (4 if beside else -8))
-                words = f"{m} ω₀" if m > 1 else "ω₀"
-                names.append(text(*at, words, "e b sm", "start" if beside else "end"))
+                names.append(_name_of(words, x, y, last))
         marks.append(group(names, "halo"))
     marks += _axes(panel, clock, image.name) + _bar(
         f"{key}-g", [(v, decibels(v)) for v in np.linspace(image.floor_db, 0, 5)], image.floor_db, 0.0, "of the maximum"
     )
     return drawing(*SIZE, "one", f"{image.name}, level in decibels of its maximum", marks)
+
+
+def _name_of(words: str, x: Array, y: Array, last: int) -> str:
+    """The name of a line: at its end, or that of a folded one, which may end anywhere, over its middle."""
+    if "folded" in words:
+        seen = np.flatnonzero(np.isfinite(y))
+        middle = int(seen[seen.size // 3])
+        return text(float(x[middle]), float(y[middle]) - 7, words, "e b sm", "middle")
+    beside = float(x[last]) < SIZE[0] - 40
+    at = (float(x[last]) + (3 if beside else -4), float(y[last]) + (4 if beside else -8))
+    return text(*at, words, "e b sm", "start" if beside else "end")
 
 
 def signed_plane(key: str, plane: SignedPlane, clock: Clock, span: tuple[float, float]) -> str:

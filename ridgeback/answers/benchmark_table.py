@@ -45,6 +45,7 @@ def record(found: Benchmark) -> dict[str, Any]:
         "case": asdict(found.case),
         "reference": {**asdict(found.reference), "floor": found.reference.floor},
         "support": found.support,
+        "motion": None if found.account is None else found.account.to_dict(),
         "rows": [row.to_dict() for row in found.contenders],
         "crossings": [*orders, *amplitudes, *equal],
         "verdict": {
@@ -82,6 +83,7 @@ def readable(found: Benchmark) -> str:
         *passed(found),
         *equal(found),
         "",
+        *(() if found.account is None else (*found.account.sentences(), "")),
         f"{found.verdict.sentence(found.reference)}; {found.verdict.limit}.",
     ]
     return "\n".join(parts) + "\n"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -39,6 +39,7 @@ COLUMNS = ("time_s", "u", "velocity")
 @click.option(
     "--digits", type=click.IntRange(15, 200), default=None, help="Digits that taylor works with.  Default: 30."
 )
+@click.option("--energy", is_flag=True, help="Add the terms of the energy balance, eq. (15)-(19), per unit of mass.")
 @format_option("csv", "json", default="csv")
 @output_option
 def command(
@@ -50,6 +51,7 @@ def command(
     rate: float,
     method: str,
     digits: int | None,
+    energy: bool,
     style: str,
     output: str,
 ) -> None:
@@ -63,17 +65,27 @@ def command(
     \b
     ridgeback simulate pendulum --set mu=0.01 --set k=12.566370614359172 --initial 2.984513,0 -o run.csv
     ridgeback simulate --equation "x'' + 9.81/L*sin(x) = 0" --drift "L=1+0.01*t" --initial 1,0 --duration 60
+    ridgeback simulate damped-duffing --energy -o energy.csv
     ridgeback simulate van-der-pol --duration 60 --method taylor --digits 40 --format json
     """
     oscillator = choice.oscillator()
     if laws:
         drifting = unique(laws, "--drift")
         refuse_twice(choice, drifting)
+        if energy:
+            raise click.UsageError("--energy is of a force that does not change; under --drift energy is not conserved")
         followed(oscillator, drifting, Run(initial, duration, rate, method, digits), style, output)
         return
     start = oscillator.initial if initial is None else initial
     run = trajectory(oscillator, start, duration=duration, rate=rate, method=method, digits=digits)
-    write_text(output, printed(oscillator.name, run, style))
+    write_text(output, printed(oscillator.name, run, style, energy_of(oscillator, run) if energy else ()))
+
+
+def energy_of(oscillator: Oscillator, run: Trajectory) -> Sequence[Mapping[str, float]]:
+    """The terms of the energy balance, one row per sample."""
+    from ridgeback.interface.simulate import energy_terms
+
+    return energy_terms(oscillator, run).rows()
 
 
 @dataclass(frozen=True)
@@ -166,12 +178,16 @@ def trajectory(
     return simulate(oscillator, initial, duration=duration, rate=rate, method=method, digits=digits)
 
 
-def printed(system: str, run: Trajectory, style: str) -> str:
-    """The samples in the form asked for."""
+def printed(system: str, run: Trajectory, style: str, more: Sequence[Mapping[str, float]] = ()) -> str:
+    """The samples in the form asked for, with more columns where there are any."""
     arrays = (run.time.tolist(), run.u.tolist(), run.velocity.tolist())
     rows = [dict(zip(COLUMNS, values, strict=True)) for values in zip(*arrays, strict=True)]
+    columns: tuple[str, ...] = COLUMNS
+    if more:
+        columns = tuple(dict.fromkeys((*COLUMNS, *more[0])))
+        rows = [{**row, **other} for row, other in zip(rows, more, strict=True)]
     if style == "csv":
-        return csv_text(COLUMNS, rows)
+        return csv_text(columns, rows)
     about: dict[str, Any] = {"system": system, "method": run.method, "rtol": run.rtol, "rate": run.rate}
     rest = {} if run.rest_from is None else {"rest_from": run.rest_from}
     return json_text({**about, **rest, "samples": rows})

@@ -20,6 +20,7 @@ from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import judge
 from ridgeback.compare.identification.candidates import DampingLaw
 from ridgeback.compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
+from ridgeback.compare.motion.harmonics.folding import folding
 from ridgeback.compare.motion.results import (
     Amplitudes,
     BudgetRow,
@@ -259,6 +260,7 @@ def make_decay() -> MotionComparison:
         wigner_u=_signed("Wigner distribution of θ", u, (reference, curves[-1])),
         harmonics=harmonics,
         statements=_statements((*curves, *harmonics)),
+        folding=folding((3, 5), 1.5, 64.0),
     )
 
 

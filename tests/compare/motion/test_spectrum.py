@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ridgeback.compare.motion.order_analysis import orders, ripple
+from ridgeback.compare.motion.harmonics.order_analysis import orders, ripple
 from ridgeback.compare.motion.wigner_bias import predicted_bias
 from ridgeback.numeric.estimators.estimate import estimate
 
@@ -49,21 +49,19 @@ def test_the_curvature_formula_is_met_by_the_wigner_peak_of_a_weakly_curved_chir
 
 def test_rates_between_20_6_and_26_4_fold_the_ninth_and_eleventh_multiple_and_not_the_seventh() -> None:
     """Footnote 3 of the paper: 512 samples in 20 s, 25.6 a second, are among them."""
+    from ridgeback.compare.motion.harmonics.folding import folded_sentence, folding
+    from ridgeback.compare.motion.harmonics.order_analysis import orders
+    from ridgeback.compare.motion.harmonics.overtones import even_sentence, folding_of
     from ridgeback.compare.motion.motion import integrate_motion
-    from ridgeback.compare.motion.order_analysis import orders
-    from ridgeback.compare.motion.overtones import FOLDING_DB, even_sentence, folded_sentence, folding, seen
     from ridgeback.compare.motion.paper_case import paper_case
 
     motion = integrate_motion(paper_case(rate=25.6), digits=None)
     levels = orders(lambda t: motion.trajectory.at(t)[1], motion.rising)
-    multiples = seen(motion, levels, least_db=FOLDING_DB)
-    assert multiples == (3, 5, 7, 9, 11)
-    fastest = float(motion.known_omega.max()) / (2 * np.pi)
-    found = folding(multiples, fastest, 25.6)
+    found = folding_of(motion, levels)
     assert (found.folded, found.whole) == ((9, 11), (3, 5, 7))
     assert found.two_fold is not None
     assert [round(rate, 1) for rate in found.two_fold] == [20.6, 26.4]
-    said = folded_sentence(found, fastest, 25.6, lambda omega: f"{omega / (2 * np.pi):.3g} Hz")
+    said = folded_sentence(found, lambda omega: f"{omega / (2 * np.pi):.3g} Hz")
     assert "multiples 9 and 11 are folded back, 3, 5 and 7 are not. Sampling rates between 20.6 and 26.4" in said
     assert "An odd force has odd multiples only" in even_sentence(motion, levels)
     assert folding((3,), 1.0, 64.0).two_fold is None
@@ -71,9 +69,9 @@ def test_rates_between_20_6_and_26_4_fold_the_ninth_and_eleventh_multiple_and_no
 
 def test_leakage_is_no_harmonic_of_an_odd_force() -> None:
     """k = 3, mu = 0.05, 2 rad: the strong decay leaks to even multiples, which an odd force does not have."""
+    from ridgeback.compare.motion.harmonics.order_analysis import orders
+    from ridgeback.compare.motion.harmonics.overtones import leakage_db, seen
     from ridgeback.compare.motion.motion import integrate_motion, setting
-    from ridgeback.compare.motion.order_analysis import orders
-    from ridgeback.compare.motion.overtones import leakage_db, seen
     from ridgeback.symbolic.systems.catalogue import find
 
     for k, mu, third in (("3", "0.05", True), ("2", "0.05", True), ("3", "0.3", False)):

@@ -15,8 +15,10 @@ from ridgeback.public import PUBLIC
 QUICK = {
     *("oscillator", "bind"),  # an equation is parsed
     "energy_terms",  # one quadrature along a trajectory that is there
+    "components",  # one integration, and a sum over each cycle
     *("fixed_points", "cycle_series", "frequency_series"),  # algebra on a flow that is there
     *("read_recording", "read_recordings", "recordings_from_arrays"),  # a million rows in about two seconds
+    "sample",  # one integration or a closed form
     "ridge",  # one search along a plane that is there
 }
 T = np.arange(640) / 32.0

@@ -34,6 +34,7 @@ def results() -> dict[str, Displayed]:
         "recording": recording,
         "trajectory": ridgeback.simulate("pendulum", (1.0, 0.0)),
         "energy": ridgeback.energy_terms("pendulum", ridgeback.simulate("pendulum", (1.0, 0.0), duration=5.0)),
+        "components": ridgeback.components("pendulum", initial=(1.0, 0.0), duration=60.0),
         "track": ridgeback.estimate(recording, method="pseudo-wigner"),
         "backbone": ridgeback.backbone(recording, method="hilbert"),
         "half cycles": ridgeback.half_cycles(recording),
@@ -49,8 +50,8 @@ def results() -> dict[str, Displayed]:
 
 
 KINDS = (
-    *("expansion", "long expansion", "cycle", "flow", "recording", "trajectory", "energy", "track", "backbone"),
-    *("half cycles", "fit", "plane", "study", "cycle study", "benchmark", "identification", "prediction", "report"),
+    *("expansion", "long expansion", "cycle", "flow", "recording", "trajectory", "energy", "components"),
+    *("track", "backbone", "half cycles", "fit", "plane", "study", "cycle study", "benchmark", "identification", "prediction", "report"),
 )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,8 +9,9 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import decibels
 from ridgeback.compare.motion.estimate_curves import CORRECTED, PSEUDO_WIGNER, Outcome
+from ridgeback.compare.motion.harmonics.folding import Folding, folding
+from ridgeback.compare.motion.harmonics.order_analysis import MOST, Orders, orders
 from ridgeback.compare.motion.motion import Motion
-from ridgeback.compare.motion.order_analysis import MOST, Orders, orders
 from ridgeback.compare.motion.results import Curve
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.higher_harmonics import harmonic_track, raw_harmonic_peak
@@ -98,41 +98,10 @@ def seen(motion: Motion, levels: Orders, *, least_db: float = VISIBLE_DB) -> tup
     return tuple(m for m, leaked in beside.items() if levels.level_db(m) > leaked + MARGIN_DB)
 
 
-@dataclass(frozen=True)
-class Folding:
-    """Which multiples the sampling rate folds back, and which rates fold as the paper's footnote 3 has it."""
-
-    folded: tuple[int, ...]
-    """Multiples that pass half the rate at some time of the motion."""
-    whole: tuple[int, ...]
-    """Those that do not."""
-    two_fold: tuple[float, float] | None
-    """Rates, in samples per time unit, at which the two highest multiples are folded and no other; None below three."""
-
-
-# a multiple m is folded when m f_0(t) > rate / 2 at some time t
-def folding(multiples: tuple[int, ...], highest: float, rate: float) -> Folding:
-    """Which multiples are folded.
-
-    Parameters
-    ----------
-    multiples : tuple of int
-        Those of the motion, rising.
-    highest : float
-        Highest frequency of the fundamental, cycles per time unit.
-    rate : float
-        Samples per time unit.
-
-    Examples
-    --------
-    >>> found = folding((3, 5, 7, 9, 11), 1.468, 25.6)
-    >>> found.folded, [round(rate, 1) for rate in found.two_fold]
-    ((9, 11), [20.6, 26.4])
-    """
-    folded = tuple(m for m in multiples if 2.0 * m * highest > rate)
-    whole = tuple(m for m in multiples if m not in folded)
-    two_fold = (2.0 * multiples[-3] * highest, 2.0 * multiples[-2] * highest) if len(multiples) > 2 else None
-    return Folding(folded, whole, two_fold)
+def folding_of(motion: Motion, of_velocity: Orders) -> Folding:
+    """What the rate of a motion folds of the multiples that its derivative shows."""
+    fastest = float(motion.known_omega.max()) / (2.0 * np.pi)
+    return folding(seen(motion, of_velocity, least_db=FOLDING_DB), fastest, motion.trajectory.rate)
 
 
 def even_sentence(motion: Motion, levels: Orders) -> str:
@@ -145,34 +114,6 @@ def even_sentence(motion: Motion, levels: Orders) -> str:
         f"An odd force has odd multiples only; what the analysis finds at the even ones, {decibels(leakage)} at most, "
         "is its own leakage."
     )
-
-
-def folded_sentence(found: Folding, fastest: float, rate: float, hertz: Callable[[float], str]) -> str:
-    """Which multiples of the derivative this sampling folds, and which rates fold the two highest alone."""
-    nyquist = hertz(np.pi * rate)
-    names = [numbers_text(m) for m in (found.folded, found.whole)]
-    if not found.folded:
-        said = f"Nothing that is seen is aliased: multiple {max(found.whole, default=1)} reaches "
-        said += f"{hertz(2.0 * np.pi * max(found.whole, default=1) * fastest)}, the Nyquist frequency is {nyquist}."
-    else:
-        rest = f", {names[1]} {'is' if len(found.whole) == 1 else 'are'} not" if found.whole else ""
-        verb = f"multiple {names[0]} is" if len(found.folded) == 1 else f"multiples {names[0]} are"
-        said = f"Beyond the Nyquist frequency of {nyquist}, {verb} folded back{rest}."
-    if found.two_fold is None:
-        return said
-    low, high = (f"{end:.3g}" for end in found.two_fold)
-    pair = numbers_text(tuple(sorted((*found.folded, *found.whole))[-2:]))
-    return f"{said} Sampling rates between {low} and {high} per time unit fold {pair} alone."
-
-
-def numbers_text(numbers: tuple[int, ...]) -> str:
-    """Numbers in words.
-
-    >>> numbers_text((9, 11)), numbers_text((3, 5, 7))
-    ('9 and 11', '3, 5 and 7')
-    """
-    *first, last = map(str, numbers) if numbers else ("none",)
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def _visible(motion: Motion, levels: Orders) -> tuple[int, ...]:

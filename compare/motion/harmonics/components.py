@@ -1,0 +1,141 @@
+"""The components a_m(t) of eq. (7): measured on the motion at constant phase, and those of the undamped orbit at A(t).
+
+Sampled at equal steps of phase, u = sum over m of a_m cos(m phi + delta_m).  Over two cycles on either side, under a
+Hann window, which is blind to every other multiple,
+
+    c_m = 2 <w u exp(-i m phi)>,    a_m = Re(c_m exp(-i m arg c_1)),
+
+so that a_1 > 0 and a_m has the sign that it has when phi is counted from the peak of the fundamental.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.common.show.displayed import Displayed
+from ridgeback.common.show.picture import Picture, Stroke
+from ridgeback.compare.motion.harmonics.order_analysis import POINTS_PER_CYCLE, phase_clock
+from ridgeback.compare.motion.motion import Motion
+from ridgeback.numeric.arrays import Array, as_rows, freeze
+from ridgeback.numeric.orbits.waveform import orbit_harmonics
+
+COUNT = 9
+MOST = POINTS_PER_CYCLE // 2 - 2
+REACH = 2
+"""Cycles on either side that a value is taken over."""
+SHOWN = 6
+LEAST = 1e-3
+"""Share of the fundamental below which the model is not held against what was measured."""
+
+
+@dataclass(frozen=True, repr=False)
+class Components(Displayed):
+    """The components of a motion by multiples of its fundamental, one value for each cycle.
+
+    Parameters
+    ----------
+    name : str
+        The oscillator's.
+    time : array of float, shape (N,)
+        Times of the rising zero crossings that have two cycles on either side.
+    offset : array of float, shape (N,)
+        The mean of u, in the unit of u.
+    amplitude : array of float, shape (M, N)
+        a_m(t) of the multiples m = 1 .. M, in the unit of u, as measured.
+    model : array of float, shape (M, N), or None
+        The same of the undamped orbit at the averaged action; None without a potential.
+
+    Examples
+    --------
+    >>> import ridgeback
+    >>> found = ridgeback.components("pendulum", initial=(2.0, 0.0), duration=60.0)
+    >>> bool(abs(found.amplitude / found.model - 1)[:3:2].max() < 1e-6)
+    True
+    """
+
+    INDEX: ClassVar[tuple[str, ...]] = ("time_s",)
+
+    name: str
+    time: Array
+    offset: Array
+    amplitude: Array
+    model: Array | None
+
+    def __post_init__(self) -> None:
+        freeze(self)
+
+    @property
+    def model_error(self) -> float | None:
+        """Largest relative difference of model and measurement, over multiples that hold a share; None without one."""
+        if self.model is None:
+            return None
+        held = np.abs(self.amplitude) > LEAST * self.amplitude[0]
+        return float(np.abs(self.model[held] / self.amplitude[held] - 1.0).max())
+
+    def rows(self) -> list[dict[str, float]]:
+        """One row per cycle."""
+        measured = {f"a_{m}": values for m, values in enumerate(self.amplitude, start=1)}
+        model = {} if self.model is None else {f"model_a_{m}": x for m, x in enumerate(self.model, start=1)}
+        return as_rows({"time_s": self.time, "offset": self.offset, **measured, **model})
+
+    def headline(self) -> str:
+        """The strongest components at both ends, and how the undamped orbit has them."""
+        strong = sorted(np.argsort(-np.abs(self.amplitude).max(axis=1))[:3])
+        parts = [f"a_{m + 1} from {self.amplitude[m, 0]:.4g} to {self.amplitude[m, -1]:.4g}" for m in strong]
+        off = self.model_error
+        model = "" if off is None else f"; the undamped orbit has them within {off:.2g} of their size"
+        return f"{self.name}, components of (7): {', '.join(parts)}{model}"
+
+    def picture(self) -> Picture:
+        """Magnitudes over time, logarithmic; dashed those of the undamped orbit."""
+        shown = range(min(SHOWN, len(self.amplitude)))
+        size = np.where(self.amplitude == 0.0, np.nan, np.abs(self.amplitude))
+        strokes = [Stroke(self.time, size[m], f"a_{m + 1}") for m in shown]
+        if self.model is not None:
+            strokes += [Stroke(self.time, np.abs(self.model[m]), f"a_{m + 1}, model", dashed=True) for m in shown[::2]]
+        title = f"{self.name}, components of eq. (7)"
+        return Picture(title, "time", "amplitude", tuple(strokes), logarithmic=True)
+
+
+def components(motion: Motion, *, count: int = COUNT) -> Components:
+    """The components of an integrated motion.
+
+    Parameters
+    ----------
+    motion : Motion
+        Integrated, with five cycles or more.
+    count : int
+        Multiples 1 .. ``count``.
+
+    Raises
+    ------
+    InputError
+        For a count outside 1 to 30.
+    """
+    if not 1 <= count <= MOST:
+        raise InputError(f"{count} components is outside 1 to {MOST}; use e.g. {COUNT}")
+    clock, cycles = phase_clock(motion.rising), motion.rising.size - 1
+    centre = np.arange(REACH, cycles - REACH + 1)
+    step = np.arange(-REACH * POINTS_PER_CYCLE, REACH * POINTS_PER_CYCLE) / POINTS_PER_CYCLE
+    phase = centre[:, None] + step
+    u = motion.trajectory.at(clock(phase.ravel()))[0].reshape(phase.shape)
+    window = np.cos(0.5 * np.pi * step / REACH) ** 2
+    window /= window.sum()
+    waves = np.exp(-2j * np.pi * np.outer(np.arange(count + 1), step))
+    found = (u * window) @ waves.T
+    turned = 2.0 * found * np.exp(-1j * np.outer(np.angle(found[:, 1]), np.arange(count + 1)))
+    time = motion.rising[centre]
+    return Components(
+        motion.dynamics.name, time, found[:, 0].real, turned[:, 1:].real.T, _undamped(motion, time, count)
+    )
+
+
+def _undamped(motion: Motion, time: Array, count: int) -> Array | None:
+    if motion.averaged is None:
+        return None
+    peak = np.interp(time, motion.time, motion.averaged.peak)
+    return orbit_harmonics(motion.dynamics, peak, count=count).cosine[1:]
