@@ -57,7 +57,7 @@ class Components(Displayed):
     True
     """
 
-    INDEX: ClassVar[tuple[str, ...]] = ("time_s",)
+    INDEX: ClassVar[tuple[str, ...]] = ("multiple", "time_s")
 
     name: str
     time: Array
@@ -77,10 +77,20 @@ class Components(Displayed):
         return float(np.abs(self.model[held] / self.amplitude[held] - 1.0).max())
 
     def rows(self) -> list[dict[str, float]]:
-        """One row per cycle."""
-        measured = {f"a_{m}": values for m, values in enumerate(self.amplitude, start=1)}
-        model = {} if self.model is None else {f"model_a_{m}": x for m, x in enumerate(self.model, start=1)}
-        return as_rows({"time_s": self.time, "offset": self.offset, **measured, **model})
+        """One row per multiple and cycle; multiple 0 is the mean."""
+        measured = np.vstack((self.offset[None, :], self.amplitude))
+        model = np.full(measured.shape, np.nan)
+        if self.model is not None:
+            model[1:] = self.model
+        multiple = np.repeat(np.arange(len(measured)), self.time.size)
+        time = np.tile(self.time, len(measured))
+        columns = {
+            "time_s": time,
+            "multiple": multiple,
+            "amplitude": measured.ravel(),
+            "orbit_amplitude": model.ravel(),
+        }
+        return as_rows(columns)
 
     def headline(self) -> str:
         """The strongest components at both ends, and how the undamped orbit has them."""

@@ -56,7 +56,7 @@ def test_derive_chooses_by_the_oscillator_and_refuses_what_has_no_use() -> None:
     assert ridgeback.derive("damped_pendulum", 2).method == "multiple-scales"
     assert ridgeback.derive("van_der_pol", 2).variable == "eps"
     assert ridgeback.derive("u'' - u + u**3 = 0", 2, about="1").frequency[0] == sympy.sqrt(2)
-    with pytest.raises(ridgeback.InputError, match="leave them out"):
+    with pytest.raises(ridgeback.InputError, match="leave it out"):
         ridgeback.derive("pendulum", 2, weight=3)
     with pytest.raises(ridgeback.InputError, match="did you mean lindstedt"):
         ridgeback.derive("pendulum", 2, method="lindsted")

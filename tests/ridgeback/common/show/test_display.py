@@ -50,8 +50,9 @@ def results() -> dict[str, Displayed]:
 
 
 KINDS = (
-    *("expansion", "long expansion", "cycle", "flow", "recording", "trajectory", "energy", "components"),
-    *("track", "backbone", "half cycles", "fit", "plane", "study", "cycle study", "benchmark", "identification", "prediction", "report"),
+    *("expansion", "long expansion", "cycle", "flow", "recording", "trajectory", "energy", "components", "track"),
+    *("backbone", "half cycles", "fit", "plane", "study", "cycle study", "benchmark", "identification", "prediction"),
+    "report",
 )
 
 
