@@ -12,6 +12,7 @@ from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.report.naming import short_name
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.study.results import Derivation
+from ridgeback.reports.drift_sections import drift_sections
 from ridgeback.reports.figures.accuracy_cost import accuracy_cost
 from ridgeback.reports.figures.budget import budget_figure, budget_heading
 from ridgeback.reports.figures.in_time import Drawn, along, in_time
@@ -41,6 +42,7 @@ def sections(report: Report) -> tuple[Section, ...]:
     """The sections of a page below its head, empty ones left out."""
     found = (
         *study_sections(report),
+        *drift_sections(report),
         *recording_sections(report),
         _time(report),
         _order(report),

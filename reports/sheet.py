@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from ridgeback.compare.report.results import Card, Described, Report
+from ridgeback.reports.drift_sections import drift_head
 from ridgeback.reports.parts import Part, Section
 from ridgeback.reports.sections import head_parts, head_tables, sections
 from ridgeback.reports.study_sections import study_head
@@ -41,7 +42,7 @@ def report_sheet(report: Report) -> Sheet:
         lead=report.lead,
         described=report.described,
         cards=report.cards,
-        figure=(*head_parts(report), *study_head(report)),
+        figure=(*head_parts(report), *study_head(report), *drift_head(report)),
         summary=report.summary,
         tables=head_tables(report),
         head_name="Accuracy and cost" if report.benchmark else "Overview" if report.cards or report.answered else "",

@@ -9,6 +9,7 @@ from typing import Literal
 from ridgeback.common.show.brief import Brief
 from ridgeback.compare.benchmark.contenders import Way
 from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.drift.results import DriftComparison
 from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.noise.results import NoiseStudy
@@ -95,6 +96,8 @@ class Report(ShownReport):
         Whether measured times are shown; without them the same inputs give the same bytes.
     answered : Answered, optional
         The answers of a study, with its oscillators side by side.
+    drift : DriftComparison, optional
+        A motion whose parameters drift, beside omega0 at its conserved action.
     noise : NoiseStudy, optional
         The estimators in noise, beside the Cramér-Rao bound.
     identification : Identification, optional
@@ -133,6 +136,7 @@ class Report(ShownReport):
     paper: bool = False
     timed: bool = True
     answered: Answered | None = None
+    drift: DriftComparison | None = None
 
     def findings(self) -> tuple[tuple[str, str, str], ...]:
         """The cards."""

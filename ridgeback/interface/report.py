@@ -11,6 +11,7 @@ from ridgeback.common.names import chosen
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.motion.motion import Setting, setting
 from ridgeback.compare.motion.paper_case import paper_case
+from ridgeback.compare.report.drift.drift_report import drift_report
 from ridgeback.compare.report.noise_part import TRIALS
 from ridgeback.compare.report.recording_report import recording_report
 from ridgeback.compare.report.results import Report
@@ -88,6 +89,7 @@ def report(
     column: str | int | None = None,
     parameters: Mapping[str, Value] | None = None,
     about: str | None = None,
+    drift: Mapping[str, str] | None = None,
     initial: tuple[float, float] | None = None,
     duration: float | None = None,
     order: int | None = None,
@@ -117,6 +119,9 @@ def report(
         The signal of a table or a file with several.
     parameters, about : optional
         As for :func:`ridgeback.oscillator`.
+    drift : mapping of str to str, optional
+        Parameters that change slowly with the time t, such as ``{"L": "1+0.01*t"}``: the page then holds omega0 at the
+        conserved action against the integrated motion.
     initial : (float, float), optional
         State (u, u') at time 0 of the simulation.
     duration : float, optional
@@ -155,6 +160,21 @@ def report(
     (2, 20)
     """
     with showing(progress) as told:
+        if drift:
+            if oscillator is None:
+                raise InputError("a drift needs an oscillator whose parameters change; name it")
+            refuse("a recording", recording=recording, time=time, column=column, predict_from=predict_from)
+            refuse("the study of a system", order=order, orders=orders, amplitudes=amplitudes, target=target)
+            own = as_oscillator(oscillator, parameters=parameters, about=about)
+            return drift_report(
+                own if title is None else replace(own, title=title),
+                drift,
+                initial=initial,
+                duration=duration,
+                rate=rate,
+                timed=timed,
+                progress=told,
+            )
         if recording is not None:
             if oscillator is None:
                 refuse_unused("a recording without an oscillator", parameters=parameters, about=about)

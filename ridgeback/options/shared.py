@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from typing import Any, TypeVar
 
@@ -126,3 +126,13 @@ def unique(assignments: tuple[tuple[str, Given], ...], option: str = "--set") ->
             raise click.UsageError(f"{option} gives {name} twice; keep one of them")
         values[name] = value
     return values
+
+
+def refuse_twice(assignments: tuple[tuple[str, Fraction], ...], laws: Mapping[str, str]) -> None:
+    """Refuse a parameter that is both set and said to drift.
+
+    >>> refuse_twice((("k", Fraction(2)),), {"mu": "t"})
+    """
+    for name, _ in assignments:
+        if name in laws:
+            raise click.UsageError(f"--set and --drift both give {name}; keep one")

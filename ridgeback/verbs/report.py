@@ -16,7 +16,7 @@ from ridgeback.console.output import STDOUT, json_text, output_path, write_text
 from ridgeback.console.verb import Verb
 from ridgeback.options.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
 from ridgeback.options.recording import Reading, Treatment, treatment_options
-from ridgeback.options.shared import format_option, unique
+from ridgeback.options.shared import drift_option, format_option, refuse_twice, unique
 from ridgeback.options.study import STORE
 from ridgeback.options.system import Choice, choosing
 from ridgeback.options.unused import refuse_unused
@@ -66,6 +66,7 @@ class Source:
 
 @click.command("report", cls=Verb, short_help="Write the comparison as one HTML page.")
 @choosing
+@drift_option
 @click.option("--initial", type=PAIR, default=None, metavar="U,V", help="State at time 0.")
 @click.option("--duration", type=POSITIVE, default=None, metavar="T", help="Time to integrate over.")
 @click.option("--rate", type=POSITIVE, default=None, metavar="R", help="Samples per time unit, also of a recording.")
@@ -115,6 +116,7 @@ def command(
     context: click.Context,
     *,
     choice: Choice,
+    laws: tuple[tuple[str, str], ...],
     initial: tuple[float, float] | None,
     duration: float | None,
     rate: float | None,
@@ -139,12 +141,14 @@ def command(
 
     Without an argument: the damped pendulum of Galleani and Cohen, k = 4 pi, mu = 0.01, from 0.95 pi at rest.  With
     a recording, SYSTEM is optional and its exact backbone is drawn over the measured one; the oscillators that could
-    have made it are ranked.  The store of a study (.db) becomes a page of its answers.
+    have made it are ranked.  The store of a study (.db) becomes a page of its answers.  With
+    --drift the page holds omega0 at the conserved action against the motion integrated under the drift.
 
     \b
     ridgeback report
     ridgeback report damped-duffing --set mu=0.02 --initial 1.5,0 --duration 60 -o duffing.html
     ridgeback report --recording decay.csv --column displacement -o decay.html
+    ridgeback report --equation "x'' + 9.81/L*sin(x) = 0" --drift "L=1+0.01*t" --initial 1,0 -o swing.html
     ridgeback report five.db -o five.html
     """
     if trials == 1:
@@ -160,6 +164,9 @@ def command(
         if (choice.system or "").endswith(STORE):
             refuse_beside_a_store(context)
             report = of_study(str(choice.system), shown, progress)
+        elif laws:
+            refuse_unused("a report on a drift", *(name for name in context.params if name not in BESIDE_A_DRIFT))
+            report = of_drift(motion, unique(laws, "--drift"), shown, progress, timed=not no_timings)
         elif recording is None:
             belonging = {"--column": column, "--time-column": time_column, "--predict-from": predict_from}
             treating = {f"--{name}": value for name, value in treatment.given().items()}
@@ -172,6 +179,32 @@ def command(
         publish(report, output, style)
     finally:
         show(output, pdf, opened=opened)
+
+
+BESIDE_A_DRIFT = (
+    *("system", "equation", "about", "potential", "assignments", "laws", "initial", "duration", "rate", "title"),
+    *("output", "no_timings", "pdf", "opened", "style"),
+)
+"""What may stand beside a drift, whose page holds one motion and no study."""
+
+
+def of_drift(motion: Motion, laws: Mapping[str, str], shown: str, progress: Progress, *, timed: bool) -> Report:
+    """The report on a motion whose parameters drift."""
+    from ridgeback.compare.report.drift.drift_report import drift_report
+
+    if not motion.choice.made:
+        raise click.UsageError("--drift needs a SYSTEM whose parameter changes; name one, or give --equation")
+    refuse_twice(motion.choice.assignments, laws)
+    return drift_report(
+        entitled(motion.choice.oscillator(), motion.title),
+        laws,
+        initial=motion.initial,
+        duration=motion.duration,
+        rate=motion.rate,
+        timed=timed,
+        command=shown,
+        progress=progress,
+    )
 
 
 BESIDE_A_STORE = ("system", "output", "no_timings", "pdf", "opened", "style")

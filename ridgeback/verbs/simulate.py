@@ -13,7 +13,7 @@ from ridgeback.console.output import json_text, write_text
 from ridgeback.console.tables import csv_text
 from ridgeback.console.verb import Verb
 from ridgeback.options.arguments import PAIR, POSITIVE
-from ridgeback.options.shared import drift_option, format_option, output_option, unique
+from ridgeback.options.shared import drift_option, format_option, output_option, refuse_twice, unique
 from ridgeback.options.system import Choice, choosing
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ def command(
     oscillator = choice.oscillator()
     if laws:
         drifting = unique(laws, "--drift")
-        refuse_twice(choice, drifting)
+        refuse_twice(choice.assignments, drifting)
         if energy:
             raise click.UsageError("--energy is of a force that does not change; under --drift energy is not conserved")
         followed(oscillator, drifting, Run(initial, duration, rate, method, digits), style, output)
@@ -97,13 +97,6 @@ class Run:
     rate: float
     method: str
     digits: int | None
-
-
-def refuse_twice(choice: Choice, laws: Mapping[str, str]) -> None:
-    """Refuse a parameter that is both set and said to drift."""
-    for name, _ in choice.assignments:
-        if name in laws:
-            raise click.UsageError(f"--set and --drift both give {name}; keep one")
 
 
 def followed(oscillator: Oscillator, laws: Mapping[str, str], run: Run, style: str, output: str) -> None:

@@ -6,6 +6,7 @@ import csv
 import io
 import json
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -66,3 +67,27 @@ def test_what_cannot_drift_is_refused_in_one_line(ridgeback: Ridgeback, words: t
     assert (done.code, done.out) == (2, "")
     assert done.err.count("\n") == 1
     assert said in done.err
+
+
+def test_a_report_holds_the_action_against_the_motion(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    page = tmp_path / "swing.html"
+    words = (*SWING, "--drift", "L=1+0.01*t", "--duration", "40", "--rate", "8", "--no-timings")
+    done = ridgeback("report", *words, "-o", str(page))
+    assert done.code == 0
+    text = page.read_text(encoding="utf-8")
+    assert "The conserved action follows" in text
+    assert text.count("<svg") >= 7  # three figures, wide and narrow, and the plane
+    assert "drift.csv" in text
+    found = library.report(
+        "x'' + 9.81/L*sin(x) = 0", drift={"L": "1+0.01*t"}, initial=(1.0, 0.0), duration=40.0, rate=8.0, timed=False
+    )
+    assert found.drift is not None
+    assert found.title in done.out
+    for refused, said in (
+        (("report", "--drift", "k=1+t/100"), "needs a SYSTEM"),
+        (("report", *words, "--order", "4"), "--order"),
+        (("report", *words, "--recording", "a.csv"), "--recording"),
+    ):
+        answer = ridgeback(*refused)
+        assert answer.code == 2
+        assert said in answer.err

@@ -1,0 +1,4 @@
+"""Pages about a motion whose parameters drift.
+
+Knows compare; draws nothing.
+"""
