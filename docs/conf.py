@@ -25,7 +25,7 @@ extensions = [
     "public_names",
     "command_line",
 ]
-exclude_patterns = ["_extensions", "gallery", "*.ipynb"]
+exclude_patterns = ["_extensions", "extension", "gallery", "*.ipynb"]
 myst_enable_extensions = ["colon_fence", "dollarmath", "deflist", "fieldlist"]
 myst_heading_anchors = 3
 smartquotes = False

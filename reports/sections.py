@@ -20,6 +20,7 @@ from ridgeback.reports.figures.motion import motion
 from ridgeback.reports.figures.noise import noise_figure, noise_heading, noise_sentence, noise_table
 from ridgeback.reports.figures.order_map import letter, order_map, reach_sentence
 from ridgeback.reports.figures.planes import planes
+from ridgeback.reports.outside_sections import outside_sections
 from ridgeback.reports.parts import (
     Part,
     Section,
@@ -52,6 +53,7 @@ def sections(report: Report) -> tuple[Section, ...]:
         _noise(report),
         _budget(report),
         _code(report.derivation),
+        *outside_sections(report),
         _data(report),
         Section("provenance", "Provenance", "Provenance", (provenance_part(report.provenance),)),
     )

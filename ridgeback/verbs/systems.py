@@ -32,13 +32,24 @@ def command(system: str | None, style: str, output: str) -> None:
     if system is None and style == "text":
         from ridgeback.symbolic.systems.entries.every import listed as entries
 
-        write_text(output, aligned(COLUMNS, entries()) + "\n")
+        write_text(output, aligned(COLUMNS, [*entries(), *added()]) + "\n")
         return
     from ridgeback.symbolic.systems.catalogue import catalogue
 
     listed = catalogue() if system is None else (Choice(system, None, None, None, ()).oscillator(),)
     records = [record(oscillator) for oscillator in listed]
     write_text(output, printed(records, style, detailed=system is not None))
+
+
+def added() -> list[dict[str, str]]:
+    """What other distributions add; SymPy is imported only where there is something."""
+    from importlib.metadata import entry_points
+
+    if not entry_points(group="ridgeback.systems"):
+        return []
+    from ridgeback.symbolic.systems.entries.outsiders import outside_rows
+
+    return list(outside_rows())
 
 
 def record(oscillator: Oscillator) -> dict[str, Any]:

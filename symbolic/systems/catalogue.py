@@ -1,4 +1,4 @@
-"""The catalogue: each oscillator as data, with the work it is taken from.
+"""The catalogue: each oscillator as data, with the work it is taken from, and those that other distributions add.
 
 Parameters are in natural units (k = 1) unless ``with_parameters`` says otherwise.
 """
@@ -11,12 +11,13 @@ from functools import cache
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.systems.entries.entry import Entry
 from ridgeback.symbolic.systems.entries.every import ENTRIES, names
+from ridgeback.symbolic.systems.entries.outsiders import outside, outside_oscillators, outsider
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 
 @cache
 def catalogue() -> tuple[Oscillator, ...]:
-    """Return every oscillator of the catalogue: the classical ones, their damped twins, and the others.
+    """Return every oscillator of the catalogue: the classical ones, their damped twins, the others, and plugins.
 
     Returns
     -------
@@ -28,7 +29,7 @@ def catalogue() -> tuple[Oscillator, ...]:
     >>> [system.name for system in catalogue()][:3]
     ['linear', 'pendulum', 'duffing-hardening']
     """
-    return tuple(_made(name) for name in names())
+    return (*(_made(name) for name in names()), *outside_oscillators())
 
 
 def find(name: str) -> Oscillator:
@@ -61,6 +62,10 @@ def find(name: str) -> Oscillator:
     known = _spellings()
     found = known.get(_key(name))
     if found is None:
+        added = {_key(text): point for text, point in outside().items()}
+        if _key(name) in added:
+            return outsider(added[_key(name)])
+        known = {**known, **{key: point.name for key, point in added.items()}}
         raise InputError(f"no system {name[:60]!r}; {_suggestion(name, known)} (ridgeback systems lists all)")
     return _made(found)
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from importlib.metadata import entry_points
+from importlib.metadata import EntryPoint
 from types import MappingProxyType
-from typing import Any
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.plugins import guarded, plugins, told
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.estimate import ESTIMATORS, MODEL_FIT
 from ridgeback.numeric.tracking.track import Track
@@ -27,18 +27,16 @@ def outsiders() -> Mapping[str, Outsider]:
     >>> sorted(outsiders())
     []
     """
-    found = {entry.name: entry for entry in entry_points(group=GROUP) if entry.name not in (*ESTIMATORS, MODEL_FIT)}
-    return MappingProxyType({name: partial(_called, entry) for name, entry in sorted(found.items())})
+    found = plugins(GROUP, (*ESTIMATORS, MODEL_FIT))
+    return MappingProxyType({name: partial(_called, point) for name, point in found.items()})
 
 
-def _called(entry: Any, x: Array, rate: float) -> Track:
-    """Load the estimator and run it; what it raises is the reason why it gives nothing."""
-    try:
-        track = entry.load()(x, rate)
-    except InputError:
-        raise
-    except Exception as error:  # somebody else's code: its faults are its own, and stop no other method
-        raise InputError(f"{entry.name} ({entry.value}) raised {type(error).__name__}: {error}") from error
+def _called(point: EntryPoint, x: Array, rate: float) -> Track:
+    """Load the estimator and run it; what it raises is the reason why it gives nothing, and stops no other method."""
+    function = guarded(point, point.load)
+    if not callable(function):
+        raise InputError(f"{told(point)} is a {type(function).__name__}, not a function of samples and rate")
+    track = guarded(point, function, x, rate)
     if not isinstance(track, Track):
-        raise InputError(f"{entry.name} ({entry.value}) returned a {type(track).__name__}, not a ridgeback.Track")
+        raise InputError(f"{told(point)} returned a {type(track).__name__}, not a ridgeback.Track")
     return track

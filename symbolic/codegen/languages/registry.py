@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import cache
-from importlib.metadata import entry_points
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.plugins import loaded, plugins
 from ridgeback.symbolic.codegen.languages import (
     array_api,
     c,
@@ -40,12 +41,11 @@ OURS: tuple[Language, ...] = (
 
 @cache
 def languages() -> dict[str, Language]:
-    """All languages by their names; ours cannot be replaced."""
+    """All languages by their names; ours cannot be replaced, and a plugin that cannot be loaded is left out."""
     found = {language.name: language for language in OURS}
-    for point in entry_points(group=GROUP):
-        added = point.load()
-        if isinstance(added, Language):
-            found.setdefault(added.name, added)
+    for point in plugins(GROUP, found).values():
+        with suppress(InputError):
+            found[point.name] = loaded(point, Language)  # type: ignore[type-abstract]
     return found
 
 
@@ -56,6 +56,8 @@ def find_language(name: str) -> Language:
     'c'
     """
     known = languages()
+    if name not in known and (point := plugins(GROUP).get(name)) is not None:
+        return loaded(point, Language)  # type: ignore[type-abstract]  # says what is wrong with it
     if name not in known:
         raise InputError(f"no code is generated for {name[:60]!r}; the languages are {', '.join(known)}")
     return known[name]

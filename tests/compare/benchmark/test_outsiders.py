@@ -7,6 +7,7 @@ from importlib.metadata import EntryPoint, EntryPoints
 import numpy as np
 import pytest
 
+from ridgeback.common import plugins as common
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.ways import outsiders as home
 from ridgeback.numeric.arrays import Array
@@ -36,7 +37,7 @@ def installed(monkeypatch: pytest.MonkeyPatch) -> None:
         return functions[self.value.partition(":")[2]]
 
     monkeypatch.setattr(EntryPoint, "load", load)
-    monkeypatch.setattr(home, "entry_points", lambda group: EntryPoints(entries) if group == home.GROUP else ())
+    monkeypatch.setattr(common, "entry_points", lambda group: EntryPoints(entries) if group == home.GROUP else ())
 
 
 def test_they_are_found_by_name_and_ours_keep_theirs() -> None:

@@ -6,6 +6,7 @@ from importlib.metadata import EntryPoint
 
 import pytest
 
+from ridgeback.common import plugins as common
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen import generate
 from ridgeback.symbolic.codegen.languages import registry
@@ -28,11 +29,11 @@ def test_another_distribution_adds_a_language(monkeypatch: pytest.MonkeyPatch) -
             return Shouting() if self.name == "shouting" else object()
 
     points = tuple(Point(name, "elsewhere:language", registry.GROUP) for name in ("shouting", "broken"))
-    monkeypatch.setattr(registry, "entry_points", lambda group: points if group == registry.GROUP else ())
+    monkeypatch.setattr(common, "entry_points", lambda group: points if group == registry.GROUP else ())
     registry.languages.cache_clear()
     try:
         assert "DEF OMEGA0" in generate(lindstedt(find("pendulum"), 2), "shouting")
-        with pytest.raises(InputError, match="shouting"):
+        with pytest.raises(InputError, match="gives a object, not a Language"):
             generate(lindstedt(find("pendulum"), 2), "broken")
     finally:
         monkeypatch.undo()
