@@ -17,7 +17,7 @@ import pytest
 
 import ridgeback
 from ridgeback.cli import main
-from ridgeback.compare.benchmark.outsiders import outsiders
+from ridgeback.compare.benchmark.ways.outsiders import outsiders
 from ridgeback.console.surroundings import parts
 from ridgeback.reports.outside_sections import outside_sections
 from ridgeback.symbolic.codegen.languages.registry import languages
