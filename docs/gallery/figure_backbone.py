@@ -1,18 +1,17 @@
 """
-A backbone curve
-================
+A measured backbone, and theory
+===============================
 
-Frequency against amplitude of a decaying pendulum, with the exact series beside it.
+Frequency and growth rate against amplitude of a decaying pendulum; the dashed line is the exact series of the
+undamped one.
 """
 
 import numpy as np
 
 import ridgeback
 
-run = ridgeback.simulate("damped_pendulum", (2.2, 0.0), duration=120.0, rate=8.0, parameters={"mu": "0.015"})
-samples = run.u + 0.01 * np.random.default_rng(7).normal(size=run.u.size)
-curve = ridgeback.backbone(samples, 8.0)
-axes = curve.plot()
-a = np.linspace(0.4, 2.0, 60)
-axes.plot(a, ridgeback.derive("pendulum", 20, amplitude="fundamental")(a), "k--", label="series, order 20")
-axes.legend()
+sample = ridgeback.sample("pendulum")
+axes = ridgeback.backbone(sample.recording).plot()
+a = np.linspace(0.8, 2.0, 60)
+k = sample.parameters["k"]
+axes.plot(a, k * ridgeback.derive("pendulum", 20, amplitude="fundamental")(a) / (2 * np.pi), "k--")

@@ -71,7 +71,7 @@ def test_the_oscillator_is_derived_by_name(capsys: pytest.CaptureFixture[str]) -
     assert main(["systems"]) == 0
     assert "sagging-cable" in capsys.readouterr().out
     assert main(["derive", "sagging-cables", "--order", "2"]) == 2
-    assert "did you mean sagging-cable?" in capsys.readouterr().err
+    assert "did you mean sagging-cable" in capsys.readouterr().err
 
 
 @pytest.mark.usefixtures("cable")

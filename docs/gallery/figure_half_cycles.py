@@ -1,0 +1,10 @@
+"""
+Half cycle by half cycle
+========================
+
+Frequency, amplitude and growth rate from located zero crossings and turning points.
+"""
+
+import ridgeback
+
+axes = ridgeback.half_cycles(ridgeback.sample("decay").recording).plot()
