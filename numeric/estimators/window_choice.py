@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import savgol_coeffs, savgol_filter
+from scipy.signal import savgol_coeffs
 
 from ridgeback.numeric.harmonics.local_fit import Shape
 from ridgeback.numeric.harmonics.spline_model import SplineModel
@@ -20,6 +20,8 @@ from ridgeback.numeric.harmonics.spline_model import SplineModel
 LENGTHS = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 24.0, 32.0, 48.0, 64.0)
 """Windows tried, in cycles."""
 DEGREES = (3, 5)
+CENTRES = 2000
+"""Windows from which on they are enough to tell an error by."""
 MOST_SHARE = 0.5
 """Of the record, that a window may take."""
 
@@ -36,7 +38,8 @@ class Window:
 def expected_error(model: SplineModel, half: int, degree: int, margin: int) -> float:
     """Relative root mean square error of omega by local fits of the model's own signal and noise.
 
-    The mean is over all but ``margin`` samples at each end, so that windows of different lengths compare.
+    The mean is over all but ``margin`` samples at each end, or half a window if that is more; over some CENTRES of them
+    in a long record.
 
     >>> from ridgeback.numeric.harmonics.spline_fit import best_model, harmonic_splines
     >>> t = np.arange(640) / 32.0
@@ -46,12 +49,15 @@ def expected_error(model: SplineModel, half: int, degree: int, margin: int) -> f
     True
     """
     rate = 1.0 / float(model.time[1] - model.time[0])
-    size = 2 * half + 1
     omega, amplitude = model.tone(1)
-    bias = savgol_filter(model.phase, size, degree, deriv=1, delta=1.0 / rate) - omega
-    response = np.sqrt((savgol_coeffs(size, degree, deriv=1, delta=1.0 / rate) ** 2).sum())
-    noise = np.sqrt(2.0) * model.noise * response / np.maximum(np.abs(amplitude), 1e-3 * np.abs(amplitude).max())
-    return float(np.sqrt(np.mean(((bias**2 + noise**2) / omega**2)[margin : omega.size - margin])))
+    coefficients = savgol_coeffs(2 * half + 1, degree, deriv=1, delta=1.0 / rate, use="dot")
+    first, step = max(margin, half), max(1, omega.size // CENTRES)
+    at = slice(first, max(omega.size - first, first + 1), step)
+    around = np.lib.stride_tricks.sliding_window_view(model.phase, 2 * half + 1)[first - half :: step]
+    bias = around[: omega[at].size] @ coefficients - omega[at]
+    size = np.maximum(np.abs(amplitude), 1e-3 * np.abs(amplitude).max())[at]
+    noise = np.sqrt(2.0 * (coefficients**2).sum()) * model.noise / size
+    return float(np.sqrt(np.mean((bias**2 + noise**2) / omega[at] ** 2)))
 
 
 def lengths(model: SplineModel, cycle: float) -> Iterator[int]:

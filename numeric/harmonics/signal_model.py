@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics.local_fit import choose_multiples
-from ridgeback.numeric.harmonics.spline_basis import DEGREE
 from ridgeback.numeric.harmonics.spline_fit import NOTHING_KNOWN, Known, best_model, harmonic_splines
 from ridgeback.numeric.harmonics.spline_model import SplineModel
+from ridgeback.numeric.harmonics.spline_parts import DEGREE
 from ridgeback.numeric.signal.samples import TWO_PI
 
 WINDOW_CYCLES = 4.0

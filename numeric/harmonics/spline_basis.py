@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations_with_replacement
+from itertools import combinations_with_replacement, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,13 +19,16 @@ from scipy.linalg import cho_solve_banded, cholesky_banded
 from scipy.sparse import csr_array
 
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.harmonics.spline_parts import DEGREE, Between, Part
 
-DEGREE = 5
-"""Of the splines: with quintics the phase of a decay needs half the knots that cubics need (measured)."""
 PRODUCTS = 4_000_000
 """Products of weights that are held at a time (32 MB)."""
 ROWS = 1 << 13
 """Samples of a part."""
+MOST_KEPT = 1_000_000
+"""Samples whose splines are kept (48 MB) while a model is fitted to them."""
+DENSE = 128
+"""Samples between two knots, on the mean, from which on parts end at the knots."""
 UNKNOWNS = 8_000_000
 """Numbers of the columns of a covariance that are found at a time (64 MB)."""
 FLOOR = 1e-12
@@ -35,88 +38,14 @@ Weights = Callable[["Part"], Array]
 """What multiplies each of the F splines at the samples of a part, ``(R, F)``."""
 
 
-# The recursion of Cox and de Boor, A Practical Guide to Splines, ch. X: B_(i,d) from the two B_(i,d-1) beside it.
-def splines_at(time: Array, knots: Array, left: NDArray[np.integer], degree: int) -> Array:
-    """The B-splines of a degree that are not 0 at each time, ``(R, degree + 1)``; ``left`` is the knot before it.
-
-    >>> splines_at(np.array([0.25]), np.array([0.0, 0.0, 1.0, 1.0]), np.array([1]), 1).tolist()
-    [[0.75, 0.25]]
-    """
-    found = np.zeros((degree + 1, time.size))
-    found[0] = 1.0
-    before = [time - knots[left + 1 - j] for j in range(1, degree + 1)]
-    beyond = [knots[left + j] - time for j in range(1, degree + 1)]
-    for d in range(1, degree + 1):
-        carried = np.zeros(time.size)
-        for i in range(d):
-            share = found[i] / (beyond[i] + before[d - 1 - i])
-            found[i] = carried + beyond[i] * share
-            carried = before[d - 1 - i] * share
-        found[d] = carried
-    return np.ascontiguousarray(found.T)
-
-
-@dataclass(frozen=True)
-class Part:
-    """The B-splines at R neighbouring samples: each sees ``degree`` + 1 of them, from ``first`` on."""
-
-    rows: slice
-    time: Array
-    knots: Array
-    degree: int = DEGREE
-
-    @property
-    def count(self) -> int:
-        """K."""
-        return self.knots.size - self.degree - 1
-
-    @cached_property
-    def first(self) -> NDArray[np.int32]:
-        """The number of the first spline that each sample sees."""
-        left = np.searchsorted(self.knots, self.time, side="right") - 1
-        return (np.clip(left, self.degree, self.count - 1) - self.degree).astype(np.int32)
-
-    @cached_property
-    def entries(self) -> Array:
-        """The values of those splines at each sample, ``(R, degree + 1)``."""
-        return splines_at(self.time, self.knots, self.first + self.degree, self.degree)
-
-    @cached_property
-    def values(self) -> csr_array:
-        """B_k(t_n), ``(R, K)``."""
-        return self.sparse(self.entries)
-
-    # c'_i = d (c_(i+1) - c_i) / (t_(i+d+1) - t_(i+1)), d the degree: de Boor, A Practical Guide to Splines, ch. X
-    @cached_property
-    def slopes(self) -> csr_array:
-        """B_k'(t_n), ``(R, K)``."""
-        d, knots = self.degree, self.knots
-        lower = splines_at(self.time, knots, self.first + d, d - 1)
-        rise = d / (knots[d + 1 : -1] - knots[1 : -d - 1])
-        steps = lower * rise[self.first[:, None] + np.arange(d)]
-        return self.sparse(np.diff(np.pad(-steps, ((0, 0), (1, 1))), axis=1))
-
-    @cached_property
-    def overlaps(self) -> tuple[csr_array, ...]:
-        """The products B_k(t_n) B_(k+j)(t_n) as ``(R, K)``, j = 0 .. degree."""
-        value, order = self.entries, self.degree + 1
-        return tuple(self.sparse(value[:, : order - j] * value[:, j:]) for j in range(order))
-
-    def sparse(self, entries: Array) -> csr_array:
-        """Entries ``(R, width)`` that stand from ``first`` on, as ``(R, K)``."""
-        size, width = entries.shape
-        columns = self.first[:, None] + np.arange(width, dtype=np.int32)
-        ends = np.arange(0, (size + 1) * width, width, dtype=np.int32)
-        return csr_array((entries.ravel(), columns.ravel(), ends), shape=(size, self.count))
-
-
 @dataclass(frozen=True)
 class SplineBasis:
-    """K B-splines on ``knots``, read at N times."""
+    """K B-splines on ``knots``, read at N times; with ``keep`` what they are there is kept for the next use."""
 
     time: Array
     knots: Array
     degree: int = DEGREE
+    keep: bool = False
 
     @property
     def count(self) -> int:
@@ -127,15 +56,30 @@ class SplineBasis:
     def _whole(self) -> Part:
         return Part(slice(0, self.time.size), self.time, self.knots, self.degree)
 
+    @cached_property
+    def _kept(self) -> tuple[Between, ...]:
+        return tuple(self.between())
+
     def parts(self) -> Iterator[Part]:
         """All samples, in parts; those of a short record are one, which is kept."""
         size = self.time.size
         if size <= ROWS:
             yield self._whole
             return
+        if size >= DENSE * (self.count - self.degree):
+            yield from self._kept if self.keep and size <= MOST_KEPT else self.between()
+            return
         for first in range(0, size, ROWS):
             rows = slice(first, min(first + ROWS, size))
             yield Part(rows, self.time[rows], self.knots, self.degree)
+
+    def between(self) -> Iterator[Between]:
+        """All samples, in parts between two knots each."""
+        inner = np.searchsorted(self.time, self.knots[self.degree + 1 : -self.degree - 1], side="left").tolist()
+        for at, (begin, end) in enumerate(pairwise([0, *inner, self.time.size])):
+            for first in range(begin, end, ROWS):
+                rows = slice(first, min(first + ROWS, end))
+                yield Between(rows, self.time[rows], self.knots, self.degree, at)
 
     def along(self, of: Callable[[Part], Array]) -> Array:
         """What a function gives for each part, joined, ``(N,)``."""
@@ -146,11 +90,11 @@ class SplineBasis:
 
     def values(self, coefficients: Array) -> Array:
         """The spline with these coefficients at all times."""
-        return self.along(lambda part: part.values @ coefficients)
+        return self.along(lambda part: part.read(coefficients))
 
     def slopes(self, coefficients: Array) -> Array:
         """Its derivative by time."""
-        return self.along(lambda part: part.slopes @ coefficients)
+        return self.along(lambda part: part.read(coefficients, slopes=True))
 
     def rows_at(self, index: NDArray[np.intp], *, slopes: bool) -> csr_array:
         """Values or slopes of the splines at some of the times, ``(index, K)``."""
@@ -158,7 +102,7 @@ class SplineBasis:
         return some.slopes if slopes else some.values
 
 
-def spline_basis(time: Array, breaks: Array, degree: int = DEGREE) -> SplineBasis:
+def spline_basis(time: Array, breaks: Array, degree: int = DEGREE, *, keep: bool = False) -> SplineBasis:
     """B-splines on the intervals between ``breaks``, the first and last of which are the ends of ``time``.
 
     >>> basis = spline_basis(np.linspace(0.0, 1.0, 5), np.array([0.0, 0.5, 1.0]))
@@ -166,7 +110,7 @@ def spline_basis(time: Array, breaks: Array, degree: int = DEGREE) -> SplineBasi
     (7, [1.0, 1.0, 1.0, 1.0, 1.0])
     """
     ends = np.full(degree, breaks[0]), np.full(degree, breaks[-1])
-    return SplineBasis(time, np.concatenate([ends[0], breaks, ends[1]]), degree)
+    return SplineBasis(time, np.concatenate([ends[0], breaks, ends[1]]), degree, keep)
 
 
 # de Boor's NEWNOT, A Practical Guide to Splines, ch. XII: breaks between which |s^(d+1)|^(1/(d+1)) has equal integrals,
@@ -217,7 +161,7 @@ class NormalEquations:
         """J^T x, ``(K, F)``."""
         total = np.zeros((self.basis.count, self.families))
         for part in self.basis.parts():
-            total += part.values.T @ (self.weights(part) * x[part.rows, None])
+            part.add_moments(total, self.weights(part) * x[part.rows, None])
         return total
 
     def inverse_times(self, right: Array) -> Array:
@@ -232,7 +176,7 @@ class NormalEquations:
 
     def model(self, coefficients: Array) -> Array:
         """J times coefficients: the samples they stand for."""
-        return self.basis.along(lambda part: ((part.values @ coefficients) * self.weights(part)).sum(axis=1))
+        return self.basis.along(lambda part: (part.read(coefficients) * self.weights(part)).sum(axis=1))
 
     # Six neighbouring splines meet at a sample: only the band of C within five of the diagonal counts there.
     def variance(self, family: int, *, slopes: bool = False) -> Array:
@@ -240,13 +184,12 @@ class NormalEquations:
         band = self.band(family)
 
         def at(part: Part) -> Array:
-            matrix, order = part.slopes if slopes else part.values, self.basis.degree + 1
-            rows = matrix.data.reshape(-1, order)
+            rows, order = part.slope_entries if slopes else part.entries, self.basis.degree + 1
             total = np.zeros(part.time.size)
             for j in range(order):
                 pairs = rows[:, : order - j] * rows[:, j:]
-                total += (1.0 if j == 0 else 2.0) * (part.sparse(pairs) @ band[:, j])
-            return np.maximum(total, 0.0) + self.by_others(matrix, family)
+                total += (1.0 if j == 0 else 2.0) * part.spread(pairs, band[:, j])
+            return np.maximum(total, 0.0) + self.by_others(lambda c: part.read(c, slopes=slopes), family)
 
         return self.basis.along(at)
 
@@ -256,7 +199,7 @@ class NormalEquations:
         right[family :: self.families] = vectors.toarray().T
         answer = self.inverse_times(right)[family :: self.families]
         own = np.asarray(vectors.multiply(answer.T).sum(axis=1)).ravel()
-        return np.maximum(own, 0.0) + self.by_others(vectors, family)
+        return np.maximum(own, 0.0) + self.by_others(lambda c: vectors @ c, family)
 
     # The inverse of a matrix in blocks: with C = (J^T J)^-1, Y = C J^T B and S = B^T B - B^T J Y, the covariance of the
     # coefficients is C + Y S^-1 Y^T.
@@ -269,12 +212,12 @@ class NormalEquations:
         inverse = np.linalg.pinv(beside.T @ beside - between.T @ answer, hermitian=True)
         return answer, np.asarray(inverse, dtype=np.float64)
 
-    def by_others(self, rows: csr_array, family: int) -> Array:
-        """What columns ``beside`` add to a variance."""
+    def by_others(self, read: Callable[[Array], Array], family: int) -> Array | float:
+        """What columns ``beside`` add to a variance of what ``read`` makes of coefficients."""
         if self.beside is None:
-            return np.zeros(rows.shape[0])
+            return 0.0
         answer, inverse = self.shared
-        part = np.asarray(rows @ answer[family :: self.families])
+        part = np.asarray(read(answer[family :: self.families]))
         return np.asarray(np.maximum(np.einsum("rq,qp,rp->r", part, inverse, part), 0.0), dtype=np.float64)
 
     def band(self, family: int) -> Array:
@@ -302,8 +245,7 @@ def overlap_sums(basis: SplineBasis, weights: Weights, pairs: list[tuple[int, in
         for first in range(0, part.time.size, step):
             some = slice(first, first + step)
             products = given[some][:, left] * given[some][:, right]
-            for j, overlap in enumerate(part.overlaps):
-                sums[j] += (overlap if len(products) == len(given) else overlap[some]).T @ products
+            part.add_overlaps(sums, products, some)
     return sums
 
 
@@ -331,7 +273,7 @@ def normal_equations(
             if j and g > f:  # the sums of w_f w_g are symmetric; below the diagonal of a block there is the same again
                 bands[j * families + f - g, g::families] = sums[:, column]
     if ridge is not None:
-        squares = sum(np.asarray(part.overlaps[0].sum(axis=0)).ravel() for part in basis.parts())
+        squares = overlap_sums(basis, alone, [(0, 0)])[0]
         bands[0] += np.outer(squares, ridge).ravel()
     scale = np.sqrt(np.where(bands[0] > 0.0, bands[0], 1.0))
     bands /= scale

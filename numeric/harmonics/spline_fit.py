@@ -24,7 +24,6 @@ from scipy.integrate import cumulative_trapezoid
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics.spline_basis import (
-    DEGREE,
     SplineBasis,
     adapted_density,
     alone,
@@ -32,6 +31,7 @@ from ridgeback.numeric.harmonics.spline_basis import (
     spline_basis,
 )
 from ridgeback.numeric.harmonics.spline_model import Linearised, SplineModel
+from ridgeback.numeric.harmonics.spline_parts import DEGREE
 from ridgeback.numeric.signal.local_line import local_line
 from ridgeback.numeric.signal.samples import TWO_PI, checked_work
 from ridgeback.numeric.signal.windows import window
@@ -97,14 +97,14 @@ def fit_on(
     known: Known = NOTHING_KNOWN,
 ) -> SplineModel:
     """Gauss-Newton with knots at ``breaks``, from a phase and an amplitude; each step half a radian at most."""
-    basis = spline_basis(time, breaks, degree)
+    basis = spline_basis(time, breaks, degree, keep=True)
     p, level = normal_equations(basis, alone, 1).solve(phase)[:, 0], level_of(basis, amplitude)
     step, residual, sound = math.inf, x, known.sound_of(x.size)
     families = 3 + 2 * len(multiples)
     itself = np.zeros((basis.count, families))
     itself[:, 0] = 1.0
     for _ in range(ITERATIONS):
-        weights = Linearised(p, level, multiples, known.sound)
+        weights = Linearised(p, level, multiples, known.sound, {})
         equations = normal_equations(basis, weights, families, firmness(families, residual))
         left = x * sound - equations.model(itself)
         c = equations.solve(left)
@@ -119,7 +119,8 @@ def fit_on(
     c[:, -1] = p
     count = int(sound.sum())
     noise = math.sqrt(float((residual**2).sum()) / max(1, count - c.size))
-    equations = replace(equations, beside=known.beside)
+    plain = replace(basis, keep=False)
+    equations = replace(equations, basis=plain, beside=known.beside, weights=replace(weights, held=None))
     band = known.band or counted(basis.slopes(p) * (time[1] - time[0]), size, multiples)
     floor = 1e-14 * float(size.max())
     criterion = akaike(residual, band, count=count, parameters=c.size - basis.count, floor=floor)

@@ -16,7 +16,8 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.harmonics.spline_basis import NormalEquations, Part, SplineBasis
+from ridgeback.numeric.harmonics.spline_basis import NormalEquations, SplineBasis
+from ridgeback.numeric.harmonics.spline_parts import Part
 from ridgeback.numeric.signal.samples import TWO_PI
 
 CLEAR = 5.0
@@ -125,7 +126,7 @@ class SplineModel:
         kept = np.array([keep(h) for h in order] + [False])
         part = np.where(kept, self.coefficients, 0.0)
         weights = Linearised(self.coefficients[:, -1], self.logarithm, self.multiples)
-        return self.basis.along(lambda some: ((some.values @ part) * weights(some)).sum(axis=1))
+        return self.basis.along(lambda some: (some.read(part) * weights(some)).sum(axis=1))
 
     def response(self, noise: Array) -> tuple[Array, Array]:
         """What small noise in the samples does to the coefficients, and the part of the noise that the fit takes up."""
@@ -157,15 +158,22 @@ def weights_of(phase: Array, amplitude: Array, multiples: tuple[int, ...]) -> Ar
 class Linearised:
     """The weights of a model about a phase and the logarithm of an amplitude, as coefficients of splines ``(K,)``.
 
-    They are 0 at samples that are not ``sound``.
+    They are 0 at samples that are not ``sound``.  Those of each part are kept from one use to the next by ``held``, if
+    there is one.
     """
 
     phase: Array
     logarithm: Array
     multiples: tuple[int, ...]
     sound: Array | None = None
+    held: dict[int, Array] | None = None
 
     def __call__(self, part: Part) -> Array:
         """The weights at the samples of a part, ``(R, F)``."""
-        weights = weights_of(part.values @ self.phase, np.exp(part.values @ self.logarithm), self.multiples)
-        return weights if self.sound is None else weights * self.sound[part.rows, None]
+        if self.held is not None and part.rows.start in self.held:
+            return self.held[part.rows.start]
+        weights = weights_of(part.read(self.phase), np.exp(part.read(self.logarithm)), self.multiples)
+        weights = weights if self.sound is None else weights * self.sound[part.rows, None]
+        if self.held is not None:
+            self.held[part.rows.start] = weights
+        return weights

@@ -32,6 +32,8 @@ CLEAR_AT_AN_END = 40.0
 LONG = 100_000
 BLOCK_VALUES = 60_000
 """Values that the segments of one block of columns hold, padded: half a megabyte."""
+ENOUGH_COLUMNS, MOST_STEPS = 10_000, 4
+"""Columns of a path from which on they are further apart, up to so many quarters of a cycle."""
 MEMORY, MEMORY_PER_LEVEL = 1_000_000_000, 6
 THINNED = 1.25
 """Nyquist frequency of a thinned record over the highest frequency looked for."""
@@ -137,15 +139,16 @@ def guide_path(x: Array, rate: float, centre: float, low: float, high: float) ->
         thin = guide_path(decimate(x, factor, ftype="fir"), rate / factor, centre, low, high)
         return np.asarray(np.interp(np.arange(x.size), factor * np.arange(thin.size), thin), dtype=np.float64)
     seconds = min(GUIDE_CYCLES * TWO_PI / centre, (x.size - 1) / rate * 0.999)
-    hop = max(1, round(0.25 * TWO_PI / centre * rate))
+    fine = max(1, round(0.25 * TWO_PI / centre * rate))
+    hop = max(fine, min(MOST_STEPS * fine, x.size // ENOUGH_COLUMNS))
     n_fft = fft.next_fast_len(max(int(8 * seconds * rate), 64), real=True)
     ridge = Columns(half_width(seconds, rate, longest=x.size), hop, n_fft)
     omega = TWO_PI * rate * np.arange(n_fft // 2 + 1) / n_fft
     rows = np.flatnonzero((omega >= low) & (omega <= high))
     if not rows.size:
         return np.full(x.size, centre)
-    path = omega[rows][continuous_path(ridge.levels(x, slice(rows[0], rows[-1] + 1)), reach=3)]
-    smooth = gaussian_filter1d(path, GUIDE_CYCLES, mode="nearest")
+    path = omega[rows][continuous_path(ridge.levels(x, slice(rows[0], rows[-1] + 1)), reach=round(3 * hop / fine))]
+    smooth = gaussian_filter1d(path, GUIDE_CYCLES * fine / hop, mode="nearest")
     return np.asarray(np.interp(np.arange(x.size), hop * np.arange(path.size), smooth), dtype=np.float64)
 
 

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ridgeback.common.errors import InputError
 from ridgeback.numeric.signal.decimation import Samples
 from ridgeback.numeric.signal.search_band import SearchBand
 from ridgeback.numeric.tracking.clear_stretch import clear_stretch, followed_stretch
@@ -50,10 +49,7 @@ def along_what_is_followed(request: Request, samples: Samples) -> Request:
 
 def has_model(request: Request) -> bool:
     """Whether a model of all of the samples settles."""
-    try:
-        return request.models is not None
-    except InputError:
-        return False
+    return request.known_models is not None or request.separated().known_models is not None
 
 
 def part_of(request: Request, samples: Samples, stretch: slice, why: str, search: SearchBand | None = None) -> Request:
