@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.recording.measurements import measure
+from ridgeback.compare.recording.measurement import measure
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.signal.samples import TWO_PI

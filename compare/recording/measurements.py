@@ -6,100 +6,17 @@ backbones of the runs and stretches of one channel are then combined, since they
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
-
-import numpy as np
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Wanted, showing
-from ridgeback.common.show.brief import Brief
-from ridgeback.numeric.arrays import Array, Mask
-from ridgeback.numeric.backbone.backbone import Backbone, backbone
+from ridgeback.compare.recording.components import measured_components
+from ridgeback.compare.recording.measurement import Measurement
 from ridgeback.numeric.backbone.combined import CombinedBackbone, combine
-from ridgeback.numeric.backbone.damping import growth_columns
-from ridgeback.numeric.backbone.half_cycles import HalfCycles, half_cycles
-from ridgeback.numeric.components.tones import Tone, beside_notes
-from ridgeback.numeric.estimators.amplitude import amplitude_of, estimate_amplitude
-from ridgeback.numeric.estimators.estimate import Estimation, estimation
 from ridgeback.numeric.recording.recording import Recording
-from ridgeback.numeric.signal.decimation import Samples, every, every_flag
-from ridgeback.numeric.tracking.track import NORMAL_95, AmplitudeTrack, Track
 
-STEADY = 0.05
-"""Relative change of the amplitude over a record of a tone that is called steady."""
 COMBINE = ("runs", "all", "none")
-Row = dict[str, float | bool]
-
-
-class Along(NamedTuple):
-    """Frequency over time with the ends of its 95 % interval, rad per time unit; NaN where nothing is claimed."""
-
-    time: Array
-    omega: Array
-    low: Array
-    high: Array
-
-
-@dataclass(frozen=True, repr=False)
-class Measurement(Brief):
-    """One signal: its track or its half cycles, and its backbone where the amplitude is clear of the noise."""
-
-    recording: Recording
-    found: Track | HalfCycles
-    backbone: Backbone | None
-    notes: tuple[str, ...]
-    size: AmplitudeTrack | None = None
-    """The amplitude of a higher harmonic."""
-
-    @property
-    def track(self) -> Track | None:
-        """Its track; None where half cycles were counted."""
-        return self.found if isinstance(self.found, Track) else None
-
-    @property
-    def method(self) -> str:
-        """How the frequency was estimated."""
-        return self.found.method if isinstance(self.found, Track) else "half-cycles"
-
-    @property
-    def usable(self) -> bool:
-        """Whether any value is one that the estimator calls valid."""
-        return not self.noise if isinstance(self.found, HalfCycles) else bool(self.found.valid.any())
-
-    @property
-    def noise(self) -> str:
-        """Why noise alone explains the signal; empty where an oscillation stands out of it."""
-        return "" if self.found.presence is None else self.found.presence.reason
-
-    def frequency(self) -> Along:
-        """Frequency where it is valid with its 95 % interval: with the bias in it, where the estimator knows that."""
-        found = self.found
-        if isinstance(found, HalfCycles):
-            reach = NORMAL_95 * found.omega_sd
-            return Along(found.time, found.omega, found.omega - reach, found.omega + reach)
-        values = np.where(found.valid, found.omega, np.nan)
-        if found.interval is not None:
-            low, high = (np.where(found.valid, end, np.nan) for end in found.interval)
-            return Along(found.time, values, low, high)
-        deviation = np.nan if found.standard_deviation is None else found.standard_deviation
-        return Along(found.time, values, values - NORMAL_95 * deviation, values + NORMAL_95 * deviation)
-
-    def rows(self) -> list[Row]:
-        """One row per time: frequency, amplitude and growth rate with their standard deviations, NaN where unknown."""
-        if isinstance(self.found, HalfCycles):
-            return [dict(row) for row in self.found.rows()]
-        rows: list[Row] = [dict(row) for row in self.found.rows()]
-        columns: Mapping[str, Array] = {}
-        if self.backbone is not None:
-            columns = amplitude_columns(self.backbone, self.found.time)
-        elif self.size is not None:
-            columns = size_columns(self.size, self.found.time)
-        for name, values in columns.items():
-            for row, value in zip(rows, values.tolist(), strict=True):
-                row[name] = value
-        return rows
 
 
 @dataclass(frozen=True)
@@ -122,166 +39,6 @@ class Measurements:
     def __repr__(self) -> str:
         channels = ", ".join(dict.fromkeys(one.recording.label for one in self.measured))
         return f"<Measurements: {channels}; {len(self.combined)} combined backbones, {len(self.failed)} failed>"
-
-
-def amplitude_columns(curve: Backbone, time: Array) -> Mapping[str, Array]:
-    """Amplitude and growth rate along ``time``, linear between the backbone's points, NaN away from them."""
-    spacing = float(np.median(np.diff(curve.time)))
-    after = np.clip(np.searchsorted(curve.time, time), 1, curve.time.size - 1)
-    inside = (time >= curve.time[0]) & (time <= curve.time[-1])
-    near = inside & (curve.time[after] - curve.time[after - 1] < 1.5 * spacing)
-
-    def along(values: Array) -> Array:
-        return np.where(near, np.interp(time, curve.time, values), np.nan)
-
-    return {
-        "amplitude": along(curve.amplitude),
-        "amplitude_standard_deviation": along(curve.amplitude_sd),
-        **growth_columns(*(along(v) for v in (curve.growth_rate, curve.growth_rate_sd, curve.omega, curve.omega_sd))),
-    }
-
-
-def size_columns(size: AmplitudeTrack, time: Array) -> Mapping[str, Array]:
-    """The amplitude of a harmonic along ``time``, with its 95 % interval where it claims one."""
-    columns = {"amplitude": size.amplitude}
-    if size.standard_deviation is not None:
-        columns["amplitude_standard_deviation"] = size.standard_deviation
-    if size.interval is not None:
-        columns |= {"amplitude_low_95": size.interval.low, "amplitude_high_95": size.interval.high}
-    return {name: np.interp(time, size.time, values) for name, values in columns.items()}
-
-
-def of_harmonic(
-    recording: Recording, found: Estimation, multiple: int, band: tuple[float, float] | None
-) -> Measurement:
-    """A harmonic with its track, phase-locked to the fundamental's, and its amplitude where the data show it."""
-    notes, size, used = recording.notes, None, found.samples
-    try:
-        if found.request is not None:
-            size = amplitude_of(found.request, multiple)
-        else:
-            size = estimate_amplitude(used.x, used.rate, harmonic=multiple, band=band, start=used.start)
-    except InputError as error:
-        notes = (*notes, f"No amplitude: {error}.")
-    return Measurement(recording, found.track, None, notes, size)
-
-
-def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **settings: object) -> Measurement:
-    """Measure frequency, amplitude and growth rate of one signal; without a clear amplitude there is no backbone.
-
-    Parameters
-    ----------
-    recording
-        One signal, evenly sampled.
-    harmonic
-        Which multiple of the fundamental is tracked; above 1 there is an amplitude and no backbone.
-    halves
-        Whether frequency and amplitude are taken half cycle by half cycle.
-    **settings
-        Those of :func:`ridgeback.numeric.estimators.estimate.estimate`.
-
-    Raises
-    ------
-    InputError
-        Where the frequency cannot be estimated.
-
-    Examples
-    --------
-    >>> t = np.arange(1280) / 32.0
-    >>> x = 2.0 * np.exp(-0.05 * t) * np.cos(2 * np.pi * 1.25 * t)
-    >>> found = measure(Recording(t, x, 32.0, "u", "mm", "run.csv", ""), method="pseudo-wigner")
-    >>> row = found.rows()[640]
-    >>> bool(abs(row["frequency_hz"] - 1.25) < 1e-3), round(row["amplitude"], 3), round(row["growth_rate_per_s"], 4)
-    (True, 0.736, -0.05)
-    """
-    if halves:
-        return of_half_cycles(recording, settings)
-    start = float(recording.time[0])
-    words: Any = settings
-    wrong = marked(recording)
-    found = estimation(recording.values, recording.rate, start=start, harmonic=harmonic, wrong=wrong, **words)
-    track = found.track
-    if harmonic > 1:
-        return of_harmonic(recording, found, harmonic, words.get("band"))
-    told = (*beside_notes(track.used.tones, track.used.spikes), *recording.notes)
-    if track.used.doubt:
-        return Measurement(recording, track, None, (f"No interval and no amplitude: {track.used.doubt}.", *told))
-    wanted = found.request is not None and found.request.options.bias and track.no_interval is not None
-    if wanted and not found.modelled:
-        return Measurement(recording, track, None, (f"No amplitude: {track.no_interval}.", *told))
-    try:
-        used = as_tracked(recording, found.samples)
-        curve = backbone(
-            track,
-            used.values,
-            used.rate,
-            start=float(used.time[0]),
-            exclude=marked(used),
-            models=found.claimed_models,
-        )
-    except InputError as error:
-        reason = str(error) if track.presence is None or track.presence.found else track.presence.reason
-        return Measurement(recording, track, None, (*told, f"No amplitude: {reason}."))
-    curve = replace(curve, units=recording.units)
-    return Measurement(recording, track, curve, (*hum_notes(curve), *told, *curve.notes))
-
-
-def hum_notes(curve: Backbone) -> tuple[str, ...]:
-    """That the oscillation is no decay but mains hum: of constant amplitude, at a multiple of 50 or 60 Hz."""
-    a = curve.amplitude
-    steady = float(np.ptp(a)) < STEADY * float(a.max())
-    tone = Tone(float(np.median(curve.omega)), 0.0, complex(float(a.max())))
-    if not (steady and tone.mains):
-        return ()
-    return (f"The strongest component is no decay: {tone.said()}; give a --band round the oscillation that you mean.",)
-
-
-def samples_behind(track: Track, recording: Recording) -> Samples:
-    """The samples that a track is of: all of the recording's, or those that its estimator decimated it to."""
-    whole = Samples(recording.values, recording.rate, float(recording.time[0]))
-    return whole if track.used.decimated_by < 2 else every(whole, track.used.decimated_by)
-
-
-def as_tracked(recording: Recording, samples: Samples) -> Recording:
-    """The recording at the samples that its track is of, without what was found beside the oscillation.
-
-    >>> t = np.arange(20_000) / 1000.0
-    >>> run = Recording(t, np.cos(30.0 * t), 1000.0, "u", "mm", "run.csv", "")
-    >>> few = as_tracked(run, estimation(run.values, run.rate).samples)
-    >>> few.rate < 60.0, bool(np.allclose(few.values, np.cos(30.0 * few.time), atol=1e-3))
-    (True, True)
-    """
-    if samples.factor < 2:
-        return replace(recording, values=samples.x)
-    clipped, filled = (every_flag(flags, samples.factor) for flags in (recording.clipped, recording.filled))
-    return replace(recording, time=samples.time, values=samples.x, rate=samples.rate, clipped=clipped, filled=filled)
-
-
-def of_half_cycles(recording: Recording, settings: Mapping[str, object]) -> Measurement:
-    """Measure one signal half cycle by half cycle; those with clipped samples stay out of the backbone."""
-    band: Any = settings.get("band")
-    start = float(recording.time[0])
-    found = half_cycles(recording.values, recording.rate, start=start, band=band)
-    hit = None if not recording.clipped.any() else overlapping(recording, found)
-    try:
-        curve = replace(found.backbone(hit), units=recording.units)
-    except InputError as error:
-        return Measurement(recording, found, None, (*recording.notes, f"No backbone: {error}."))
-    return Measurement(recording, found, curve, (*recording.notes, *curve.notes))
-
-
-def overlapping(recording: Recording, found: HalfCycles) -> Mask:
-    """Which half cycles hold clipped samples."""
-    before = np.concatenate([[0], np.cumsum(recording.clipped)])
-    reach = 0.5 * np.pi / found.omega
-    first = np.searchsorted(recording.time, found.time - reach)
-    last = np.searchsorted(recording.time, found.time + reach, side="right")
-    return np.asarray(before[last] > before[first])
-
-
-def marked(recording: Recording) -> Mask | None:
-    """The clipped samples, None where there are none."""
-    return recording.clipped if recording.clipped.any() else None
 
 
 def measure_recordings(
@@ -308,13 +65,14 @@ def measure_recordings(
     progress : bool or callable, optional
         ``True`` shows a bar; a function is told the share of the work that is done, 0 to 1, and the step.
     **settings
-        Those of :func:`ridgeback.numeric.estimators.estimate.estimate`.
+        Those of :func:`ridgeback.numeric.estimators.estimate.estimate`.  With ``components`` of 2 or more the tones
+        beside the oscillation are measured, too, each as a signal of its own.
 
     Returns
     -------
     Measurements
-        ``measured``, one for each signal; ``combined`` backbones; ``failed``, the signals that gave nothing; ``notes``,
-        the stretches that were left out where another of the same signal could be measured.
+        ``measured``, one for each signal and component; ``combined`` backbones; ``failed``, the signals that gave
+        nothing; ``notes``, the stretches that were left out where another of the same signal could be measured.
 
     Raises
     ------
@@ -323,6 +81,7 @@ def measure_recordings(
 
     Examples
     --------
+    >>> import numpy as np
     >>> t = np.arange(640) / 32.0
     >>> runs = [Recording(t, a * np.cos(6.0 * t), 32.0, "u", "mm", f"run{a:g}.csv", "") for a in (1.0, 2.0)]
     >>> [one.recording.source for one in measure_recordings(runs, method="zero-crossing").measured]
@@ -336,7 +95,7 @@ def measure_recordings(
         for i, recording in enumerate(recordings):
             told(i / len(recordings), f"estimating {recording.label}")
             try:
-                measured.append(measure(recording, harmonic=harmonic, halves=halves, **settings))
+                measured += measured_components(recording, harmonic=harmonic, halves=halves, **settings)
             except InputError as error:
                 refused.append((recording, error))
     if not measured:
@@ -357,11 +116,12 @@ def signal_of(recording: Recording) -> tuple[str, str, str]:
 
 def common(measured: Sequence[Measurement], over: str) -> Iterator[Common]:
     """The combined backbones of groups of more than one."""
-    groups: dict[str, list[Measurement]] = {}
+    groups: dict[tuple[str, int], list[Measurement]] = {}
     for one in measured:
         if one.backbone is not None and over != "none":
-            groups.setdefault(one.recording.channel if over == "runs" else "all channels", []).append(one)
-    for channel, members in groups.items():
+            channel = one.recording.channel if over == "runs" else "all channels"
+            groups.setdefault((channel, one.component), []).append(one)
+    for (channel, component), members in groups.items():
         units = sorted({m.recording.units or "no unit" for m in members})
         if len(units) > 1:
             raise InputError(
@@ -369,4 +129,5 @@ def common(measured: Sequence[Measurement], over: str) -> Iterator[Common]:
             )
         if len(members) > 1:
             curves = [m.backbone for m in members if m.backbone is not None]
-            yield Common(channel, combine(curves, [m.recording.label for m in members]))
+            name = f"{channel}, component {component}" if component else channel
+            yield Common(name, combine(curves, [m.recording.label for m in members]))

@@ -19,6 +19,9 @@ from ridgeback.numeric.arrays import Array, freeze
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.track import NORMAL_95
 
+SEEN = 2.0
+"""Deviations of a damping ratio from 0, from which on it has a Q."""
+
 
 @dataclass(frozen=True)
 class Damping:
@@ -99,9 +102,11 @@ at amplitude 1 ratio 0.100 +- 0.010, Q 5.00 +- 0.50, logarithmic decrement 0.628
     ends = (int(np.argmax(amplitude)), int(np.argmin(amplitude)))
 
     def at(i: int) -> str:
+        quality = f"Q {with_deviation(found.quality[i], found.quality_sd[i])}"
+        if abs(found.ratio[i]) < SEEN * found.ratio_sd[i]:
+            quality = "not told from none (no Q)"
         return (
-            f"at amplitude {amplitude[i]:.4g} ratio {with_deviation(found.ratio[i], found.ratio_sd[i])}, "
-            f"Q {with_deviation(found.quality[i], found.quality_sd[i])}, "
+            f"at amplitude {amplitude[i]:.4g} ratio {with_deviation(found.ratio[i], found.ratio_sd[i])}, {quality}, "
             f"logarithmic decrement {with_deviation(found.decrement[i], found.decrement_sd[i])}"
         )
 

@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ridgeback.common.visible import visible
-from ridgeback.compare.recording.measurements import Measurement, Measurements
+from ridgeback.compare.recording.measurement import Measurement
+from ridgeback.compare.recording.measurements import Measurements
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.canvas import Canvas, Line, draw, linear, padded, titles
 from ridgeback.reports.drawing.labels import place

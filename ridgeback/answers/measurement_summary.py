@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from ridgeback.compare.recording.measurements import Measurement
+    from ridgeback.compare.recording.measurement import Measurement
     from ridgeback.numeric.backbone.curve import Backbone
     from ridgeback.numeric.tracking.track import Track
 
@@ -57,11 +57,14 @@ def backbone_lines(curve: Backbone) -> list[str]:
     top, bottom = int(np.argmax(curve.curve_amplitude)), int(np.argmin(curve.curve_amplitude))
     unit = f" {curve.units}" if curve.units else ""
     ratio = -curve.curve_growth_rate / curve.curve_omega
-    sd = curve.curve_growth_rate_sd
+    rate, sd = curve.curve_growth_rate, curve.curve_growth_rate_sd
+    slow = float(curve.curve_omega[top]) < 2 * np.pi * SLOW
+    per_day = [f"{DAY * rate[i]:.5g} +- {DAY * sd[i]:.2g}" for i in (top, bottom)]
     return [
         f"amplitude: {curve.curve_amplitude[top]:.6g} to {curve.curve_amplitude[bottom]:.6g}{unit}",
         "growth rate a'/a: "
-        + " to ".join(f"{curve.curve_growth_rate[i]:.5g} +- {sd[i]:.2g} 1/s" for i in (top, bottom)),
+        + " to ".join(f"{rate[i]:.5g} +- {sd[i]:.2g} 1/s" for i in (top, bottom))
+        + (f" ({' to '.join(per_day)} per day)" if slow else ""),
         "damping ratio: " + " to ".join(f"{ratio[i]:.4g} +- {sd[i] / curve.curve_omega[i]:.2g}" for i in (top, bottom)),
     ]
 

@@ -9,7 +9,8 @@ from ridgeback.console.output import json_text
 from ridgeback.console.tables import aligned, csv_text, readable
 
 if TYPE_CHECKING:
-    from ridgeback.compare.recording.measurements import Common, Measurement, Measurements
+    from ridgeback.compare.recording.measurement import Measurement
+    from ridgeback.compare.recording.measurements import Common, Measurements
     from ridgeback.numeric.recording.recording import Recording
 
 COMBINED = "combined"
@@ -59,6 +60,8 @@ def one_json(one: Measurement, *, backbone: bool) -> dict[str, Any]:
         "recording": {"run": one.recording.run, "stretch": one.recording.stretch, **one.recording.facts},
         "notes": [*one.notes, *misfit(one)],
     }
+    if one.component:
+        whole["component"] = one.component
     if not backbone:
         whole["track"] = one.rows()
     curve = one.backbone
@@ -98,7 +101,7 @@ def asides(one: Measurement) -> list[str]:
 
 def as_csv(found: Measurements, *, backbone: bool) -> str:
     """One table; with several signals each row says which, and a combined backbone is one more run."""
-    tables = [(named(one.recording), rows_of(one, backbone=backbone)) for one in found.measured]
+    tables = [(named(one), rows_of(one, backbone=backbone)) for one in found.measured]
     if backbone:
         tables += [
             ({"run": COMBINED, "channel": c.channel, "stretch": ""}, [dict(r) for r in c.curve.rows()])
@@ -116,12 +119,14 @@ def columns_of(rows: Iterable[Mapping[str, Any]]) -> dict[str, None]:
     return found
 
 
-def named(recording: Recording) -> dict[str, Any]:
+def named(one: Measurement) -> dict[str, Any]:
     """Which signal a row belongs to."""
+    recording = one.recording
     return {
         "run": recording.run or recording.source,
         "channel": recording.channel,
         "stretch": recording.stretch or "",
+        **({"component": one.component} if one.component else {}),
     }
 
 
@@ -133,9 +138,9 @@ def one_text(one: Measurement, *, backbone: bool, every: bool = True) -> str:
     shown = rows if every else [rows[i] for i in thinned(len(rows))]
     table = aligned(list(columns_of(rows)), shown) if rows else "no rows"
     rest = "" if len(shown) == len(rows) else f"\n{len(shown)} of {len(rows)} rows; --all or -o FILE gives every one"
-    notes = "".join(f"\n{note}" for note in (*one.notes, *misfit(one), *chance(one)))
+    notes = "".join(f"\n{note}" for note in (*one.notes, *misfit(one)))
     lines = "".join(f"\n{line}" for line in summary(one))
-    return f"{heading(one)}{notes}\n{lines}\n\n{table}{rest}\n"
+    return f"{heading(one)}{notes}\n{lines}\n\n{table}{rest}\n\n{how(one)}\n"
 
 
 def common_text(common: Common) -> str:
@@ -152,9 +157,14 @@ def about(recording: Recording, settings: Mapping[str, object]) -> dict[str, obj
 
 
 def heading(one: Measurement) -> str:
-    """What was estimated, from what, and how."""
+    """What was measured."""
     recording = one.recording
+    component = f", component {one.component}" if one.component else ""
+    return f"{recording.label}{component}: {len(recording.values)} samples at {recording.rate:g} per second"
+
+
+def how(one: Measurement) -> str:
+    """The estimator with its settings, and whether there is an oscillation."""
     known = {name: value for name, value in one.found.settings.items() if isinstance(value, (int, float, str))}
     settings = ", ".join(f"{name} = {readable(value)}" for name, value in known.items())
-    samples = f"{len(recording.values)} samples at {recording.rate:g} per second"
-    return f"{recording.label}: {samples}\n{one.method}: {settings}"
+    return "\n".join([f"{one.method}: {settings}", *chance(one)])

@@ -10,7 +10,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.names import chosen
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.binding.family import family_of
-from ridgeback.compare.recording.measurements import as_tracked, marked, samples_behind
+from ridgeback.compare.recording.measurement import as_tracked, marked, samples_behind
 from ridgeback.interface.signals import SignalLike, as_recording
 from ridgeback.interface.unused import refuse_unused
 from ridgeback.numeric.backbone import backbone as along

@@ -179,7 +179,8 @@ OPTIONS = (
         callback=lambda _, __, value: components_of(value),
         default="auto",
         show_default=True,
-        help="Oscillations to tell apart: one in the band, N - 1 tones beside it, which are taken off.",
+        help="Oscillations to tell apart: the strongest in the band, and tones beside it, which are taken off; with N "
+        "each has a track and a backbone of its own.",
     ),
     click.option("--single", is_flag=True, help="Compute these three in single precision."),
     click.option("--remove-bias", is_flag=True, help="Take the estimated bias off the values."),

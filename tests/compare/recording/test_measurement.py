@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.recording.measurements import amplitude_columns, measure, measure_recordings
+from ridgeback.compare.recording.measurement import amplitude_columns, measure
+from ridgeback.compare.recording.measurements import measure_recordings
 from ridgeback.numeric.backbone.backbone import backbone
 from ridgeback.numeric.recording.recording import Recording
 
@@ -112,7 +113,7 @@ def test_a_long_record_is_measured_at_the_rate_of_its_decimated_track(monkeypatc
         seen.append((x.size, rate))
         return backbone(track, x, rate, **rest)
 
-    monkeypatch.setattr("ridgeback.compare.recording.measurements.backbone", watched)
+    monkeypatch.setattr("ridgeback.compare.recording.measurement.backbone", watched)
     rate = 8000.0
     t = np.arange(64_000) / rate
     x = 2.0 * np.exp(-0.1 * t) * np.cos(10 * np.pi * t) + 0.001 * np.random.default_rng(0).normal(size=t.size)

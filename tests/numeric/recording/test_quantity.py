@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.recording.measurements import measure
+from ridgeback.compare.recording.measurement import measure
 from ridgeback.numeric.recording.quantity import as_displacement
 from ridgeback.numeric.recording.reading import read_recording
 from ridgeback.numeric.recording.recording import Recording

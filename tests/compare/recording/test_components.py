@@ -1,0 +1,59 @@
+"""Every oscillation of a signal with a track of its own: never swapped, none made up."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from ridgeback.answers.measurements_text import measurements_text
+from ridgeback.compare.recording.components import measured_components
+from ridgeback.compare.recording.measurements import measure_recordings
+from ridgeback.numeric.recording.recording import Recording
+
+T = np.arange(800) / 200.0
+
+
+def two_modes(seed: int) -> Recording:
+    """20 Hz and 21.6 Hz, which decay unlike: the weaker is the stronger in the end."""
+    noise = 0.01 * np.random.default_rng(seed).normal(size=T.size)
+    x = np.exp(-0.8 * T) * np.cos(40.0 * np.pi * T) + 0.5 * np.exp(-0.2 * T) * np.cos(43.2 * np.pi * T + seed)
+    return Recording.from_arrays(x + noise, 200.0, name="u")
+
+
+def test_each_mode_has_a_track_and_a_backbone() -> None:
+    found = measured_components(two_modes(1), components=2)
+    assert [one.component for one in found] == [1, 2]
+    truths = {20.0: -0.8, 21.6: -0.2}
+    assert {round(float(np.median(one.track.frequency_hz)), 1) for one in found if one.track} == set(truths)
+    for one in found:
+        assert one.track is not None
+        assert one.track.interval is not None
+        assert one.backbone is not None
+        f, rate = min(truths.items(), key=lambda pair: abs(pair[0] - float(np.median(one.track.frequency_hz))))
+        assert np.mean(one.track.interval.holds(np.full(one.track.time.size, 2 * np.pi * f))) > 0.7
+        off = np.abs(one.backbone.curve_growth_rate - rate)
+        assert np.median(off / one.backbone.curve_growth_rate_sd) < 2.5
+
+
+def test_none_is_made_up() -> None:
+    x = np.exp(-0.8 * T) * np.cos(40.0 * np.pi * T) + 0.01 * np.random.default_rng(4).normal(size=T.size)
+    (only,) = measured_components(Recording.from_arrays(x, 200.0), components=2)
+    assert only.notes[0] == "1 of 2 components that were asked for stand out; none is made up."
+
+
+@pytest.mark.parametrize("style", ["text", "json", "csv"])
+def test_components_are_told_in_every_form(style: str) -> None:
+    found = measure_recordings([two_modes(2)], components=2)
+    text = measurements_text(found, style, backbone=True)
+    if style == "json":
+        assert [one["component"] for one in json.loads(text)["signals"]] == [1, 2]
+    elif style == "csv":
+        lines = text.splitlines()
+        at = lines[0].split(",").index("component")
+        assert {line.split(",")[at] for line in lines[1:]} == {"1", "2"}
+    else:
+        assert "u, component 1: 800 samples" in text
+        assert "u, component 2: 800 samples" in text
+    assert not found.combined
