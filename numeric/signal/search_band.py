@@ -76,7 +76,7 @@ def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | No
     >>> round(strongest_frequency(np.cos(2 * np.pi * 1.5 * t), rate=32.0) / (2 * np.pi), 2)
     1.5
     """
-    padded = 4 * x.size
+    padded = 4 * x.size if x.size <= LONG else fft.next_fast_len(x.size, real=True)
     omega = TWO_PI * rate * np.arange(padded // 2 + 1) / padded
     low, high = band or (TWO_PI * rate * FEWEST_CYCLES / x.size, math.pi * rate)
     within = (omega >= low) & (omega <= high)

@@ -84,11 +84,10 @@ def command(
     damping_ratio_standard_deviation instead: means over bins of amplitude, with everything that is known of their
     error. A note gives the damping ratio, Q = 1 / (2 zeta) and the logarithmic decrement 2 pi zeta at both ends.
     These are the columns in CSV too; with several signals run, channel and stretch come first, and component with
-    --components N; combined backbones follow as the run "combined", with runs (how many reach there) and the scatter between them,
-    omega_between_runs_rad_s and growth_rate_between_runs_per_s. JSON has the rows under "backbone", beside
-    "method", "settings", "recording" (gaps, clipping, interpolation, drift), "notes", "offset" and
-    "amplitude_definition", and without --backbone also "track"; several signals are "signals", and "combined"
-    follows.
+    --components N; combined backbones follow as the run "combined", with runs (how many reach there) and the scatter
+    between them, omega_between_runs_rad_s and growth_rate_between_runs_per_s. JSON has the rows under "backbone",
+    beside "method", "settings", "recording" (gaps, clipping, interpolation, drift), "notes", "offset" and
+    "amplitude_definition", and without --backbone also "track"; several signals are "signals", and "combined" follows.
 
     Several FILEs, or the values of --run-column, are runs.  A signal is cut where values or times are missing, and
     each stretch taken by itself; uneven times, clipped samples and drift are named, and treated as the options say.
