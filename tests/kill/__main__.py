@@ -30,6 +30,8 @@ from tests.kill.job import JOBS
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
 LONGEST = 600.0
 """Seconds after which a run counts as hanging."""
+SHORTEST = 0.3
+"""Least share of the undisturbed time over which the moments are drawn: start-up stays."""
 GRACE = 20.0
 """Seconds in which every process of a stopped job must be gone."""
 
@@ -44,8 +46,9 @@ class Trial:
     faults: list[str] = field(default_factory=list)
     counts: Counter[str] = field(default_factory=Counter)
 
-    def run(self, stop: signal.Signals | None = None, after: float = 0.0) -> None:
-        """Run the job; send it a signal after so many seconds, if it still runs then."""
+    def run(self, stop: signal.Signals | None = None, after: float = 0.0) -> float:
+        """Run the job; send it a signal after so many seconds, if it still runs then.  Answers how long it ran."""
+        begin = time.monotonic()
         process = started(self.name, self.folder)
         try:
             process.wait(after if stop else LONGEST)
@@ -54,7 +57,9 @@ class Trial:
                 self.faults.append(f"no end after {LONGEST:.0f} s")
             process.send_signal(stop or signal.SIGKILL)
             process.wait(LONGEST)
+        lasted = time.monotonic() - begin
         self.judge(process, stop)
+        return lasted
 
     def judge(self, process: subprocess.Popen[bytes], stop: signal.Signals | None) -> None:
         """Note what came of a run."""
@@ -135,6 +140,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=float("inf"), help="begin no chain after so long")
     given = parser.parse_args(arguments)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background job ignores it, and so would ours
     last = time.monotonic() + 60.0 * given.minutes
     totals: dict[str, Counter[str]] = {name: Counter() for name in JOBS}
     faults: list[str] = []
@@ -145,8 +151,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 break
             reference, seconds = undisturbed[name]
             trial = Trial(name, Path(tempfile.mkdtemp(dir=root)), reference)
+            left = seconds
             for stop, share in stops:
-                trial.run(stop, share * seconds)
+                lasted = trial.run(stop, share * left)
+                if lasted < share * left and left == seconds:  # the machine is less busy than it was
+                    seconds = max(lasted, SHORTEST * seconds)
+                left = max(left - lasted, SHORTEST * seconds)  # a job that is taken up again has less to do
+            undisturbed[name] = reference, seconds
             trial.run()
             if (trial.folder / "output").read_bytes() != reference:
                 trial.faults.append("the end differs")
