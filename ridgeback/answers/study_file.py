@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 EACH = 4
 """Blocks that wait for each worker: enough that none idles while one is stored."""
-TEXTS = ("text", "csv", "json")
+TEXTS = ("text", "markdown", "csv", "json")
 
 
 def is_study_file(system: str | None) -> bool:

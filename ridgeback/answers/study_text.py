@@ -37,8 +37,34 @@ def parts(found: StudyResult, style: str) -> Iterator[str]:
         yield from csv_parts(found)
     elif style == "json":
         yield from json_parts(found)
+    elif style == "markdown":
+        yield "\n".join(line for answer in found.answers for line in markdown_lines(answer)) + "\n"
     else:
         yield readable(found)
+
+
+def markdown_lines(answer: Answer) -> Iterator[str]:
+    """One answer as Markdown: a heading, what all rows share, its whole table, what follows from it."""
+    yield f"## {answer.title[:1].upper()}{answer.title[1:]}"
+    same = shared(answer)
+    if same:
+        yield ""
+        yield ", ".join(f"{name} {same[name]}" for name in same) + "."
+    columns = [column.name for column in answer.columns if column.name not in same]
+    yield from ("", markdown_row(columns), markdown_row(["---"] * len(columns)))
+    for row in answer.table:
+        named = named_infinities(row)
+        yield markdown_row([readable_value(named.get(name)) for name in columns])
+    yield from ("", *(f"- {sentence}" for sentence in answer.sentences), "")
+
+
+def markdown_row(cells: Iterable[str]) -> str:
+    """A row of a Markdown table.
+
+    >>> markdown_row(["a", "1 | 2"])
+    '| a | 1 \\\\| 2 |'
+    """
+    return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
 
 
 def csv_parts(found: StudyResult) -> Iterator[str]:

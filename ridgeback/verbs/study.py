@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import click
 
 from ridgeback.answers.atlas_table import atlas_verb
-from ridgeback.answers.estimator_table import estimator_options, estimators_verb
 from ridgeback.answers.study_file import is_study_file, study_file_verb
 from ridgeback.answers.study_tables import FORMATS as TABLES
 from ridgeback.console.failure import PartialError
@@ -39,11 +38,11 @@ BESIDE_AN_EXAMPLE = (
         "against",
         "plot",
     ),
-    *("orders", "amplitudes", "method", "certified", "estimators", "trials", "seed", "checkpoint", "style"),
+    *("orders", "amplitudes", "method", "certified", "style"),
 )
 BESIDE_AN_ATLAS = (
     *("system", "equation", "about", "potential", "settings", "store", "workers", "scheduler", "dry", "against"),
-    *("plot", "amplitudes", "method", "certified", "estimators", "trials", "seed", "checkpoint"),
+    *("plot", "amplitudes", "method", "certified"),
 )
 
 
@@ -77,7 +76,6 @@ BESIDE_AN_ATLAS = (
     help="Instead: where the series of every oscillator of the catalogue converges, what stops it, and its proved "
     "errors inside.",
 )
-@estimator_options
 @format_option("text", "json", "csv", "markdown", "parquet", "netcdf", "zarr", default="text")
 @output_option
 def command(
@@ -90,10 +88,6 @@ def command(
     method: str | None,
     certified: bool,
     atlas: bool,
-    estimators: bool,
-    trials: int | None,
-    seed: int,
-    checkpoint: str | None,
     style: str,
     output: str,
 ) -> None:
@@ -107,7 +101,8 @@ def command(
     ridgeback study van-der-pol --orders 4,8 --amplitudes 0.1,0.5,1 --format csv
     ridgeback study van-der-pol --orders 8,16 --amplitudes 0.5,1,2 --certified
     ridgeback study --atlas --orders 4,8,16,32 --format markdown -o atlas.md
-    ridgeback study --estimators --checkpoint estimators.json
+    ridgeback study --example estimators > estimators.toml
+    ridgeback study estimators.toml --workers 2 --format markdown
     ridgeback study --example five-oscillators > five.toml
     ridgeback study five.toml --workers 2 --format csv -o cells.csv
     ridgeback study five.toml --set orders=2,4,8,16,32 --store other.db
@@ -119,11 +114,9 @@ def command(
         write_text(output, text_of(example))
         return
     if is_study_file(choice.system):
-        if orders or amplitudes or certified or estimators or trials is not None or checkpoint is not None:
-            raise click.UsageError(
-                "a study file has orders, amplitudes and trials of its own; use --set to change them"
-            )
-        refuse_unused("a study file", "method", "seed", "equation", "about", "potential")
+        if orders or amplitudes or certified:
+            raise click.UsageError("a study file has orders and amplitudes of its own; use --set to change them")
+        refuse_unused("a study file", "method", "equation", "about", "potential")
         study_file_verb(str(choice.system), run, style=style, output=output)
         return
     choice = with_parameters(choice, run)
@@ -134,15 +127,8 @@ def command(
     orders = orders or (2, 4, 8, 16)
     if style in TABLES:
         raise click.UsageError(f"--format {style} belongs to a study file; ridgeback study --example paper prints one")
-    if estimators:
-        refuse_unused("--estimators", "orders", "method", "about", "potential", "settings")
-        if choice.made or amplitudes is not None or certified:
-            raise click.UsageError("--estimators is a study of its own; leave out what belongs to expansions")
-        estimators_verb(trials=trials, seed=seed, checkpoint=checkpoint, style=style, output=output)
-        return
-    if trials is not None or checkpoint is not None or style == "markdown":
-        raise click.UsageError("--trials, --checkpoint and --format markdown belong to --estimators")
-    refuse_unused("a study of expansions", "seed")
+    if style == "markdown":
+        raise click.UsageError("--format markdown belongs to --atlas and to a study file")
     if certified:
         refuse_unused("--certified", "method")
     if amplitudes is None:

@@ -12,6 +12,7 @@ from tests.faults import (
     processes,
     recording_files,
     recording_options,
+    study_files,
 )
 from tests.faults.trial import Case
 
@@ -20,6 +21,7 @@ GROUPS: Mapping[str, tuple[Case, ...]] = {
     "equations as text": equations.CASES,
     "oscillators from TOML files": description_files.CASES,
     "`systems`, `generate`, `simulate`, `study`, `report`": other_verbs.CASES,
+    "studies from TOML files, and their stores": study_files.CASES,
     "recordings: CSV, NPZ, NPY, WAV, MAT, HDF5": recording_files.CASES,
     "`estimate`, `identify`: options": recording_options.CASES,
     "environment: locale, home, terminal, limits": processes.ENVIRONMENT,

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tests.faults import study_files
 from tests.faults.formats import TIME, U, bomb, decay, hdf5, mat, npy, npz, npz_of_nothing, patched, table, wav
 
 TEXTS: Mapping[str, str] = {
@@ -44,6 +45,7 @@ TEXTS: Mapping[str, str] = {
     "code.csv": "time_s,u\n0,__import__('os').system('touch stolen')\n1,2\n",
     "escape.csv": decay(head="time_s,\x1b[31mred\x07"),
     "formula.csv": decay(head="time_s,=cmd|' /C calc'!A0"),
+    **study_files.TEXTS,
     "cells.toml": "study.ask = 'error'\ngrid = {orders = [2], amplitudes = [1]}\noscillator = [{system = 'duffing'}]\n",
 }
 

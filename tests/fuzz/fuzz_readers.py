@@ -122,21 +122,10 @@ def as_balls(path: Path) -> object:
     return lindstedt_in_balls("van-der-pol", 8, digits=10, checkpoint=path)
 
 
-def as_study(path: Path) -> object:
-    """Read the checkpoint of an estimator study."""
-    from ridgeback.compare.noise.estimator_study import estimator_study
-
-    return estimator_study((), methods=("hilbert",), trials=2, checkpoint=path)
-
-
 def checkpoints(folder: Path) -> dict[str, tuple[bytes, Reader]]:
-    """Whole checkpoints of both kinds, as the program writes them."""
-    from ridgeback.compare.noise.estimator_study import Case, estimator_study
-
-    made = {"balls.state": as_balls, "study.state": as_study}
+    """Whole checkpoints, as the program writes them."""
     as_balls(folder / "balls.state")
-    estimator_study((Case(length=10.0),), methods=("hilbert",), trials=2, checkpoint=folder / "study.state")
-    return {name: ((folder / name).read_bytes(), reader) for name, reader in made.items()}
+    return {"balls.state": ((folder / "balls.state").read_bytes(), as_balls)}
 
 
 def seeds(folder: Path) -> Mapping[str, tuple[bytes, Reader]]:

@@ -1,7 +1,7 @@
 """One command that keeps state, as a process of its own: ``python -m tests.kill.job NAME STATE OUTPUT``.
 
-It is the command line, except that state is saved twenty times a second, a study of estimators has three short cases
-and a study from a file has small blocks, so that a random moment meets every kind of moment.
+It is the command line, except that state is saved twenty times a second and a study from a file has small blocks, so
+that a random moment meets every kind of moment.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from pathlib import Path
 
 JOBS: Mapping[str, tuple[str, ...]] = {
     "balls": ("derive", "van-der-pol", "--order", "90", "--digits", "30", "--format", "json"),
-    "estimator study": ("study", "--estimators", "--trials", "2", "--format", "json"),
     "study of a file": ("study", "FILE", "--format", "csv"),
     "study of a file, two workers": ("study", "FILE", "--workers", "2", "--format", "csv"),
 }
@@ -33,15 +32,9 @@ system = "helmholtz-duffing"
 def main() -> int:
     """Run a job to its end, or until it is stopped."""
     name, state, output = sys.argv[1:]
-    if name == "estimator study":
-        from ridgeback.compare.noise import estimator_study as study
+    from ridgeback.symbolic.high_order import in_balls
 
-        cases = tuple(study.Case(axis="length", length=length) for length in (8.0, 9.0, 10.0))
-        study.cases = lambda *_: cases  # type: ignore[assignment]
-    else:
-        from ridgeback.symbolic.high_order import in_balls
-
-        in_balls.SAVE_EVERY = SAVE_EVERY  # type: ignore[misc]
+    in_balls.SAVE_EVERY = SAVE_EVERY  # type: ignore[misc]
     from ridgeback.cli import main as command_line
 
     if "FILE" in JOBS[name]:

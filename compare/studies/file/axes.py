@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from typing import Any, TypeVar
 
 from ridgeback.common.errors import InputError
 
@@ -14,6 +14,9 @@ MOST = 1_000_000
 """Values on one axis."""
 SHAPES = ("linear", "log")
 RULE = "a number, a list of numbers, or a range such as { from = 0.1, to = 3, count = 30 }"
+
+
+Number = TypeVar("Number", Fraction, float)
 
 
 def exact_values(given: Any) -> tuple[Fraction, ...]:
@@ -88,9 +91,18 @@ def floats(given: Any, *, low: float = -math.inf, high: float = math.inf, closed
     for value in values:
         if not (low < value < high or (closed and value in (low, high))):
             raise InputError(f"holds {value:g}; {within(low, high, closed=closed)}")
+    return once(values)
+
+
+def once(values: tuple[Number, ...]) -> tuple[Number, ...]:
+    """The values, none of which is there twice.
+
+    >>> once((1, 2))
+    (1, 2)
+    """
     if len(set(values)) < len(values):
         twice = next(value for i, value in enumerate(values) if value in values[:i])
-        raise InputError(f"holds {twice:g} twice; give each value once")
+        raise InputError(f"holds {float(twice):g} twice; give each value once")
     return values
 
 
@@ -123,7 +135,7 @@ def whole_numbers(given: Any, *, low: int, high: int) -> tuple[int, ...]:
     wrong = [v for v in values if v.denominator != 1 or not low <= v <= high]
     if wrong:
         raise InputError(f"holds {float(wrong[0]):g}; give whole numbers from {low} to {high}")
-    return tuple(sorted({int(v) for v in values}))
+    return tuple(sorted(int(v) for v in once(values)))
 
 
 def shown(given: Any) -> str:

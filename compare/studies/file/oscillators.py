@@ -10,7 +10,7 @@ from itertools import product
 from typing import Any
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.studies.file.axes import exact_values, floats, shown
+from ridgeback.compare.studies.file.axes import exact_values, floats, once, shown
 from ridgeback.compare.studies.file.keys import KEYS, given, text_of
 from ridgeback.compare.studies.file.places import LocatedError, Source
 from ridgeback.compare.studies.file.signals import own_signal
@@ -30,6 +30,7 @@ def subjects(source: Source, table: Mapping[str, Any]) -> Iterator[Subject]:
     entries, grid = table.get("oscillator", []), table.get("grid", {})
     if not entries:
         raise LocatedError(f'{source.name}: no oscillator; write [[oscillator]] and, below it, system = "pendulum"')
+    known: dict[Subject, str] = {}
     for i, entry in enumerate(entries, start=1):
         path = f"oscillator.{i}"
         place = f"{path}.amplitudes" if "amplitudes" in entry else "grid.amplitudes"
@@ -40,7 +41,13 @@ def subjects(source: Source, table: Mapping[str, Any]) -> Iterator[Subject]:
             amplitudes = floats(found, low=0.0)
         signal = own_signal(source, table.get("signal", {}), entry.get("signal", {}), f"{path}.signal")
         for system in systems(source, entry, path, grid):
-            yield Subject(system, amplitudes, signal)
+            subject = Subject(system, amplitudes, signal)
+            if subject in known:
+                raise LocatedError(
+                    f"{source.place(path)}: is {known[subject]} once more; give another name, or leave it out"
+                )
+            known[subject] = path
+            yield subject
 
 
 def systems(source: Source, entry: Mapping[str, Any], path: str, grid: Mapping[str, Any]) -> Iterator[System]:
@@ -53,7 +60,7 @@ def systems(source: Source, entry: Mapping[str, Any], path: str, grid: Mapping[s
                 raise InputError(f"the damping {DAMPING} is among the parameters of {path}, too; keep one")
             if DAMPING not in base.oscillator().parameters:
                 raise InputError(f"{base.name} has no parameter {DAMPING}; set its own parameters instead")
-            axes[DAMPING] = exact_values(grid["damping"])
+            axes[DAMPING] = once(exact_values(grid["damping"]))
     if math.prod(len(axis) for axis in axes.values()) > MOST_SUBJECTS:
         raise LocatedError(
             f"{source.place(f'{path}.parameters')}: more than {MOST_SUBJECTS} combinations; give fewer values"
@@ -103,5 +110,5 @@ def parameter_axes(
         with source.at(f"{path}.parameters.{name}"):
             if name not in base.oscillator().parameters:
                 raise InputError(unknown_parameter(base.name, name, base.oscillator().parameters))
-            axes[name] = exact_values(value)
+            axes[name] = once(exact_values(value))
     return axes

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Sequence
 from decimal import Decimal
@@ -119,11 +120,15 @@ def parsed(text: str, name: str) -> dict[str, Any]:
 
 
 def is_study(path: Path) -> bool:
-    """Whether a file is TOML with a table ``[study]``."""
+    """Whether a file is TOML with a table ``[study]``, or would be if it were whole."""
     try:
-        return isinstance(tomllib.loads(path.read_bytes()[:MAX_BYTES].decode("utf-8")).get("study"), dict)
-    except (OSError, ValueError, RecursionError):
+        text = read_regular(path, MAX_BYTES, "a study is a page of text").decode("utf-8")
+    except (OSError, ValueError):
         return False
+    try:
+        return isinstance(tomllib.loads(text).get("study"), dict)
+    except (tomllib.TOMLDecodeError, RecursionError):
+        return re.search(r"^\s*(\[\s*study\s*\]|study\s*[.=])", text, re.MULTILINE) is not None
 
 
 def methods(value: Any, measure: Measure) -> tuple[str, ...]:
