@@ -36,6 +36,8 @@ SEED = 20031
 ENOUGH = 64
 """Independent windows wanted among all replicates: their deviation is then known to 9 %."""
 MOST_REPLICATES, FEWEST_REPLICATES = 24, 4
+VERY_MANY = 1500.0
+"""Windows in a record from which on two replicates tell as much as four do of a shorter one."""
 INDEPENDENT = 0.5
 """Share of a tapered window after which its estimates are as good as independent."""
 POOLED_SHARE = 0.25
@@ -144,7 +146,8 @@ def moving_mean(values: Array, width: int) -> Array:
 
 def replicates_needed(windows: float) -> int:
     """Few for a long record, which holds many independent windows itself."""
-    return int(np.clip(math.ceil(ENOUGH / windows), FEWEST_REPLICATES, MOST_REPLICATES))
+    fewest = FEWEST_REPLICATES if windows < VERY_MANY else 2
+    return int(np.clip(math.ceil(ENOUGH / windows), fewest, MOST_REPLICATES))
 
 
 def with_interval(track: Track, request: Request, trial: Trial, models: SignalModels) -> Track:

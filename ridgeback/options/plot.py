@@ -36,3 +36,14 @@ def plot_option(what: str) -> Callable[[Decorated], Decorated]:
         )(command)
 
     return decorate
+
+
+def plane_path(text: str) -> OutputPath:
+    """A place for a plane, with one of the endings that one can have.
+
+    >>> plane_path("decay.npz")
+    'decay.npz'
+    """
+    if not text.lower().endswith((".npz", ".png")):
+        raise click.BadParameter(f"{shown(text)} does not end in .npz or .png; name a file for the plane")
+    return output_path(text)

@@ -16,7 +16,7 @@ from ridgeback.console.output import STDOUT, write_bytes, write_text
 from ridgeback.console.verb import Verb
 from ridgeback.options.estimator import Estimator, estimator_options
 from ridgeback.options.model import MODEL_FIT, Model, model_options
-from ridgeback.options.plot import plot_option
+from ridgeback.options.plot import plane_path, plot_option
 from ridgeback.options.recording import Reading, reading_options
 from ridgeback.options.shared import format_option, output_option
 from ridgeback.options.unused import refuse_unused
@@ -49,6 +49,13 @@ OF_A_FILE = ("column", "time_column", "rate", "quantity", "span", "resample", "f
 )
 @click.option("--all", "every", is_flag=True, help="Every row of the table in the terminal, not some thirty.")
 @plot_option("the signal, frequency, backbone and damping with their bands")
+@click.option(
+    "--planes",
+    type=plane_path,
+    default=None,
+    metavar="FILE.npz|png",
+    help="Write the time-frequency plane that the method follows, with the track; a spectrogram for methods without.",
+)
 @monte_carlo_options
 @format_option("text", "json", "csv", default="text")
 @output_option
@@ -63,6 +70,7 @@ def command(
     combine: str,
     every: bool,
     plot: str | None,
+    planes: str | None,
     monte_carlo: str | None,
     snr: tuple[float, ...],
     seed: int,
@@ -103,12 +111,14 @@ def command(
     ridgeback estimate --monte-carlo 100 --snr 0,10,20,30
     """
     check_fit(harmonic, estimator, half_cycles=half_cycles, backbone=backbone_wanted)
+    if half_cycles:
+        refuse_unused("--half-cycles, which follow no plane,", "planes")
     if not backbone_wanted and style != "json" and plot is None:
         refuse_unused("the table of a track", "combine")
     if files or monte_carlo is None:
         model.check(estimator.method)
     if monte_carlo is not None:
-        unused = ("backbone_wanted", "half_cycles", "harmonic", "plot", "combine", "run_column")
+        unused = ("backbone_wanted", "half_cycles", "harmonic", "plot", "planes", "combine", "run_column")
         refuse_unused("--monte-carlo, which is about the track of the fundamental,", *unused)
         if len(files) > 1:
             raise click.UsageError(f"--monte-carlo takes one FILE, not {len(files)}; leave the others out")
@@ -145,10 +155,31 @@ def command(
         from ridgeback.reports.figures.measurement import plot_file
 
         write_bytes(plot, plot_file(found, plot.rpartition(".")[2].lower()))
+    if planes is not None:
+        write_bytes(planes, plane_file(found, planes.rpartition(".")[2].lower()))
     write_text(output, measurements_text(found, style, backbone=backbone_wanted, every=every or output != STDOUT))
     if style == "csv":
         tell(found)
     refuse_empty(found, backbone=backbone_wanted)
+
+
+def plane_file(found: Measurements, kind: str) -> bytes:
+    """The plane of the one signal that was measured, as ``npz`` or ``png``."""
+    from ridgeback.common.errors import InputError
+    from ridgeback.compare.recording.planes import npz_of, plane_of
+
+    labels = list(dict.fromkeys(one.recording.label for one in found.measured))
+    if len(labels) > 1:
+        raise InputError(f"--planes writes the plane of one signal, not of {len(labels)}; name one --column or --span")
+    one = found.measured[0]
+    plane = plane_of(one)
+    if one.track is None:
+        raise InputError(f"{labels[0]}: there is no track, whose plane could be drawn")
+    if kind == "npz":
+        return npz_of(plane, one.track)
+    from ridgeback.reports.plane_file import plane_png
+
+    return plane_png(plane, one.track, f"{labels[0]}: {plane.name}")
 
 
 def refuse_beside(estimator: Estimator, option: str, *names: str) -> None:

@@ -207,6 +207,7 @@ def test_work_over_the_budget_is_a_reason_for_another_method(monkeypatch: pytest
 def test_pieces() -> None:
     assert replicates_needed(2.0) == 24
     assert replicates_needed(1000.0) == 4
+    assert replicates_needed(5000.0) == 2
     assert few_sample_factor(5.0) == pytest.approx(2.5706 / 1.95996, rel=1e-4)  # Student's table
     assert moving_mean(np.array([0.0, 0.0, 9.0]), 3).tolist() == [0.0, 3.0, 6.0]
     rng = np.random.default_rng(1)

@@ -68,7 +68,8 @@ def test_an_option_without_a_meaning_is_refused_by_name(
     assert sorted(folder.iterdir()) == before
 
 
-NEUTRAL = ("--workers", "--budget", "--checkpoint", "--digits", "--check", "--gappa", "--help", "--output", "--plot")
+NEUTRAL = ("--workers", "--budget", "--checkpoint", "--digits", "--check", "--gappa", "--help", "--output", "--plot",
+           "--planes")  # fmt: skip
 """Options that change how a result is come by, or what stands beside it."""
 BASES = {
     "derive": ("duffing --order 4", "damped-duffing --order 4", "duffing --order 4 --resummed map --at 1/2"),
