@@ -146,7 +146,7 @@ def printed(
             return at_csv(found, demand)
         case "json":
             more = {**limit_rows(oscillator, result), **certificate_rows(checks), **at_rows(found, demand)}
-            more |= fixed_rows(oscillator, result)
+            more |= {**fixed_rows(oscillator, result), **root_row(oscillator)}
             return json_text({**result.to_dict(), **more})
         case "text":
             held = "" if slow(result) else f"{result.method} to order {result.order}"
@@ -154,6 +154,14 @@ def printed(
             below = range_of_use(oscillator, result) + (table if found else "") + certified(checks)
             return as_text(oscillator, result.to_dict()) + below
     return formulas(result, demand.style)
+
+
+def root_row(oscillator: Oscillator) -> dict[str, object]:
+    """What the root is that coefficients are polynomials in, where there is one."""
+    from ridgeback.symbolic.arithmetic.roots import root_in
+
+    root = root_in(oscillator.substituted_force)
+    return {} if root is None else {"root": root.to_dict()}
 
 
 def slow(result: Any) -> bool:

@@ -12,6 +12,7 @@ import sympy
 from flint import arb, arb_poly, ctx, fmpq
 
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.roots import Root, root_ball
 
 _GUARD_BITS: Final = 64
 
@@ -185,6 +186,8 @@ def number_ball(value: sympy.Expr) -> arb:
     """
     if value.is_Rational:
         return arb(rational(value))
+    if isinstance(value, Root):
+        return root_ball(value)
     if value in (sympy.pi, sympy.E):
         return arb.pi() if value == sympy.pi else arb(1).exp()
     parts = [number_ball(part) for part in value.args]

@@ -11,6 +11,8 @@ from typing import Final
 
 import sympy
 
+from ridgeback.symbolic.arithmetic.roots import reduced, root_in
+
 LARGEST: Final = 4000
 """Operations beyond which a coefficient is left as it comes: cancelling would take longer than deriving it did."""
 
@@ -38,6 +40,10 @@ def tidy(rational: sympy.Expr, k: sympy.Expr, power: int) -> sympy.Expr:
     >>> tidy((4 * w**2 - 1) / (16 - 16 * w**2), sympy.sqrt(1 - w**2), 1)
     (4*w**2 - 1)/(16*sqrt(1 - w**2))
     """
+    root = root_in(rational) or root_in(k)
+    if root is not None and not rational.free_symbols:
+        whole, odd = divmod(power, 2)
+        return reduced(rational * reduced(k**2, root) ** whole, root) * k**odd
     symbols = rational.free_symbols | k.free_symbols
     square = sympy.expand(k**2)
     plain = rational.is_rational_function(*symbols) and square.is_rational_function(*symbols)

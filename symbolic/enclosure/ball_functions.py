@@ -14,6 +14,7 @@ from flint import acb, arb, ctx
 
 from ridgeback.symbolic.arithmetic.balls import MEROMORPHIC, REAL_FUNCTIONS, rational
 from ridgeback.symbolic.arithmetic.closures import Evaluator, Library, evaluator
+from ridgeback.symbolic.arithmetic.roots import Root, root_ball
 from ridgeback.symbolic.grammar.parse import U
 
 Ball: TypeAlias = Any
@@ -86,12 +87,14 @@ def _compiled(e: sympy.Expr, complex_: bool) -> Function:
 
 
 def _is_leaf(e: sympy.Expr) -> bool:
-    return isinstance(e, sympy.Rational) or e in (sympy.pi, sympy.E)
+    return isinstance(e, sympy.Rational | Root) or e in (sympy.pi, sympy.E)
 
 
 def _leaf(e: sympy.Expr) -> arb:
     if isinstance(e, sympy.Rational):
         return arb(rational(e))
+    if isinstance(e, Root):
+        return root_ball(e)
     return arb.pi() if e == sympy.pi else arb(1).exp()
 
 

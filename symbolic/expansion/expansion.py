@@ -29,6 +29,7 @@ from ridgeback.symbolic.arithmetic.rendering import (
     nearest,
     series_latex,
 )
+from ridgeback.symbolic.arithmetic.roots import in_field, root_in
 from ridgeback.symbolic.arithmetic.tidy import tidy
 from ridgeback.symbolic.expansion.amplitude import (
     check_definition,
@@ -138,6 +139,10 @@ class Expansion(ShownExpansion):
 
     def exact(self, coefficient: Scalar) -> sympy.Expr:
         """A coefficient in natural units as an expression in the parameters left symbolic, k among them."""
+        root = root_in(sympy.Add(*self.constants.values()))
+        if root is not None and not isinstance(coefficient, fmpq | int) and set(self.names) == set(self.constants):
+            terms = {powers[1:]: value for powers, value in coefficient.to_dict().items()}
+            return in_field(terms, [self.constants[name] for name in self.names], root)
         value = as_sympy(coefficient, self.names)
         if not self.constants:
             return value

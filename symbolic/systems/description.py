@@ -29,6 +29,7 @@ import sympy
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.files import read_regular
+from ridgeback.symbolic.arithmetic.roots import Root
 from ridgeback.symbolic.grammar.nodes import (
     Call,
     Name,
@@ -43,7 +44,7 @@ from ridgeback.symbolic.grammar.nodes import (
     to_text,
 )
 from ridgeback.symbolic.grammar.parse import Equation, U, V, W, parse_equation, parse_expression, to_sympy
-from ridgeback.symbolic.systems.equilibrium import near_equilibrium, numbers
+from ridgeback.symbolic.systems.equilibrium import about_root, near_equilibrium, numbers
 from ridgeback.symbolic.systems.oscillator import Oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
@@ -97,7 +98,10 @@ def from_text(
     values = numbers(tree, parameters or {})
     rest = sympy.expand(to_sympy(moved_tree).subs({U: 0, V: 0, W: 0}).subs(values))
     if rest.is_number and rest != 0:
-        moved_tree = _moved(tree.left, parse_expression(str(near_equilibrium(tree, about, parameters or {}))))
+        place = near_equilibrium(tree, about, parameters or {})
+        if isinstance(place, Root):
+            return about_root(tree, place, parameters or {}, **details)
+        moved_tree = _moved(tree.left, parse_expression(str(place)))
     moved = Equation(tree.unknown, moved_tree, to_text(moved_tree, unknown=tree.unknown) + " = 0")
     try:
         return Oscillator.from_tree(moved, parameters=parameters, **details)

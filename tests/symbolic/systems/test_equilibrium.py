@@ -43,7 +43,6 @@ def test_a_decimal_near_an_equilibrium_stands_for_it(equation: str, near: str, e
     ("equation", "about", "words"),
     [
         ("u'' - 2 + u**3 = 0", "1.15", "nearest equilibrium is at 1.25992104989"),
-        ("u'' + u - 1/(10*(1 - u)**2) = 0", "0.13", "0.13304868240402278.* of no quadratic"),
         ("u'' + 1 + u**2 = 0", "0.5", "there is none"),
         ("u'' + sin(u) - 1/2 = 0", "0.52", "no polynomial in u .* give the place exactly"),
     ],
