@@ -41,7 +41,6 @@ sphinx_gallery_conf = {
     "examples_dirs": "gallery",
     "gallery_dirs": "made/gallery",
     "filename_pattern": "/figure_",
-    "ignore_pattern": r"(?!.*/figure_)",
     "within_subsection_order": "FileNameSortKey",
     "download_all_examples": False,
     "show_memory": False,
@@ -49,6 +48,7 @@ sphinx_gallery_conf = {
     "remove_config_comments": True,
     "copyfile_regex": "^$",
     "abort_on_example_error": True,
+    "capture_repr": (),
     "plot_gallery": "True",
 }
 warnings.filterwarnings("ignore", message="FigureCanvasAgg is non-interactive")

@@ -90,6 +90,9 @@ def cli(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
+COMPLETION = "_RIDGEBACK_COMPLETE"
+"""The variable by which a shell asks for completion, as click names it."""
+
 LONGEST_INTEGER = 300_000
 """Digits that an integer may have in text: exact coefficients exceed Python's 4300, and more still read quickly."""
 
@@ -100,6 +103,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     >>> main(["derive", "no-such-system"])
     2
     """
+    if arguments is None and (asked := os.environ.get(COMPLETION)):
+        return completion(asked)
     given = sys.argv[1:] if arguments is None else list(arguments)
     os.environ["MPLBACKEND"] = "agg"  # no window is opened, and a name that matplotlib does not know ends its import
     sys.set_int_max_str_digits(max(LONGEST_INTEGER, sys.get_int_max_str_digits()))
@@ -117,6 +122,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BaseException as error:
         return int(fail(error))
     return int(Exit.OK)
+
+
+def completion(asked: str) -> int:
+    """Answer a shell that completes a line, or print what it has to source."""
+    from click.shell_completion import shell_complete
+
+    return shell_complete(cli, {}, "ridgeback", COMPLETION, asked)
 
 
 @contextmanager

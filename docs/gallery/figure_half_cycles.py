@@ -7,4 +7,4 @@ Frequency, amplitude and growth rate from located zero crossings and turning poi
 
 import ridgeback
 
-axes = ridgeback.half_cycles(ridgeback.sample("decay").recording).plot()
+axes = ridgeback.half_cycles(ridgeback.sample("pendulum").recording).plot()
