@@ -12,12 +12,13 @@ from typing import Any
 
 from ridgeback.common.show.optional import optional
 from ridgeback.compare.studies.answer import Answer
+from ridgeback.compare.studies.gridded import grid_of
 from ridgeback.compare.studies.plan import Plan
 from ridgeback.compare.studies.questions.by_name import answers
 from ridgeback.compare.studies.running import finished
 from ridgeback.compare.studies.store import Store, Warned, existing
 from ridgeback.compare.studies.tasks import Finished, Scalar
-from ridgeback.compare.studies.tidy import columns_of, rows_of
+from ridgeback.compare.studies.tidy import columns_of, coordinates_of, rows_of
 
 
 @dataclass(frozen=True)
@@ -108,7 +109,11 @@ class StudyResult:
         return frame
 
     def to_xarray(self) -> Any:
-        """The cells as an xarray Dataset over one dimension ``cell``, with units and meanings."""
+        """The cells as an xarray Dataset, with units and meanings.
+
+        Where they are a full product, over one dimension for each coordinate that takes several values (oscillator,
+        parameter, method, order, amplitude, ...); the others are scalar coordinates.  Else over one dimension ``cell``.
+        """
         library, numpy = optional("xarray", "to_xarray"), optional("numpy", "to_xarray")
         columns = columns_of(self.plan)
         values: dict[str, Any] = {c.name: [] if c.kind == "text" else array("d") for c in columns}
@@ -116,15 +121,20 @@ class StudyResult:
             for name, value in row.items():
                 values[name].append(math.nan if value is None else value)
         kinds = {"text": object, "number": float}
-        data = {
-            column.name: library.Variable(
-                ("cell",),
-                numpy.array(values.pop(column.name), dtype=kinds[column.kind]),
-                {"units": column.unit, "long_name": column.meaning},
-            )
-            for column in columns
+        found = {c.name: numpy.array(values.pop(c.name), dtype=kinds[c.kind]) for c in columns}
+        told = {c.name: {"units": c.unit, "long_name": c.meaning} for c in columns}
+        about = {name: str(value) for name, value in self.about().items()}
+        names = [c.name for c in coordinates_of(self.plan)]
+        grid = grid_of({name: found[name] for name in names})
+        if grid is None:
+            return library.Dataset({n: library.Variable(("cell",), x, told[n]) for n, x in found.items()}, attrs=about)
+        dims = grid.dimensions
+        axes = {
+            name: library.Variable((name,) if name in dims else (), own if name in dims else own[0], told[name])
+            for name, own in grid.axes.items()
         }
-        return library.Dataset(data, attrs={name: str(value) for name, value in self.about().items()})
+        rest = {n: library.Variable(dims, grid.shaped(x), told[n]) for n, x in found.items() if n not in names}
+        return library.Dataset(rest, axes, about)
 
 
 def result_of(plan: Plan, store: Store, program: str, *, warned: Warned) -> StudyResult:

@@ -14,9 +14,13 @@ REASON = Column("reason", "", "why the cell has no values; empty where it has")
 
 def columns_of(plan: Plan) -> tuple[Column, ...]:
     """The columns of a study: the oscillator and its parameters, where the cell stands, what it holds."""
-    measure = measure_of(plan.ask)
+    return (*coordinates_of(plan), *measure_of(plan.ask).values, REASON)
+
+
+def coordinates_of(plan: Plan) -> tuple[Column, ...]:
+    """The columns that say where a cell stands."""
     parameters = (Column(name, "of the equation", f"parameter {name}") for name in plan.parameters)
-    return (OSCILLATOR, *parameters, *measure.coordinates, *measure.values, REASON)
+    return (OSCILLATOR, *parameters, *measure_of(plan.ask).coordinates)
 
 
 def rows_of(plan: Plan, blocks: Iterable[Finished]) -> Iterator[tuple[Scalar, ...]]:

@@ -20,7 +20,8 @@ from ridgeback.compare.benchmark.ways.timing import in_languages, nanoseconds
 from ridgeback.compare.binding.compiled_code import OfAmplitude
 from ridgeback.compare.motion.motion import Motion, exact_omega
 from ridgeback.numeric.arrays import Array
-from ridgeback.symbolic.codegen.fit.fit import minimax
+from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.symbolic.codegen.fit.fit import Fit, minimax
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.by_name import resum
 from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -109,19 +110,24 @@ def fits(motion: Motion, rest: Oscillator, at: At) -> Iterator[Contender]:
     for degree in DEGREES:
         label = f"minimax fit of degree {degree} in A^2"
         try:
-            if not is_smooth(motion, float(_largest(at))):
-                raise InputError("the exact omega0 is not smooth enough over these amplitudes for a proved fit")
-            fit = minimax(rest, _largest(at), degree=degree)
+            fit = fitted(rest, motion.dynamics, _largest(at), degree)
             yield from evaluated(fit, Named(f"minimax-{2 * degree}", label, "minimax", 2 * degree, degree + 1), at)
         except InputError as error:
             yield refused(f"minimax-{2 * degree}", label, "minimax", str(error), order=2 * degree)
 
 
-def is_smooth(motion: Motion, largest: float) -> bool:
+def fitted(rest: Oscillator, dynamics: Dynamics, largest: Fraction, degree: int) -> Fit:
+    """The minimax fit of a degree; InputError where proving one would take minutes, or there is none."""
+    if not is_smooth(dynamics, float(largest)):
+        raise InputError("the exact omega0 is not smooth enough over these amplitudes for a proved fit")
+    return minimax(rest, largest, degree=degree)
+
+
+def is_smooth(dynamics: Dynamics, largest: float) -> bool:
     """Whether ``RESOLVED`` Chebyshev coefficients in A^2 resolve the exact omega0 up to an amplitude."""
     count = 2 * RESOLVED
     nodes = chebyshev.chebpts1(count)
-    omega = exact_omega(motion.dynamics, largest * np.sqrt((1.0 + nodes) / 2.0))
+    omega = exact_omega(dynamics, largest * np.sqrt((1.0 + nodes) / 2.0))
     size = np.abs(chebyshev.chebfit(nodes, omega, count - 1))
     return bool(np.isfinite(size).all() and size[RESOLVED - 4 : RESOLVED + 4].max() <= SMOOTH * size[0])
 

@@ -7,14 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import partial
 from typing import ClassVar
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.compare.benchmark.ways.formulas import fitted
 from ridgeback.compare.benchmark.ways.timing import nanoseconds
-from ridgeback.compare.binding.compiled_code import NotCompiled, compiled
+from ridgeback.compare.binding.compiled_code import NotCompiled, OfAmplitude, compiled
 from ridgeback.compare.binding.generated_code import python_module
 from ridgeback.compare.motion.motion import setting
 from ridgeback.compare.studies.measures.backbone import exact_at, rest_of, series_of
@@ -24,10 +26,14 @@ from ridgeback.compare.studies.tasks import Column, Coordinates, Measure, Outcom
 from ridgeback.compare.study.reference import Reference
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.orbits.paper_model import series_frequency
+from ridgeback.symbolic.resummation.by_name import KINDS, resum
 
-METHODS = ("lindstedt/python", "lindstedt/c", "series/numpy", "closed-form/numpy")
-"""The truncated expansion as generated Python over an array and as compiled C, the paper's (14) by its number of terms,
-and the closed form where there is one."""
+GENERATED = ("lindstedt", *KINDS, "minimax")
+LANGUAGES = ("python", "c")
+METHODS = (*(f"{name}/{way}" for name in GENERATED for way in LANGUAGES), "series/numpy", "closed-form/numpy")
+"""The truncated expansion, its resummations and minimax fits (of the order as degree in A) as generated Python over an
+array and as compiled C, the paper's (14) by its number of terms, and the closed form where there is one."""
+DEFAULTS = ("lindstedt/python", "lindstedt/c", "series/numpy", "closed-form/numpy")
 
 
 @dataclass(frozen=True)
@@ -54,23 +60,35 @@ class CostTask:
 
     def _outcome(self, order: int | None, x: Array, exact: Reference) -> Outcome:
         try:
-            if self.method.startswith("lindstedt"):
-                return self._expansion(order or 0, x, exact)
+            name, _, language = self.method.partition("/")
+            if language in LANGUAGES:
+                return self._generated(name, language, order or 0, x, exact)
             function, count = self._formula(order)
             return measured(function, x, exact, count)
-        except InputError as error:
+        except (InputError, ZeroDivisionError) as error:
             return str(error)
 
-    def _expansion(self, order: int, x: Array, exact: Reference) -> Outcome:
+    def _generated(self, name: str, language: str, order: int, x: Array, exact: Reference) -> Outcome:
+        formula, count = self._by_name(name, order)
+        if language == "python":
+            return measured(python_module(formula).omega0, x, exact, count)
+        with compiled(formula) as native:
+            return native.reason if isinstance(native, NotCompiled) else measured(native, x, exact, count)
+
+    def _by_name(self, name: str, order: int) -> tuple[OfAmplitude, int | None]:
+        """The formula of an order, and how many coefficients it has."""
+        rest, largest = rest_of(self.system), Fraction(max(self.amplitudes))
+        if name == "minimax":
+            if order % 2 or not order:
+                raise InputError(f"a minimax fit is a polynomial in A^2; order {order} is not even and above 0")
+            return fitted(rest.oscillator, rest.dynamics, largest, order // 2), order // 2 + 1
         series = series_of(self.system, "lindstedt", max(self.orders))
         if series is None:
             raise InputError(f"{self.system.name} has no expansion")
         part = series.truncated(order)
-        count = sum(1 for c in part.coefficients if c != 0)
-        if self.method == "lindstedt/python":
-            return measured(python_module(part).omega0, x, exact, count)
-        with compiled(part) as native:
-            return native.reason if isinstance(native, NotCompiled) else measured(native, x, exact, count)
+        if name == "lindstedt":
+            return part, sum(1 for c in part.coefficients if c != 0)
+        return resum(rest.oscillator, part, name, up_to=largest), None
 
     def _formula(self, order: int | None) -> tuple[Callable[[Array], object], int | None]:
         rest = rest_of(self.system)
@@ -117,6 +135,6 @@ MEASURE = Measure(
         Column("coefficients", "1", "coefficients that are not zero"),
     ),
     methods=METHODS,
-    defaults=METHODS,
+    defaults=DEFAULTS,
     tasks=tasks,
 )

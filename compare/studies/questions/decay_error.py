@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from typing import Any
 
 from ridgeback.common.numbers import relative
@@ -10,19 +11,18 @@ from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.plan import Plan
 from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, parameters_text
-from ridgeback.compare.studies.questions.motions import WHERE, Pooled, pooled
+from ridgeback.compare.studies.questions.motions import FLOOR, METHOD, WHERE, Pooled, of_motions
 from ridgeback.compare.studies.tasks import Column, Finished
 
 COLUMNS = (
     *WHERE,
-    Column("method", "", "way to omega0(t)"),
-    Column("order", "1", "highest power kept, or number of terms of the paper's series"),
+    *METHOD,
     Column("rms", "1", "root mean square of the relative error of omega0(t) over the interior and all trials"),
     Column("rms_sd", "1", "its standard deviation over the trials"),
     Column("mean", "1", "mean relative error; negative means low"),
     Column("growth_rms", "1", "root mean square of the relative error of the growth rate, by cycle"),
     Column("coverage", "1", "least share of the interior that has a value"),
-    Column("floor", "1", "how far two readings of the motion itself differ, relative"),
+    FLOOR,
 )
 
 
@@ -41,16 +41,9 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
     Answer
         A row for each case, ratio, method and order that gave a value; the figure has the error over the order.
     """
-    rows = list(pooled(blocks))
-    table = tuple(row_of(row) for row in rows if row.rms is not None)
-    failed = sum(row.failures for row in rows)
     title = "relative error of omega0(t) and of the growth rate along each motion"
-    return Answer("decay-error", title, COLUMNS, table, tuple(sentences(rows)), drawing(rows, plan.title), failed)
-
-
-def row_of(row: Pooled) -> dict[str, Any]:
-    """One row of the table."""
-    return {**row.where(), **{column.name: getattr(row, column.name) for column in COLUMNS[len(WHERE) :]}}
+    figure = partial(drawing, title=plan.title)
+    return of_motions("decay-error", title, COLUMNS, blocks, sentences, figure, lambda row: row.rms is not None)
 
 
 def by_case(rows: Sequence[Pooled]) -> dict[tuple[Any, ...], list[Pooled]]:

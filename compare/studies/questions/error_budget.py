@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from typing import Any
 
 from ridgeback.common.numbers import relative
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions.motions import WHERE, Pooled, pooled
+from ridgeback.compare.studies.questions.motions import FLOOR, METHOD, WHERE, Pooled, of_motions
 from ridgeback.compare.studies.tasks import Column, Finished
 
 COLUMNS = (
     *WHERE[:4],
-    Column("method", "", "way to omega0(t)"),
-    Column("order", "1", "highest power kept, or number of terms of the paper's series"),
+    *METHOD,
     Column("rms", "1", "root mean square of the whole relative error over the interior"),
     Column("truncation", "1", "that against the exact frequency at the method's own amplitude"),
     Column("averaging", "1", "that of this exact frequency itself"),
     Column("closure", "1", "what the two leave of the whole: their product"),
-    Column("floor", "1", "how far two readings of the motion itself differ, relative"),
+    FLOOR,
 )
 
 
@@ -39,19 +39,17 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
     Answer
         A row for each case, prediction and order; the figure has the parts over the order of the first method.
     """
-    rows = list(pooled(blocks))
-    parts = [row for row in rows if row.truncation is not None]
-    table = tuple({**row.where(), **{c.name: getattr(row, c.name) for c in COLUMNS[4:]}} for row in parts)
-    failed = sum(row.failures for row in rows)
     title = "what the error of each prediction is made of"
-    return Answer("error-budget", title, COLUMNS, table, tuple(sentences(parts)), drawing(parts, plan.title), failed)
+    figure = partial(drawing, title=plan.title)
+    return of_motions("error-budget", title, COLUMNS, blocks, sentences, figure, lambda row: row.truncation is not None)
 
 
 def sentences(rows: Sequence[Pooled]) -> Iterator[str]:
     """Of each method its best order, and which part rules there."""
     groups: dict[Any, list[Pooled]] = {}
     for row in rows:
-        groups.setdefault(alike(row), []).append(row)
+        if row.truncation is not None:
+            groups.setdefault(alike(row), []).append(row)
     for mine in groups.values():
         best = min(mine, key=lambda row: row.rms or 0.0)
         order = "" if best.order is None else f" of order {best.order}"
@@ -70,8 +68,9 @@ def alike(row: Pooled) -> tuple[Any, ...]:
 
 def drawing(rows: Sequence[Pooled], title: str) -> Picture:
     """The parts over the order, of the first method that has orders."""
-    first = next((row for row in rows if row.order is not None), None)
-    mine = [] if first is None else [row for row in rows if alike(row) == alike(first)]
+    parts = [row for row in rows if row.truncation is not None]
+    first = next((row for row in parts if row.order is not None), None)
+    mine = [] if first is None else [row for row in parts if alike(row) == alike(first)]
     orders = [row.order or 0 for row in mine]
     strokes = tuple(
         Stroke(orders, [getattr(row, part) or float("nan") for row in mine], part)

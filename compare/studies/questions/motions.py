@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
 
+from ridgeback.common.show.picture import Picture
 from ridgeback.compare.noise.results import finite, mean_and_deviation
+from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.measures.decay import DecayTask
 from ridgeback.compare.studies.measures.predicted import PREDICTIONS
 from ridgeback.compare.studies.questions.grids import WHO, parameters_text
@@ -23,6 +25,12 @@ WHERE = (
     Column("duration", "time unit", "length of the record"),
     Column("snr_db", "dB", "variance of the signal over that of the noise; inf is none"),
 )
+
+METHOD = (
+    Column("method", "", "way to omega0(t)"),
+    Column("order", "1", "highest power kept, or number of terms of the paper's series"),
+)
+FLOOR = Column("floor", "1", "how far two readings of the motion itself differ, relative")
 
 
 @dataclass(frozen=True)
@@ -103,6 +111,24 @@ def case_of(block: Finished) -> tuple[System, float, float]:
     """What is sampled."""
     task = task_of(block)
     return task.system, task.amplitude, task.duration
+
+
+def of_motions(
+    question: str,
+    title: str,
+    columns: tuple[Column, ...],
+    blocks: Iterable[Finished],
+    said: Callable[[Sequence[Pooled]], Iterable[str]],
+    drawn: Callable[[Sequence[Pooled]], Picture],
+    shown: Callable[[Pooled], bool],
+) -> Answer:
+    """An answer from pooled rows: a row of the table for each that is shown, sentences and a figure from all."""
+    rows = list(pooled(blocks))
+    kept = [row for row in rows if shown(row)]
+    names = [column.name for column in columns if column not in WHERE]
+    table = tuple({**row.where(), **{name: getattr(row, name) for name in names}} for row in kept)
+    failed = sum(row.failures for row in rows)
+    return Answer(question, title, columns, table, tuple(said(rows)), drawn(rows), failed)
 
 
 def _pooled(task: DecayTask, method: str, snr: float, order: int | None, outcomes: list[Any]) -> Pooled:

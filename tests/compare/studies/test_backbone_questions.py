@@ -90,3 +90,15 @@ def test_what_is_efficient_has_nothing_cheaper_that_errs_less() -> None:
         cheaper = [r for r in rows if r["time_ns_per_value"] < row["time_ns_per_value"]]
         assert row["efficient"] == (not any(r["largest"] <= row["largest"] for r in cheaper))
         assert row["largest"] > 0
+
+
+def test_resummations_and_minimax_fits_take_part_in_work_against_precision() -> None:
+    methods = '["lindstedt/python", "pade/python", "nome/python", "minimax/python", "minimax/c"]'
+    plan, blocks = asked("work-precision", ("amplitudes", "[0.5, 1, 2]"), ("orders", "[3, 8]"), ("methods", methods))
+    rows = {(row["method"], row["order"]): row for row in work_precision.answer(plan, blocks).rows()}
+    assert rows["minimax/python", 8]["largest"] < 0.01 * rows["lindstedt/python", 8]["largest"]
+    assert rows["pade/python", 8]["largest"] < rows["lindstedt/python", 8]["largest"]
+    assert rows["minimax/python", 8]["coefficients"] == 5
+    assert ("minimax/python", 3) not in rows  # a polynomial in A^2 has an even degree in A
+    if ("minimax/c", 8) in rows:
+        assert rows["minimax/c", 8]["largest"] == pytest.approx(rows["minimax/python", 8]["largest"], rel=1e-6)
