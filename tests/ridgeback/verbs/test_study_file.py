@@ -11,6 +11,8 @@ from typing import Any
 
 import pytest
 
+from ridgeback import run_study
+
 Ridgeback = Callable[..., Any]
 
 TEXT = """
@@ -80,7 +82,6 @@ def test_another_setting_needs_another_store(ridgeback: Ridgeback, study: str, t
     ("arguments", "said"),
     [
         (("STUDY", "--orders", "2"), "use --set to change them"),
-        (("STUDY", "--format", "markdown"), "does not belong to a study file"),
         (("STUDY", "--set", "orders"), "is not KEY=VALUE"),
         (("STUDY", "--set", "orders=1.5"), "--set grid.orders: holds 1.5"),
         (("pendulum", "--amplitudes", "1", "--workers", "2"), "belong to a study file"),
@@ -124,6 +125,22 @@ def test_tables_of_other_libraries_hold_every_cell(
             assert data.attrs["program"].startswith("ridgeback")
     assert [None if value != value else value for value in found] == expected  # noqa: PLR0124 - NaN
     assert ridgeback("study", study, "--format", style).code == 2
+
+
+def test_a_full_product_becomes_a_dataset_over_its_axes(tmp_path: Path) -> None:
+    pytest.importorskip("xarray")
+    path = tmp_path / "grid.toml"
+    one = TEXT[: TEXT.index("[[oscillator]]")] + '[[oscillator]]\nsystem = "pendulum"\nparameters = { k = [3, 1] }\n'
+    path.write_text(one, encoding="utf-8")
+    found = run_study(path)
+    data = found.to_xarray()
+    assert dict(data.relative_error.sizes) == {"k": 2, "amplitude": 3, "order": 2}
+    assert data.attrs["program"].startswith("ridgeback")
+    assert data.amplitude.attrs["units"] == "unit of the unknown"
+    for row in found.rows():
+        cell = data.sel(k=row["k"], amplitude=row["amplitude"], order=row["order"])
+        assert float(cell.omega) == row["omega"]
+        assert str(cell.method.values) == row["method"]
 
 
 def test_two_stores_are_held_against_each_other(ridgeback: Ridgeback, study: str, tmp_path: Path) -> None:
