@@ -291,5 +291,5 @@ class Identification(ShownIdentification, _Values):
         return f"{text}. What it leaves unexplained is {self.unexplained:.2g} of the signal's rms.{why}"
 
     def record(self) -> dict[str, object]:
-        """All fields by name, and the verdict that follows from them."""
-        return {**super().record(), "verdict": self.verdict}
+        """All fields by name, the verdict that follows from them, and why no interval is claimed, if so."""
+        return {**super().record(), "verdict": self.verdict, "unclaimed": self.unclaimed}
