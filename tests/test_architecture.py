@@ -16,7 +16,9 @@ ROOMS = ("symbolic", "numeric", "compare", "reports", "ridgeback")
 
 ALLOWED: dict[str, frozenset[str]] = {
     "symbolic": frozenset({"ridgeback.common", "ridgeback.symbolic", "sympy", "flint", "latex2mathml"}),
-    "numeric": frozenset({"ridgeback.common", "ridgeback.numeric", "numpy", "scipy", "mpmath", "h5py", "openpyxl"}),
+    "numeric": frozenset(
+        {"ridgeback.common", "ridgeback.numeric", "numpy", "scipy", "mpmath", "h5py", "openpyxl", "nptdms"}
+    ),
     # sympy is the language in which symbolic hands over expressions; scipy and mpmath are numeric's.
     "compare": frozenset(
         {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import zipfile
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from datetime import datetime
 from types import MappingProxyType
 
@@ -12,6 +13,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.files.arrays import from_arrays, held, in_memory
 from ridgeback.numeric.files.columns import DAMAGE, FILE_BUDGET, Columns, first_line
 from ridgeback.numeric.files.hdf5 import from_hdf5
+from ridgeback.numeric.files.labview import from_tdms, of_lvm
 from ridgeback.numeric.files.matlab import from_mat
 from ridgeback.numeric.files.npy import array_of
 from ridgeback.numeric.files.text import TEXT_BUDGET, decoded, parse_table
@@ -23,10 +25,26 @@ def from_text(data: bytes, source: str) -> Columns:
     """Columns of a delimited text file."""
     checked_budget(len(data), TEXT_BUDGET, f"{source} as text", "store it as NPZ, MAT or HDF5, or cut it into parts")
     text, note = decoded(data, source)
+    return with_note(of_table(text, source), note)
+
+
+def of_table(text: str, source: str) -> Columns:
+    """Columns of a table in text."""
     table = parse_table(text, source=source)
     sizes = (len(table.rows),) * len(table.names)
-    notes = " ".join(part for part in (note, table.note) if part)
-    return Columns(table.names, sizes, table.column, lambda i: f"line {table.lines[i]}", source, note=notes)
+    return Columns(table.names, sizes, table.column, lambda i: f"line {table.lines[i]}", source, note=table.note)
+
+
+def with_note(columns: Columns, note: str) -> Columns:
+    """The columns with a note before their own."""
+    return replace(columns, note=" ".join(part for part in (note, columns.note) if part))
+
+
+def from_lvm(data: bytes, source: str) -> Columns:
+    """Columns of a LabVIEW measurement file."""
+    checked_budget(len(data), TEXT_BUDGET, f"{source} as text", "store it as TDMS or HDF5, or cut it into parts")
+    text, note = decoded(data, source)
+    return with_note(of_lvm(of_table, text, source), note)
 
 
 def from_excel(data: bytes, source: str) -> Columns:
@@ -84,7 +102,8 @@ READERS: Mapping[str, Callable[[bytes, str], Columns]] = MappingProxyType(
         ".txt": from_text,
         ".tsv": from_text,
         ".dat": from_text,
-        ".lvm": from_text,
+        ".lvm": from_lvm,
+        ".tdms": from_tdms,
         ".asc": from_text,
         ".xlsx": from_excel,
         ".npz": from_npz,

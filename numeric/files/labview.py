@@ -1,0 +1,145 @@
+"""LabVIEW's files: TDMS by npTDMS, and LVM, a table of text below two headers."""
+
+from __future__ import annotations
+
+import io
+import logging
+import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.files.arrays import Stored, from_arrays, held
+from ridgeback.numeric.files.columns import DAMAGE, Columns, first_line
+
+Parsed = Callable[[str, str], Columns]
+END = re.compile(r"^\*\*\*End_of_Header\*\*\*.*$", re.MULTILINE)
+STEP = re.compile(r"^Delta_X[\t,;]+([^\t,;\r\n]+)", re.MULTILINE)
+EMPTY_X, REMARKS = "x_value", "comment"
+"""Columns that LabVIEW writes always, and often leaves empty."""
+SAME = 1e-9
+"""Relative difference below which two steps are one."""
+
+
+def of_lvm(parsed: Parsed, text: str, source: str) -> Columns:
+    """Columns of the first segment of an LVM file: what no number stands in is no column, and Delta_X may be the step.
+
+    Parameters
+    ----------
+    parsed : callable
+        Makes columns of a table in text.
+    text : str
+        The file.
+    source : str
+        Its name.
+
+    Raises
+    ------
+    InputError
+        For a table that cannot be read.
+    """
+    headers = list(END.finditer(text))
+    if len(headers) < 2:
+        return parsed(text, source)
+    begin, end = headers[1].end(), len(text) if len(headers) < 3 else headers[2].start()
+    lines = text[begin:end].strip("\r\n").splitlines()
+    if len(headers) > 2:
+        lines = lines[: next((i for i, line in enumerate(lines) if not line.strip()), len(lines))]
+    table = parsed("\n".join(lines), source)
+    step = STEP.search(text, headers[0].end(), headers[1].start())
+    return with_step(without_empty(table), None if step is None else step[1], len(headers) - 1)
+
+
+def without_empty(table: Columns) -> Columns:
+    """The columns less those of LabVIEW's own that hold no number."""
+    names = [name.strip().lower() for name in table.names]
+    empty = {
+        i for i, name in enumerate(names) if name in (EMPTY_X, REMARKS) and not np.isfinite(numbers(table, i)).any()
+    }
+    kept = [i for i in range(len(names)) if i not in empty]
+    return replace(
+        table,
+        names=tuple(table.names[i] for i in kept),
+        sizes=tuple(table.sizes[i] for i in kept),
+        values=lambda i: table.values(kept[i]),
+    )
+
+
+def numbers(table: Columns, index: int) -> Any:
+    """A column's numbers; none where it holds words."""
+    try:
+        return table.values(index)
+    except InputError:
+        return np.empty(0)
+
+
+def with_step(table: Columns, step: str | None, segments: int) -> Columns:
+    """The columns with the rate of a header, where they hold no times, and a note where more of the file was left."""
+    note = f"The first of {segments} segments was read." if segments > 1 else ""
+    table = replace(table, note=" ".join(part for part in (table.note, note) if part))
+    if step is None or any(name.strip().lower() == EMPTY_X for name in table.names):
+        return table
+    try:
+        seconds = float(step.replace(",", "."))
+    except ValueError:
+        return table
+    return replace(table, rate=1.0 / seconds) if seconds > 0.0 else table
+
+
+def from_tdms(data: bytes, source: str) -> Columns:
+    """Columns of a TDMS file's channels, by npTDMS, with the step and the unit that their properties state.
+
+    Raises OSError without npTDMS, InputError for a damaged file, and for channels of different steps.
+    """
+    try:
+        from nptdms import TdmsFile  # noqa: PLC0415 - only TDMS files need it
+    except ImportError:
+        raise OSError(
+            f"reading {source} needs npTDMS, which is not installed; pip install 'ridgeback[tdms]' brings it"
+        ) from None
+    try:
+        with quiet("nptdms"):
+            file = TdmsFile.read(io.BytesIO(data))
+        channels = [channel for group in file.groups() for channel in group.channels()]
+        steps = {channel.path: increment(channel.properties) for channel in channels}
+        arrays = tuple(stored(channels))
+    except DAMAGE as error:
+        raise InputError(f"{source} is not a readable TDMS file: {first_line(error)}") from None
+    known = [step for step in steps.values() if step is not None]
+    if known and max(known) - min(known) > SAME * max(known):
+        raise InputError(
+            f"{source}: its channels have different steps, {min(known):g} to {max(known):g} s; export them apart"
+        )
+    rate = (held("dt", np.array([known[0]])),) if known else ()
+    return from_arrays((*arrays, *rate), source, kind="TDMS file")
+
+
+@contextmanager
+def quiet(name: str) -> Iterator[None]:
+    """Keep a library's warnings off the terminal: what cannot be read is said in one line."""
+    logger = logging.getLogger(name)
+    before, logger.disabled = logger.disabled, True
+    try:
+        yield
+    finally:
+        logger.disabled = before
+
+
+def stored(channels: list[Any]) -> Iterator[Stored]:
+    """The channels that hold samples, named by group and channel, without the group where there is but one."""
+    groups = {channel.group_name for channel in channels}
+    for channel in channels:
+        unit = str(channel.properties.get("unit_string", "")).strip()
+        name = channel.name if len(groups) == 1 else f"{channel.group_name}/{channel.name}"
+        if len(channel):
+            yield held(f"{name} [{unit}]" if unit else name, np.asarray(channel[:]))
+
+
+def increment(properties: Any) -> float | None:
+    """The step of a waveform in seconds, None for what is none."""
+    value = properties.get("wf_increment")
+    return float(value) if value is not None and float(value) > 0.0 else None
