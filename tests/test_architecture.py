@@ -298,14 +298,20 @@ def folder_of(module: str, room: str) -> str:
     return module.removeprefix(prefix).partition(".")[0] if module.startswith(prefix) else ""
 
 
+def of_the_site() -> list[Path]:
+    """The code of the documentation: how the site is built, its gallery, and the example of a plugin."""
+    return [path for path in sorted((ROOT / "docs").rglob("*.py")) if "made" not in path.parts]
+
+
 def test_no_folder_is_crowded() -> None:
-    crowd = Counter(path.parent for path in modules().values() if path.name != "__init__.py")
+    crowd = Counter(path.parent for path in (*modules().values(), *of_the_site()) if path.name != "__init__.py")
     crowded = {str(folder.relative_to(ROOT)): n for folder, n in crowd.items() if n > MOST_FILES}
     assert not crowded
 
 
 def test_no_file_is_long() -> None:
-    lines = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8").count("\n") for path in modules().values()}
+    files = (*modules().values(), *of_the_site())
+    lines = {str(path.relative_to(ROOT)): path.read_text(encoding="utf-8").count("\n") for path in files}
     assert {file: count for file, count in lines.items() if count > MOST_LINES} == {}
 
 
@@ -316,6 +322,16 @@ def test_every_folder_says_what_lives_there() -> None:
         if path.name == "__init__.py" and len((ast.get_docstring(parsed(path)) or "").splitlines()) < 3
     ]
     assert not silent
+
+
+def test_the_site_turns_no_text_into_code() -> None:
+    assert [f"{path.name}: {call}" for path in of_the_site() for call in forbidden_calls(parsed(path))] == []
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_the_page_of_the_house_tells_the_folders(room: str) -> None:
+    page = (ROOT / "docs" / "explanation" / "house.md").read_text(encoding="utf-8")
+    assert f"| `{room}/` | {', '.join(f'`{folder}`' for folder in ORDER[room])} |" in page
 
 
 @pytest.mark.parametrize("room", ["symbolic", "numeric", "compare"])
