@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.binding.heyoka import integrate_heyoka
 from ridgeback.compare.motion.error_budget import budget
 from ridgeback.compare.motion.error_norms import failure, score
-from ridgeback.compare.motion.estimate_curves import RECIPES, WIGNER, Outcome, Recipe, estimates
+from ridgeback.compare.motion.estimate_curves import NOTHING, RECIPES, WIGNER, Outcome, Recipe, estimates
 from ridgeback.compare.motion.harmonics.overtones import FOLDING_DB, Overtones, folding_of, overtones
 from ridgeback.compare.motion.model_curves import LOW_ORDERS, model_curves
 from ridgeback.compare.motion.motion import CHECKED, Motion, Setting, integrate_motion
@@ -30,6 +30,7 @@ from ridgeback.compare.motion.results import (
 )
 from ridgeback.compare.motion.wigner_bias import wigner_bias
 from ridgeback.compare.study.derived import Derived, derive
+from ridgeback.numeric.tracking.track import Track
 
 HIGH_ORDER = 20
 TOP_MULTIPLE = 8
@@ -46,6 +47,7 @@ def compare_motion(
     derived: Derived | None = None,
     orders: Iterable[int] = (*LOW_ORDERS, HIGH_ORDER),
     recipes: Sequence[Recipe] = RECIPES,
+    known_tracks: Mapping[str, Track] = NOTHING,
     progress: Progress = silent,
 ) -> MotionComparison:
     """Hold models, expansions and estimates of omega0(t) against the cycle frequency of an integrated motion.
@@ -60,6 +62,8 @@ def compare_motion(
         Orders of the expansion that are drawn along the motion.
     recipes
         The estimates that take part; ``LEAN`` leaves out what models the whole signal.
+    known_tracks
+        Estimates of u by method, without bias, that are there already: those of a benchmark of the same motion.
     progress
         Called with the share of the work that is done, 0 to 1, and the name of the step.
 
@@ -90,7 +94,7 @@ def compare_motion(
     motion = integrate_motion(chosen) if isinstance(chosen, Setting) else chosen
     exact = derive(motion.setting.oscillator, max(wanted)) if derived is None else derived
     models = model_curves(motion, exact, orders=wanted)
-    outcomes = estimates(motion, _within(progress, 0.2, 0.45), recipes)
+    outcomes = estimates(motion, _within(progress, 0.2, 0.45), recipes, known_tracks)
     progress(0.45, "harmonics")
     tones = overtones(motion, outcomes)
     known = known_motion(motion)

@@ -140,7 +140,8 @@ def _estimate_note(total: float, spread: float, known: bool) -> str:
 def estimator_error(motion: Motion, outcome: Outcome, known: KnownMotion) -> Array | None:
     """Relative error of the same estimate on the known motion, at the curve's times; None where it fails there."""
     recipe, curve = outcome.recipe.bare, outcome.curve
-    again = attempt(recipe, known.velocity if recipe.velocity else known.signal, motion.trajectory.rate).curve
+    signal = known.velocity if recipe.velocity else known.signal
+    again = attempt(recipe, signal, motion.trajectory.rate, deviations=False).curve
     if again is None or curve is None:
         return None
     error = again.omega / np.interp(again.time, motion.time, known.omega) - 1

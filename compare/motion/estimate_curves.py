@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
@@ -11,8 +13,10 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.results import Curve
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.estimators.estimate import estimation
 from ridgeback.numeric.tracking.track import Track
+
+NOTHING: Mapping[str, Track] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -73,28 +77,34 @@ def signal_of(motion: Motion, recipe: Recipe) -> Array:
     return motion.trajectory.velocity if recipe.velocity else motion.trajectory.u
 
 
-def run(recipe: Recipe, x: Array, rate: float, start: float = 0.0) -> Track:
+def run(recipe: Recipe, x: Array, rate: float, start: float = 0.0, *, deviations: bool = True) -> Track:
     """Run one recipe on samples; InputError from the estimator passes through."""
-    options = dict(recipe.options or {})
-    return estimate(x, rate, method=recipe.method, start=start, **options)  # type: ignore[arg-type]
+    options: dict[str, Any] = dict(recipe.options or {})
+    return estimation(x, rate, method=recipe.method, start=start, deviations=deviations, **options).track
 
 
-def attempt(recipe: Recipe, x: Array, rate: float) -> Outcome:
+def attempt(recipe: Recipe, x: Array, rate: float, *, deviations: bool = True) -> Outcome:
     """Run one recipe; a refusal (InputError) becomes an Outcome with its text."""
     try:
-        return Outcome(recipe, run(recipe, x, rate))
+        return Outcome(recipe, run(recipe, x, rate, deviations=deviations))
     except InputError as error:
         return Outcome(recipe, None, str(error))
 
 
 def estimates(
-    motion: Motion, progress: Callable[[str], None], recipes: Sequence[Recipe] = RECIPES
+    motion: Motion,
+    progress: Callable[[str], None],
+    recipes: Sequence[Recipe] = RECIPES,
+    known: Mapping[str, Track] = NOTHING,
 ) -> tuple[Outcome, ...]:
-    """Run every recipe on the sampled motion."""
+    """Run every recipe on the sampled motion; ``known`` holds, by method, bare tracks of u that are there already."""
     outcomes = []
     for recipe in recipes:
         progress(recipe.label)
-        outcomes.append(attempt(recipe, signal_of(motion, recipe), motion.trajectory.rate))
+        if recipe.method in known and recipe == recipe.bare and not recipe.velocity:
+            outcomes.append(Outcome(recipe, known[recipe.method]))
+        else:
+            outcomes.append(attempt(recipe, signal_of(motion, recipe), motion.trajectory.rate))
     return tuple(outcomes)
 
 

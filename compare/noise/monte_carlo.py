@@ -22,7 +22,7 @@ from ridgeback.compare.noise.results import NoiseCell, NoiseStudy, Trial, Window
 from ridgeback.compare.noise.truth import STRAIGHT, Truth, paper_truth, recording_truth
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.estimators.estimate import METHODS as ESTIMATORS
-from ridgeback.numeric.estimators.estimate import MODEL_FIT, estimate
+from ridgeback.numeric.estimators.estimate import MODEL_FIT, estimate, estimation
 from ridgeback.numeric.model_fit.family import Family
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.tracking.choices import Scope
@@ -138,7 +138,13 @@ def monte_carlo(
     if oscillator is not None:
         truth = replace(truth, oscillator=oscillator, free=tuple(free) or tuple(oscillator.parameters))
     ratios = tuple(float(value) for value in snr_db)
-    options = {"band": band, "lag_seconds": lag_seconds, "remove_bias": remove_bias, "bias": intervals}
+    options = {
+        "band": band,
+        "lag_seconds": lag_seconds,
+        "remove_bias": remove_bias,
+        "bias": intervals,
+        "deviations": intervals,
+    }
     _check_cost(truth, methods, len(ratios) * trials, options, budget_seconds)
     pieces = [
         Work(truth, method, snr, seed, first, min(first + BLOCK, trials), options)
@@ -221,7 +227,7 @@ def attempt(truth: Truth, x: Array, method: str, options: Mapping[str, object]) 
         if name == MODEL_FIT:
             return estimate(x, truth.rate, method=name, start=truth.start, family=fitted_family(truth))
         more = {"scope": scope} if scope else {}
-        return estimate(x, truth.rate, method=name, start=truth.start, **options, **more)  # type: ignore[arg-type]
+        return estimation(x, truth.rate, method=name, start=truth.start, **options, **more).track  # type: ignore[arg-type]
     except InputError as refusal:
         return refusal
 

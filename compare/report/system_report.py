@@ -11,6 +11,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.benchmark.benchmark import assembled
 from ridgeback.compare.benchmark.results import Benchmark
+from ridgeback.compare.benchmark.ways.contender import Contender
 from ridgeback.compare.benchmark.ways.estimates import estimates
 from ridgeback.compare.benchmark.ways.expansions import ORDERS as CONTENDING
 from ridgeback.compare.benchmark.ways.expansions import theory
@@ -37,6 +38,7 @@ from ridgeback.compare.study.results import Range, Study
 from ridgeback.compare.study.study import ranges, study_of
 from ridgeback.compare.study.truncations import already_derived
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.tracking.track import Track
 from ridgeback.symbolic.systems.any_form import OscillatorLike
 
 ORDERS = tuple(range(2, 41, 2))
@@ -146,10 +148,16 @@ def system_report(
         plan, derived = _plan(motion, order, orders, amplitudes, target, trials)
         accuracy = _accuracy(derived, plan)
     with watch.stage("contenders", 0.2, 0.5) as inner:
-        found = _contenders(motion, plan, derived, inner, timed=timed)
+        contenders = _contenders(motion, plan, derived, inner)
+        found = assembled(motion, contenders) if timed else untimed(assembled(motion, contenders))
     with watch.stage("along the motion", 0.5, 0.7) as inner:
         decay = compare_motion(
-            motion, derived=derived, orders=_drawn(derived, order), recipes=LEAN if paper else SHORT, progress=inner
+            motion,
+            derived=derived,
+            orders=_drawn(derived, order),
+            recipes=LEAN if paper else SHORT,
+            known_tracks=tracks_of(contenders),
+            progress=inner,
         )
     with watch.stage("estimators in noise", 0.7, 1.0) as inner:
         noise = noise_part(lambda: motion_truth(motion), trials, inner)
@@ -194,16 +202,20 @@ def described(case: Setting) -> Described:
     return Described(name, o.equation_latex, parameters_line(case.case()), o.reference)
 
 
-def _contenders(motion: Motion, plan: Plan, derived: Derived, progress: Progress, *, timed: bool) -> Benchmark:
+def _contenders(motion: Motion, plan: Plan, derived: Derived, progress: Progress) -> list[Contender]:
     steps = iter(range(1, 100))
 
     def step(label: str) -> None:
         progress(min(next(steps) / 14, 0.99), label)
 
     orders = [o for o in plan.orders if o in CONTENDING or len(plan.orders) < len(CONTENDING)]
-    rows = [*theory(motion, orders, step, known=derived.expansion), *estimates(motion, {}, step)]
-    found = assembled(motion, rows)
-    return found if timed else untimed(found)
+    return [*theory(motion, orders, step, known=derived.expansion), *estimates(motion, {}, step)]
+
+
+def tracks_of(contenders: Sequence[Contender]) -> dict[str, Track]:
+    """Raw estimates by method."""
+    raw = (c for c in contenders if c.track is not None and c.row.corrected_by is None)
+    return {c.row.method: c.track for c in raw if c.track is not None}
 
 
 def untimed(found: Benchmark) -> Benchmark:

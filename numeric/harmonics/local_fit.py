@@ -29,6 +29,8 @@ from ridgeback.numeric.signal.samples import checked_work
 PHASE_DEGREE = 3
 AMPLITUDE_DEGREE = 2
 ITERATIONS, SETTLED = 8, 1e-3
+AT_REST, NEAR_REST = 1e-10, 1e-5
+"""Last steps, in radians, at which a fit ends, and at which it is near enough for its residual to be compared."""
 MOST_HARMONICS = 12
 ONE_WINDOW = 12.0
 """Gain of the criterion in a single window that shows a harmonic: chance reaches it in one of a million windows."""
@@ -146,8 +148,10 @@ class Solution:
     settled: Mask
 
 
-def gauss_newton(s: Array, x: Array, guide: Array, shape: Shape) -> Solution:
+def gauss_newton(s: Array, x: Array, guide: Array, shape: Shape, *, rest: float = AT_REST) -> Solution:
     """Fit every window ``x[window, n]`` from its guide phase; at most ITERATIONS steps, each half a radian at most.
+
+    The steps end when the last one is below ``rest`` everywhere; the residual then errs by its square.
 
     It has settled when the last step moved the phase by less than SETTLED radians, weighted with the amplitude: where a
     decay has sunk into the noise its phase goes on wandering.
@@ -169,7 +173,7 @@ def gauss_newton(s: Array, x: Array, guide: Array, shape: Shape) -> Solution:
         size = np.abs(a @ amplitude_powers.T) * grown
         last = (moved * size).max(axis=1) / np.maximum(size.max(axis=1), np.finfo(float).tiny)
         steeper = steepening(a)
-        if max(last.max(), np.abs(steeper).max()) < 1e-10:
+        if max(last.max(), np.abs(steeper).max()) < rest:
             break
     residual = x - np.einsum("wnp,wp->wn", jacobian, coefficients)
     freedom = max(1, x.shape[1] - shape.size)
@@ -338,7 +342,7 @@ def choose_multiples(x: Array, rate: float, guide: Array, *, half: int) -> tuple
     floor = (1e-9 * np.abs(x).max()) ** 2
 
     def criterion(shape: Shape) -> Array:
-        variance = gauss_newton(s, x[window], guide_phase, shape).variance
+        variance = gauss_newton(s, x[window], guide_phase, shape, rest=NEAR_REST).variance
         return np.asarray(length * np.log(variance + floor) + shape.size * math.log(length))
 
     kept: tuple[int, ...] = ()

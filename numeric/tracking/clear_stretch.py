@@ -8,10 +8,13 @@ jump of a release or a stop fits badly, one in a tail that sinks into the noise 
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
+from ridgeback.numeric.signal.analytic import analytic_of
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.request import LAG_CYCLES, Request
 
@@ -29,6 +32,8 @@ NEAR, MOSTLY = 1.6, 0.5
 most of the power is there: a long chirp."""
 TURN, FOLLOWED = 0.1, 0.3
 """Relative change of the frequency per cycle that can be followed, and the least share of a record in which it is."""
+KEPT = 8
+"""Records whose stretch is kept."""
 TRIES = 24
 """Places over a window at which its end is tried."""
 
@@ -46,11 +51,17 @@ def clear_stretch(request: Request) -> slice | None:
     slice or None
         First sample, and one beyond the last.
     """
-    x, rate, centre = request.signal.x, request.signal.rate, request.signal.search.centre
-    guide = request.signal.search.guide
+    signal = request.signal
+    return clear_once(signal.x.tobytes(), signal.rate, signal.search.guide.tobytes(), signal.search.centre)
+
+
+@lru_cache(maxsize=KEPT)
+def clear_once(samples: bytes, rate: float, guide_bytes: bytes, centre: float) -> slice | None:
+    """The same of arrays as their bytes, kept for the next method that asks it of the same samples."""
+    x, guide = np.frombuffer(samples), np.frombuffer(guide_bytes)
     led = (guide > centre / NEAR) & (guide < centre * NEAR)
     guide = np.where(led, guide, centre)
-    led_share = float(np.average(led, weights=np.abs(request.signal.z) ** 2))
+    led_share = float(np.average(led, weights=np.abs(analytic_of(x)) ** 2))
     half = round(0.5 * LAG_CYCLES * TWO_PI / centre * rate)
     if led_share < MOSTLY or x.size < (FEWEST_WINDOWS + 1) * half or 2 * half + 1 < 2 * Shape().size:
         return None

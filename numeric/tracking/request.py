@@ -54,6 +54,8 @@ class Options:
     bias: bool = True
     components: int | None = None
     """Oscillations to tell apart; None for those that the samples show."""
+    deviations: bool = True
+    """Whether what noise does to a track is found, which takes about as long as the track itself."""
 
     @property
     def most_tones(self) -> int:
@@ -63,7 +65,9 @@ class Options:
     @property
     def given(self) -> list[str]:
         """Names of the settings that differ from their defaults."""
-        return [item.name for item in fields(self) if getattr(self, item.name) != item.default]
+        return [
+            item.name for item in fields(self) if getattr(self, item.name) != item.default and item.name != "deviations"
+        ]
 
     @property
     def multiples(self) -> tuple[int, ...] | None:
@@ -210,8 +214,9 @@ class Request:
         return np.asarray((t >= seconds - slack) & (t <= t[-1] - seconds + slack), dtype=np.bool_)
 
     def deviation(self, of: Callable[[Level], Array], omega: Array, valid: Mask) -> Array | None:
-        """What a formula gives for the amplitude and the noise along a track; None for a trial."""
-        return None if self.plan.trial else of(self.level(omega, valid))
+        """What a formula gives for the amplitude and the noise along a track; None where it is not wanted."""
+        wanted = self.options.deviations and not self.plan.trial
+        return of(self.level(omega, valid)) if wanted else None
 
     def level(self, omega: Array, valid: Mask) -> Level:
         """Amplitude and noise along a track."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ridgeback.compare.benchmark.contenders import Kind, Row, Source
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.tracking.track import Track
 
 
 @dataclass(frozen=True)
@@ -17,6 +18,8 @@ class Contender:
     row: Row
     omega: Array | None
     """NaN where the contender says nothing."""
+    track: Track | None = None
+    """Of an estimate, what it found."""
 
 
 def refused(method: str, label: str, kind: Kind, why: str, *, order: int | None = None) -> Contender:

@@ -19,7 +19,7 @@ from ridgeback.compare.benchmark.ways.contender import Contender, refused
 from ridgeback.compare.benchmark.ways.own_correction import corrected
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.estimators.estimate import estimation
 from ridgeback.numeric.tracking.track import Track
 
 METHODS = (
@@ -44,7 +44,7 @@ def estimates(motion: Motion, own: Mapping[str, Estimator], step: Callable[[str]
 
 
 def _plain(x: Array, rate: float, method: str) -> Track:
-    return estimate(x, rate, method=method, bias=False)
+    return estimation(x, rate, method=method, bias=False, deviations=False).track
 
 
 def _both(motion: Motion, name: str, method: Estimator, rate: float) -> Iterator[Contender]:
@@ -66,6 +66,7 @@ def _both(motion: Motion, name: str, method: Estimator, rate: float) -> Iterator
 
 
 def _contender(motion: Motion, track: Track, name: str, label: str, seconds: float, by: str | None) -> Contender:
+    """What a track gives on the motion's samples, and the track itself."""
     row = Row(
         name,
         label,
@@ -74,7 +75,7 @@ def _contender(motion: Motion, track: Track, name: str, label: str, seconds: flo
         time_s_per_track=seconds,
         time_ns_per_value=seconds / motion.time.size * 1e9,
     )
-    return Contender(row, along(track, motion.time))
+    return Contender(row, along(track, motion.time), track)
 
 
 def along(track: Track, time: Array) -> Array:
