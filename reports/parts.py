@@ -10,6 +10,7 @@ from urllib.parse import quote
 from ridgeback.common.numbers import number
 from ridgeback.compare.report.results import Provenance
 from ridgeback.compare.study.results import Checked, Formula, HarmonicTable
+from ridgeback.reports.text.bibtex import bibtex
 from ridgeback.reports.text.mathml import FormulaError, formula_latex, formula_mathml, mathml
 
 PartKind = Literal[
@@ -64,6 +65,7 @@ class SetFormula:
     latex: str
     python: str
     note: str
+    bibtex: str = ""
 
 
 @dataclass(frozen=True)
@@ -92,7 +94,7 @@ def check_line(check: Checked) -> str:
     return f"{failed}{check.name[0].upper()}{check.name[1:]}: {check.statement}."
 
 
-def set_formula(formula: Formula) -> SetFormula:
+def set_formula(formula: Formula, bibtex: str = "") -> SetFormula:
     r"""Set a formula; LaTeX that cannot be set is kept as text, never dropped.
 
     >>> set_formula(Formula(title="", left="u", terms=(r"\nonsense",))).markup
@@ -102,7 +104,7 @@ def set_formula(formula: Formula) -> SetFormula:
         markup = "".join(formula_mathml(formula))
     except FormulaError:
         markup = ""
-    return SetFormula(formula.title, markup, formula_latex(formula), formula.python, formula.note)
+    return SetFormula(formula.title, markup, formula_latex(formula), formula.python, formula.note, bibtex)
 
 
 def set_harmonics(table: HarmonicTable) -> SetHarmonics:
@@ -149,7 +151,7 @@ def downloads(files: Mapping[str, str]) -> Part:
     return Part("downloads", [download(name, text) for name, text in files.items()])
 
 
-def provenance_part(made: Provenance) -> Part:
+def provenance_part(made: Provenance, title: str) -> Part:
     """The command, and what it ran with; measured times come last and are absent where none were kept."""
     facts = [
         *made.parameters.items(),
@@ -158,4 +160,5 @@ def provenance_part(made: Provenance) -> Part:
         ("input hash", made.input_hash),
         *((f"time, {name}", f"{number(seconds, 2)} s") for name, seconds in made.seconds.items()),
     ]
-    return Part("provenance", {"command": made.command, "facts": [(n, v) for n, v in facts if v]})
+    given = [(n, v) for n, v in facts if v]
+    return Part("provenance", {"command": made.command, "facts": given, "bibtex": bibtex(made, title)})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ridgeback.common.numbers import per_cent
 from ridgeback.compare.report.recording_summary import held
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.study.results import Trend, trend_of
@@ -12,16 +13,24 @@ from ridgeback.reports.figures.identification import (
     ranking_table,
 )
 from ridgeback.reports.figures.recording import backbone_figure, plane_figure, signal_figure, tracks_figure
+from ridgeback.reports.figures.recordings.sample_fit import fit_figure, spectrum_figure
 from ridgeback.reports.parts import Part, Section, fold, set_formula
-from ridgeback.reports.text.equation import equation_mathml
+from ridgeback.reports.text.bibtex import bibtex
+from ridgeback.reports.text.equation import class_mathml
 
 EQUATIONS = 4
 """Classes whose equation is set."""
 
 
+def recording_head(report: Report) -> tuple[Part, ...]:
+    """The measured backbone, below the cards."""
+    found = report.recording
+    return (Part("figure", backbone_figure(found)),) if found is not None and found.backbone_amplitude.size else ()
+
+
 def recording_sections(report: Report) -> tuple[Section, ...]:
     """Sections of a report on a recording; none of another report."""
-    found = (_backbone(report), _made(report), _forecast(report), _record(report), _tracks(report))
+    found = (_made(report), _fit(report), _forecast(report), _record(report), _tracks(report), _backbone(report))
     return tuple(section for section in found if section is not None)
 
 
@@ -29,12 +38,10 @@ def _backbone(report: Report) -> Section | None:
     found = report.recording
     if found is None:
         return None
-    parts = [Part("figure", backbone_figure(found))] if found.backbone_amplitude.size else []
-    if found.fit:
-        parts.append(Part("formula", set_formula(found.fit)))
+    parts = [Part("formula", set_formula(found.fit, bibtex(report.provenance, report.title)))] if found.fit else []
     if found.notes:
         parts.append(fold("Notes on the measurement", Part("lines", found.notes)))
-    return Section("recording", "Backbone", "Frequency and growth rate against amplitude", tuple(parts))
+    return Section("recording", "Formula", "The measured backbone as a formula", tuple(parts)) if parts else None
 
 
 def _made(report: Report) -> Section | None:
@@ -44,7 +51,7 @@ def _made(report: Report) -> Section | None:
     parts = [
         Part("text", found.verdict),
         Part("figure", candidates_figure(found)),
-        Part("equations", [(c.title, equation_mathml(c.equation), c.equation) for c in found.candidates[:EQUATIONS]]),
+        Part("equations", [(c.title, class_mathml(c.equation), c.equation) for c in found.candidates[:EQUATIONS]]),
         Part("table", parameter_table(found.best)),
         fold("All classes, ranked", Part("table", ranking_table(found))),
     ]
@@ -52,6 +59,19 @@ def _made(report: Report) -> Section | None:
         parts.append(fold("Notes on the ranking", Part("lines", found.notes)))
     title = f"Nearest class: {found.best.title}" if found.described else "No class describes this recording"
     return Section("identification", "What made it", title, tuple(parts))
+
+
+def _fit(report: Report) -> Section | None:
+    made = report.identification
+    if made is None or made.fitted is None:
+        return None
+    best = made.best
+    share = per_cent(made.unexplained)
+    parts = (
+        Part("figure", fit_figure(made.fitted, best.title, made.unit)),
+        Part("figure", spectrum_figure(made.fitted)),
+    )
+    return Section("fit", "Samples and fit", f"{best.title} leaves {share} of the signal’s rms", parts)
 
 
 def _forecast(report: Report) -> Section | None:

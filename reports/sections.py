@@ -32,7 +32,9 @@ from ridgeback.reports.parts import (
     set_harmonics,
 )
 from ridgeback.reports.recording_sections import recording_sections
+from ridgeback.reports.runs_sections import runs_sections
 from ridgeback.reports.study_sections import study_sections
+from ridgeback.reports.text.bibtex import bibtex
 from ridgeback.reports.text.tables import budget_table, certified_table, contender_table, range_table
 
 FORMULAS = 2
@@ -44,6 +46,7 @@ def sections(report: Report) -> tuple[Section, ...]:
     found = (
         *study_sections(report),
         *drift_sections(report),
+        *runs_sections(report),
         *recording_sections(report),
         _time(report),
         _order(report),
@@ -55,7 +58,7 @@ def sections(report: Report) -> tuple[Section, ...]:
         _code(report.derivation),
         *outside_sections(report),
         _data(report),
-        Section("provenance", "Provenance", "Provenance", (provenance_part(report.provenance),)),
+        Section("provenance", "Provenance", "Provenance", (provenance_part(report.provenance, report.title),)),
     )
     return tuple(section for section in found if section is not None and section.parts)
 
@@ -125,7 +128,8 @@ def _expansion(report: Report) -> Section | None:
     found = report.derivation
     if found is None:
         return None
-    formulas = [Part("formula", set_formula(formula)) for formula in found.formulas]
+    cited = bibtex(report.provenance, report.title)
+    formulas = [Part("formula", set_formula(formula, cited)) for formula in found.formulas]
     parts: list[Part] = [*formulas[:1]]
     failed = [check_line(check) for check in found.certificate if check.passed is False]
     checked = [check_line(check) for check in found.certificate]

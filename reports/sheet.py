@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from ridgeback.compare.report.results import Card, Described, Report
 from ridgeback.reports.drift_sections import drift_head
 from ridgeback.reports.parts import Part, Section
+from ridgeback.reports.recording_sections import recording_head
+from ridgeback.reports.runs_sections import runs_head
 from ridgeback.reports.sections import head_parts, head_tables, sections
 from ridgeback.reports.study_sections import study_head
 
@@ -38,14 +40,29 @@ def report_sheet(report: Report) -> Sheet:
     """The page of a report on one oscillator or one recording."""
     return Sheet(
         title=report.title,
-        kind="study" if report.answered else "recording" if report.recording else "oscillator",
+        kind=_kind(report),
         lead=report.lead,
         described=report.described,
         cards=report.cards,
-        figure=(*head_parts(report), *study_head(report), *drift_head(report)),
+        figure=(
+            *head_parts(report),
+            *recording_head(report),
+            *runs_head(report),
+            *study_head(report),
+            *drift_head(report),
+        ),
         summary=report.summary,
         tables=head_tables(report),
         head_name="Accuracy and cost" if report.benchmark else "Overview" if report.cards or report.answered else "",
         sections=sections(report),
         code={} if report.grid is None else report.grid.code,
     )
+
+
+def _kind(report: Report) -> str:
+    """What an index calls the page."""
+    if report.answered is not None:
+        return "study"
+    if report.runs is not None:
+        return "recordings"
+    return "recording" if report.recording is not None else "oscillator"

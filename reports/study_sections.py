@@ -27,7 +27,7 @@ def study_head(report: Report) -> tuple[Part, ...]:
     if found.panels:
         name = found.panels[0].y_label
         caption = f"{name[:1].upper()}{name[1:]} against amplitude, one panel for each oscillator and method."
-        return (Part("figure", side_by_side("side-by-side", found.panels, caption)),)
+        return (Part("figure", side_by_side("side-by-side", found.panels, caption, "table-error")),)
     figure = answer_figure("first", found.answers[0].picture()) if found.answers else None
     return () if figure is None else (Part("figure", figure),)
 
@@ -60,7 +60,12 @@ def _set(latex: str) -> str:
 def _answer(answer: Answer, *, first: bool, panels: bool) -> Section:
     parts = []
     if not (first and (panels or answer.question == "error")):
-        figure = answer_figure(f"answer-{answer.question}", answer.picture(), f"{_capital(answer.title)}.")
+        figure = answer_figure(
+            f"answer-{answer.question}",
+            answer.picture(),
+            f"{_capital(answer.title)}.",
+            f"table-{answer.question}",
+        )
         parts += [] if figure is None else [Part("figure", figure)]
     said = [f"{_capital(sentence)}." for sentence in answer.sentences]
     if len(said) > 1:

@@ -10,11 +10,12 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.identification.candidates import ALL_LAWS, LAWS, NAMES, DampingLaw
 from ridgeback.compare.identification.fits import Ranked, rank
-from ridgeback.compare.identification.fitting import Data, prepare
+from ridgeback.compare.identification.fitting import Data, Fit, prepare
 from ridgeback.compare.identification.preparation import Prepared, prepared
 from ridgeback.compare.identification.quantities import refuse_another_quantity
 from ridgeback.compare.identification.ranking import CLEAR, CRITERIA, candidate
 from ridgeback.compare.identification.results import Identification, MeasuredBackbone, Prediction
+from ridgeback.compare.identification.sample_fit import SampleFit, sample_fit
 from ridgeback.numeric.recording.recording import Recording
 
 FEWEST_CYCLES = 6
@@ -147,5 +148,14 @@ def assembled(
         notes=notes,
         failed=ranked.failed,
         prediction=prediction,
+        fitted=over_samples(recording, data, ranked.fits[0]),
     )
     return found.without_intervals() if found.unclaimed else found
+
+
+def over_samples(recording: Recording, data: Data, best: Fit) -> SampleFit:
+    """The best fit in the signal's own unit, its zero where the sensor has it; samples that do not count lie on it."""
+    zero = float(np.mean(recording.values - data.length * data.x))
+    model = data.length * best.model.signal(best.theta, data.time) + zero
+    samples = np.where(data.kept, recording.values, model)
+    return sample_fit(recording.time, samples, model, recording.rate, 2 * np.pi / data.cycle)

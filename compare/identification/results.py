@@ -14,6 +14,7 @@ import numpy as np
 
 from ridgeback.common.show.brief import Brief
 from ridgeback.compare.identification.candidates import DampingLaw
+from ridgeback.compare.identification.sample_fit import SampleFit
 from ridgeback.compare.identification.shown import ShownIdentification, ShownPrediction
 from ridgeback.numeric.arrays import Array, freeze
 
@@ -206,6 +207,8 @@ class Identification(ShownIdentification, _Values):
         such model holds.
     doubt : str
         Why the samples are not those of one oscillation, if so.
+    fitted : SampleFit, optional
+        The best candidate over the samples, with the spectrum of what it leaves.
 
     Examples
     --------
@@ -233,6 +236,7 @@ class Identification(ShownIdentification, _Values):
     prediction: Prediction | None = None
     noise: float = math.nan
     doubt: str = ""
+    fitted: SampleFit | None = None
 
     @property
     def best(self) -> Candidate:
@@ -291,5 +295,6 @@ class Identification(ShownIdentification, _Values):
         return f"{text}. What it leaves unexplained is {self.unexplained:.2g} of the signal's rms.{why}"
 
     def record(self) -> dict[str, object]:
-        """All fields by name, the verdict that follows from them, and why no interval is claimed, if so."""
-        return {**super().record(), "verdict": self.verdict, "unclaimed": self.unclaimed}
+        """All fields by name but the samples, the verdict that follows, and why no interval is claimed, if so."""
+        named = {name: value for name, value in super().record().items() if name != "fitted"}
+        return {**named, "verdict": self.verdict, "unclaimed": self.unclaimed}

@@ -90,13 +90,17 @@ def over_measured(oscillator: Oscillator, measured: Backbone) -> TheoryBackbone:
     measured
         The backbone of the recording.
     """
-    amplitude, omega = measured.curve_amplitude, measured.curve_omega
+    return over_curve(oscillator, measured.curve_amplitude, measured.curve_omega, measured.curve_omega_sd)
+
+
+def over_curve(oscillator: Oscillator, amplitude: Array, omega: Array, omega_sd: Array) -> TheoryBackbone:
+    """The same over a curve of fundamental amplitudes, frequencies and their deviations, each of shape (n,)."""
     expected, inside = exact_at(oscillator, amplitude)
     expected = np.where(inside, expected, np.nan)
     if not inside.any():
         return TheoryBackbone(oscillator.title, oscillator.equation, amplitude, expected, *(float("nan"),) * 3, 0.0)
     error = omega[inside] / expected[inside] - 1
-    spread = float(np.median(measured.curve_omega_sd[inside] / omega[inside]))
+    spread = float(np.median(omega_sd[inside] / omega[inside]))
     mean = float(np.mean(error))
     return TheoryBackbone(
         title=oscillator.title,

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
 
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics.local_fit import choose_multiples
@@ -87,3 +90,11 @@ def signal_models(
     at, last = next(i for i, model in enumerate(models) if model is least), len(models) - 1
     best, fine = models[min(at + STEPS_BEYOND, last)], models[min(at + STEPS_FINER, last)]
     return SignalModels(best, fine, least if fine is not least else models[max(at - 1, 0)], tuple(models))
+
+
+@lru_cache(maxsize=2)
+def models_once(
+    x: bytes, rate: float, guide: bytes, half: int, multiples: tuple[int, ...] | None = None
+) -> SignalModels:
+    """``signal_models`` of arrays as their bytes, kept for the next method that asks for the same."""
+    return signal_models(np.frombuffer(x), rate, np.frombuffer(guide), half=half, multiples=multiples)

@@ -19,7 +19,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.horner import polynomial_value
 from ridgeback.numeric.arrays import Array, frozen
 from ridgeback.numeric.motion.dynamics import Dynamics
-from ridgeback.numeric.orbits.waveform import orbit_harmonics
+from ridgeback.numeric.orbits.waveform import harmonics_along
 
 MAX_TERMS = 100_000
 
@@ -238,7 +238,7 @@ def multicomponent_model(
     """
     t, w = _samples(time, omega)
     phi = np.asarray(phase, dtype=float)
-    cosine = orbit_harmonics(dynamics, peak, count=count).cosine
+    cosine = harmonics_along(dynamics, peak, count=count).cosine
     if not (phi.shape == t.shape and cosine.shape[1] == t.size):
         raise InputError("time, peak, omega and phase must have one length")
     slope = slope_of_samples(t, w)

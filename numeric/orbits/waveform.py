@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebval
 from numpy.typing import ArrayLike
 from scipy import fft
 
@@ -21,6 +22,8 @@ from ridgeback.numeric.orbits.period import OrbitGrid, inner_points, orbit_grid,
 from ridgeback.numeric.orbits.potential import check_peaks, peak_of_potential, potential_at, restoring_of, troughs
 
 _LAST_NODES = 2**12
+FIRST_POINTS, DIED = 16, 1e-14
+"""Chebyshev points that are tried first, and what the last coefficients then are of the largest, at most."""
 
 
 @dataclass(frozen=True)
@@ -136,6 +139,46 @@ def orbit_harmonics(dynamics: Dynamics, peak: ArrayLike, *, count: int = 9) -> O
         cosine[:, moving] = finer
     cosine.flags.writeable = False
     return OrbitHarmonics(frozen(A), cosine, error)
+
+
+def harmonics_along(dynamics: Dynamics, peak: ArrayLike, *, count: int = 9) -> OrbitHarmonics:
+    """The same at many peak amplitudes of one range: between Chebyshev points, where the coefficients die away there.
+
+    They are smooth functions of the peak; as many points are taken as it needs until the last coefficients of their
+    Chebyshev series are at rounding (Trefethen, Approximation Theory and Approximation Practice, 2013, ch. 3).
+
+    Parameters
+    ----------
+    dynamics, peak, count
+        As of :func:`orbit_harmonics`.
+
+    Returns
+    -------
+    OrbitHarmonics
+        At each of the peaks.
+
+    Examples
+    --------
+    >>> from ridgeback.numeric.motion.dynamics import linear
+    >>> A = np.linspace(1.0, 2.0, 200)
+    >>> bool(np.abs(harmonics_along(linear(), A, count=2).cosine[1] - A).max() < 1e-13)
+    True
+    """
+    A = check_peaks(dynamics, peak)
+    low, high = float(A.min(initial=np.inf)), float(A.max(initial=0.0))
+    middle, half = 0.5 * (high + low), 0.5 * (high - low)
+    points = FIRST_POINTS
+    while low > 0.0 and 2 * points < A.size:
+        x = np.cos(np.pi * (np.arange(points) + 0.5) / points)
+        at = orbit_harmonics(dynamics, middle + half * x, count=count)
+        series = fft.dct(at.cosine.T, type=2, axis=0) / points
+        series[0] *= 0.5
+        if np.abs(series[-2:]).max() <= DIED * np.abs(series).max():
+            cosine = np.asarray(chebval((A - middle) / half if half > 0.0 else np.zeros(A.size), series), dtype=float)
+            cosine.flags.writeable = False
+            return OrbitHarmonics(frozen(A), cosine, at.error)
+        points *= 2
+    return orbit_harmonics(dynamics, A, count=count)
 
 
 def _cosines(dynamics: Dynamics, low: Array, high: Array, nodes: int, count: int) -> Array:

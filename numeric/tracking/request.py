@@ -13,7 +13,7 @@ from ridgeback.numeric.arrays import Array, ComplexArray, Mask
 from ridgeback.numeric.components.separation import MOST_TONES, separated_once
 from ridgeback.numeric.components.tones import Tone
 from ridgeback.numeric.harmonics.noise import Level, measure_level
-from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
+from ridgeback.numeric.harmonics.signal_model import SignalModels, models_once
 from ridgeback.numeric.signal.analytic import analytic_of
 from ridgeback.numeric.signal.band_limit import ringing
 from ridgeback.numeric.signal.decimation import Samples
@@ -203,9 +203,8 @@ class Request:
         if self.known_models is not None:
             return self.known_models
         signal = self.signal
-        return signal_models(
-            signal.x, signal.rate, signal.search.guide, half=self.half, multiples=self.options.multiples
-        )
+        guide = signal.search.guide
+        return models_once(signal.x.tobytes(), signal.rate, guide.tobytes(), self.half, self.options.multiples)
 
     def away_from_border(self, seconds: float) -> Mask:
         """True at samples at least ``seconds`` inside the record."""

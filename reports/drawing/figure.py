@@ -12,8 +12,8 @@ from ridgeback.reports.drawing.panel import Panel
 
 WIDE, NARROW = 1000.0, 368.0
 """Widths of the two drawings, in pixels of the page at its widest and on a phone."""
-READ = 161
-"""Places at which a curve is read, at most."""
+READ, FINE = 161, 641
+"""Places at which a slow curve is read, and one that oscillates."""
 WAYS: Mapping[str, str] = {"E": "expansions", "S": "series model", "T": "estimates"}
 
 
@@ -45,10 +45,18 @@ class Figure:
     label: str = ""
     many: str = ""
     """Class of a row of small drawings: ``two``, ``five``; they stand in ``wide``."""
+    table: str = ""
+    """Id of the table that holds the figure's numbers, where its data do not."""
 
 
 def readout(
-    panels: tuple[Sequence[Panel], Sequence[Panel]], series: Sequence[Series], *, name: str, unit: str, link: str
+    panels: tuple[Sequence[Panel], Sequence[Panel]],
+    series: Sequence[Series],
+    *,
+    name: str,
+    unit: str,
+    link: str,
+    places: int = READ,
 ) -> dict[str, object]:
     """What the page's script needs to read curves at a common x: places of the panels, and the curves' values.
 
@@ -62,16 +70,18 @@ def readout(
         Of the x axis.
     link
         Figures with the same word move together.
+    places
+        How many places are read.
     """
     x = panels[0][0].x
-    places = np.linspace(x.low, x.high, READ)
+    at = np.linspace(x.low, x.high, places)
     return {
         "name": name,
         "unit": unit,
         "link": link,
-        "at": [float(f"{v:.5g}") for v in places],
+        "at": [float(f"{v:.5g}") for v in at],
         "boxes": [[panel.box() for panel in group] for group in panels],
-        "series": [[s.name, "%" if s.per_cent else s.unit, _read(s, places)] for s in series],
+        "series": [[s.name, "%" if s.per_cent else s.unit, _read(s, at)] for s in series],
     }
 
 

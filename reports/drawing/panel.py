@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from ridgeback.numeric.arrays import Array
-from ridgeback.reports.drawing.marks import curve, line, rect, text
+from ridgeback.reports.drawing.marks import curve, line, places, rect, text
 from ridgeback.reports.drawing.scale import Scale, tick_labels
 
 Labelled = Callable[[float], str]
@@ -60,8 +60,17 @@ class Panel:
             + text(self.x(v), self.bottom + 19, name, "m", "middle")
             for v, name in zip(values, names, strict=True)
         )
+        edges = " ".join(places(v) for v in (self.left, self.right, self.bottom))
+        named = f'<g class="xt" data-x="{edges}">{"".join(marks)}</g>'
         title = text((self.left + self.right) / 2, self.bottom + 36, unit, "m", "middle") if unit else ""
-        return base + "".join(marks) + title
+        return base + named + title
+
+    def zooming(self, marks: Iterable[str]) -> str:
+        """Marks without text whose x axis a pointer may stretch: a drawing of its own, which shows all at first."""
+        x, y, width, height = (places(v) for v in (self.left, self.top, self.right - self.left, self.bottom - self.top))
+        place = f'x="{x}" y="{y}" width="{width}" height="{height}" style="width:{width}px;height:{height}px"'
+        view = f'viewBox="{x} {y} {width} {height}" preserveAspectRatio="none"'
+        return f'<svg class="z" {place} {view}>{"".join(marks)}</svg>'
 
     def title(self, words: str, kind: str = "m") -> str:
         """What is shown upwards, above the axis at the left."""

@@ -96,6 +96,7 @@ def accuracy_cost(found: Benchmark, target: float) -> Figure:
         caption=_caption(which, timed=timed),
         toggles=toggles(*letters),
         label=label,
+        table="contenders",
     )
 
 

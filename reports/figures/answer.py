@@ -110,7 +110,7 @@ def _strokes(panel: Panel, picture: Picture) -> list[str]:
     return marks
 
 
-def answer_figure(key: str, picture: Picture, caption: str = "") -> Figure | None:
+def answer_figure(key: str, picture: Picture, caption: str = "", table: str = "") -> Figure | None:
     """One picture, wide and narrow; None where it holds no curve.
 
     Parameters
@@ -121,6 +121,8 @@ def answer_figure(key: str, picture: Picture, caption: str = "") -> Figure | Non
         Curves over named axes.
     caption
         Below it; by default the picture's title.
+    table
+        Id of the table that holds the numbers.
     """
     if not any(np.isfinite(floats(stroke.y)).any() for stroke in picture.strokes):
         return None
@@ -143,6 +145,7 @@ def answer_figure(key: str, picture: Picture, caption: str = "") -> Figure | Non
         caption=caption or picture.title,
         data={} if axes.log_x else readout(((wide,), (narrow,)), series, name=picture.x_label, unit="", link=""),
         label=label,
+        table=table,
     )
 
 
@@ -176,7 +179,7 @@ def _below(panel: Panel, picture: Picture) -> list[str]:
     return marks
 
 
-def side_by_side(key: str, pictures: Sequence[Picture], caption: str) -> Figure:
+def side_by_side(key: str, pictures: Sequence[Picture], caption: str, table: str = "") -> Figure:
     """Small drawings that share their axes, so that they compare.
 
     Parameters
@@ -187,6 +190,8 @@ def side_by_side(key: str, pictures: Sequence[Picture], caption: str) -> Figure:
         One for each thing that is compared.
     caption
         Below them.
+    table
+        Id of the table that holds the numbers.
     """
     axes = axes_of(pictures)
     return Figure(
@@ -196,6 +201,7 @@ def side_by_side(key: str, pictures: Sequence[Picture], caption: str) -> Figure:
         caption=caption,
         many="three",
         label=caption,
+        table=table,
     )
 
 

@@ -43,6 +43,7 @@ def budget_figure(rows: Sequence[BudgetRow]) -> Figure:
         f"up, and the table says what they leave unexplained.{_explained(rows)}",
         toggles=toggles(*(letter_ for letter_ in "EST" if any(letter(row) == letter_ for row in shown))),
         label=label,
+        table="budget-table",
     )
 
 

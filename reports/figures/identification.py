@@ -53,7 +53,6 @@ def _ordered(candidate: Candidate, name: str) -> tuple[Array, Array]:
 
 def forecast_figure(made: Prediction, found: Identification) -> Figure:
     """Amplitude, frequency and phase as forecast from the first cycles, with what was measured later."""
-    f = CLOCK.factor
     rows = (
         (
             f"amplitude{unit_of(found)}",
@@ -62,8 +61,12 @@ def forecast_figure(made: Prediction, found: Identification) -> Figure:
             made.amplitude_high,
             made.measured_amplitude,
         ),
-        (CLOCK.title(), made.omega * f, made.omega_low * f, made.omega_high * f, made.measured_omega * f),
-        ("phase error, rad", np.zeros_like(made.time), -made.phase_band, made.phase_band, made.phase_error),
+        (
+            "amplitude, off by %",
+            *_apart(made.amplitude, made.amplitude_low, made.amplitude_high, made.measured_amplitude),
+        ),
+        ("frequency, off by %", *_apart(made.omega, made.omega_low, made.omega_high, made.measured_omega)),
+        ("phase, off by rad", np.zeros_like(made.time), -made.phase_band, made.phase_band, made.phase_error),
     )
     label = "Forecast amplitude, frequency and phase with what was measured"
     groups = tuple(
@@ -78,13 +81,11 @@ def forecast_figure(made: Prediction, found: Identification) -> Figure:
         for (title, centre, low, high, measured), panel in zip(rows, panels, strict=True):
             x = panel.x.of(made.time)
             marks += [panel.rows(most=4), text(0, panel.top - 10, title, "m")]
-            marks += [
-                area(x, panel.y.clipped(low), panel.y.clipped(high), "ef"),
-                panel.curve(made.time, centre, "el nf"),
-            ]
-            marks.append(panel.curve(made.time, measured, "tl nf"))
+            band = area(x, panel.y.clipped(low), panel.y.clipped(high), "ef")
+            curves = [panel.curve(made.time, centre, "el nf"), panel.curve(made.time, measured, "tl nf")]
+            marks.append(panel.zooming([band, *curves]))
         marks.append(panels[-1].columns(most=4 if narrow else 8, unit="t, s"))
-        drawn.append(drawing(NARROW if narrow else WIDE, 520, "narrow" if narrow else "wide", label, marks))
+        drawn.append(drawing(NARROW if narrow else WIDE, 560, "narrow" if narrow else "wide", label, marks))
     series = [Series(f"{title}, measured", made.time, measured) for title, _, _, _, measured in rows]
     series += [Series("forecast", made.time, rows[0][1])]
     errors = made.errors
@@ -93,12 +94,19 @@ def forecast_figure(made: Prediction, found: Identification) -> Figure:
         wide=drawn[0],
         narrow=drawn[1],
         caption=f"{_title(made.candidate, found)} fitted to the first {number(made.cycles, 3)} cycles, to t = "
-        f"{number(made.until)} s. Orange: forecast and its 95 % band; teal: measured. Rms distance: amplitude "
+        f"{number(made.until)} s. Orange: forecast and its 95 % band; teal: what was measured later, less the forecast "
+        f"below the first panel. Rms distance: amplitude "
         f"{per_cent(errors.get('amplitude'))}, frequency {per_cent(errors.get('omega'))}, phase "
         f"{number(errors.get('phase'), 3)} rad.",
         data=readout((groups[0], groups[1]), series, name="t", unit="s", link="time"),
         label=label,
     )
+
+
+def _apart(centre: Array, low: Array, high: Array, measured: Array) -> tuple[Array, Array, Array, Array]:
+    """Forecast, its band and what was measured, in per cent of the forecast from it."""
+    forecast, *others = (100.0 * (values / centre - 1.0) for values in (centre, low, high, measured))
+    return forecast, others[0], others[1], others[2]
 
 
 def _panel(made: Prediction, values: tuple[Array, ...], i: int, *, narrow: bool) -> Panel:
@@ -107,8 +115,8 @@ def _panel(made: Prediction, values: tuple[Array, ...], i: int, *, narrow: bool)
         if narrow
         else Scale(float(made.time[0]), float(made.time[-1]), 70.0, 990.0)
     )
-    top = 24.0 + 158.0 * i
-    return Panel(x, Scale(*padded(values, share=0.08), top + 118.0, top))
+    top = 24.0 + 128.0 * i
+    return Panel(x, Scale(*padded(values, share=0.08), top + 94.0, top))
 
 
 def _title(name: str, found: Identification) -> str:
@@ -140,10 +148,10 @@ def ranking_table(found: Identification) -> Table:
     )
 
 
-def parameter_table(candidate: Candidate) -> Table:
+def parameter_table(candidate: Candidate, key: str = "parameters") -> Table:
     """The fitted numbers of one candidate with their 95 % intervals, value and ends to the same decimals."""
     return Table(
-        "parameters",
+        key,
         f"{candidate.title}: {candidate.equation}",
         ("parameter", "value", "95 % interval"),
         tuple(Row((_named(p), *_with_interval(p))) for p in candidate.parameters),

@@ -138,18 +138,20 @@ def _draw(
 ) -> str:
     upper, lower = panels
     marks: list[str] = []
-    for panel in panels:
-        marks += [panel.shaded(panel.x.low, found.support[0]), panel.shaded(found.support[1], panel.x.high)]
     marks += [upper.rows(most=5), lower.rows(label=per_cent_tick, most=8)]
     marks += [lower.columns(most=4 if narrow else 8, unit=clock.time_title)]
     marks += [text(0, 11, clock.title(), "m"), text(0, lower.top - 14, "relative error, rms over a cycle", "m")]
-    marks.append(upper.curve(decay.time, shown(decay.reference) * clock.factor, "rf nf"))
+    above, below = (
+        [panel.shaded(panel.x.low, found.support[0]), panel.shaded(found.support[1], panel.x.high)] for panel in panels
+    )
+    above.append(upper.curve(decay.time, shown(decay.reference) * clock.factor, "rf nf"))
     for d in drawn:
         inside = np.where(_within(upper, d.omega * clock.factor), d.omega * clock.factor, np.nan)
-        marks.append(group([upper.curve(found.time, inside, d.style)], f"f{d.letter}"))
-        marks.append(group([lower.curve(found.time, d.error, d.style)], f"f{d.letter}"))
+        above.append(group([upper.curve(found.time, inside, d.style)], f"f{d.letter}"))
+        below.append(group([lower.curve(found.time, d.error, d.style)], f"f{d.letter}"))
+    marks += [upper.zooming(above), lower.zooming(below)]
     marks += _beside(found, drawn, lower) if not narrow else _below(drawn, lower)
-    marks += [group(_upper_names(found, decay, drawn, upper, clock), "halo")]
+    marks += [group(_upper_names(found, decay, drawn, upper, clock), "halo nz")]
     height = lower.bottom + (58.0 + 17.0 * ((len(drawn) + 1) // 2) if narrow else 40.0)
     return drawing(NARROW if narrow else WIDE, height, "narrow" if narrow else "wide", label, marks)
 
@@ -200,7 +202,7 @@ def _beside(found: Benchmark, drawn: Sequence[Drawn], panel: Panel) -> list[str]
         x = panel.x(float(found.time[i]))
         path = f"M{places(x)} {places(y)}L{places(panel.right + 12)} {places(height)}H{places(panel.right + 22)}"
         style = STYLE[d.letter]
-        parts = [f'<path d="{path}" class="{style}k {d.dash} nf"/>']
+        parts = [f'<path d="{path}" class="{style}k {d.dash} nf nz"/>']
         parts.append(text(panel.right + 26, height + 4, short_name(d.row), style))
         parts.append(text(WIDE, height + 4, per_cent(d.row.relative_rms_error), style, "end"))
         marks.append(group(parts, f"f{d.letter}"))

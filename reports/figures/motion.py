@@ -6,7 +6,7 @@ import numpy as np
 
 from ridgeback.common.quantities import short_amplitude
 from ridgeback.compare.motion.results import MotionComparison
-from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout
+from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout
 from ridgeback.reports.drawing.marks import curve, drawing, group, line, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded, tick_labels
@@ -32,7 +32,7 @@ def motion(decay: MotionComparison, *, cycle: bool) -> Figure:
         wide=_draw(decay, wide, label, narrow=False, cycle=cycle),
         narrow=_draw(decay, narrow, label, narrow=True, cycle=cycle),
         caption=_caption(decay, cycle=cycle),
-        data=readout(((wide,), (narrow,)), series, name="t", unit=decay.case.time_unit, link="time"),
+        data=readout(((wide,), (narrow,)), series, name="t", unit=decay.case.time_unit, link="time", places=FINE),
         label=label,
     )
 
@@ -69,14 +69,15 @@ def _draw(decay: MotionComparison, panel: Panel, label: str, *, narrow: bool, cy
     marks.append(
         text(panel.right, panel.bottom + 34, f"t, {decay.case.time_unit}" if decay.case.time_unit else "t", "m", "end")
     )
-    marks += [text(0, 11, unit_of(decay), "m"), panel.curve(decay.time, decay.u, "ul nf")]
+    marks.append(text(0, 11, unit_of(decay), "m"))
     amplitude = decay.amplitudes
-    marks.append(panel.curve(amplitude.time, amplitude.energy, "sl nf"))
+    curves = [panel.curve(decay.time, decay.u, "ul nf"), panel.curve(amplitude.time, amplitude.energy, "sl nf")]
     if (
         decay.amplitudes.averaged is not None
         and abs(float(np.min(decay.u)) + amplitude.energy[0]) < 0.1 * amplitude.energy[0]
     ):
-        marks.append(panel.curve(amplitude.time, -amplitude.energy, "sl nf"))
+        curves.append(panel.curve(amplitude.time, -amplitude.energy, "sl nf"))
+    marks.append(panel.zooming(curves))
     height = panel.bottom + 44
     if cycle:
         side = Panel(

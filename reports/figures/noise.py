@@ -46,6 +46,7 @@ def noise_figure(study: NoiseStudy) -> Figure:
         f"True ω₀(t): {study.truth}.",
         many="five",
         label="Error of each estimator against noise",
+        table="noise-table",
     )
 
 

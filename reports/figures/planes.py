@@ -41,7 +41,33 @@ def planes(decay: MotionComparison) -> Figure:
         caption=_caption(decay, image, strong),
         many="two",
         label="Spectrogram and Wigner distribution",
+        data={
+            "planes": [_level_data(image, clock, span), _signed_data(decay.wigner_u, clock, span)],
+            "link": "time",
+            "unit": clock.time_unit,
+        },
     )
+
+
+def _level_data(image: Image, clock: Clock, span: tuple[float, float]) -> dict[str, object]:
+    """What reads a plane of levels: its places, its ranges, its floor."""
+    return {**_plane_data(image, clock, span), "floor": image.floor_db}
+
+
+def _signed_data(plane: SignedPlane, clock: Clock, span: tuple[float, float]) -> dict[str, object]:
+    """The same of a plane with signs, whose scale has a knee."""
+    return {**_plane_data(plane, clock, span), "knee": plane.knee}
+
+
+def _plane_data(plane: Image | SignedPlane, clock: Clock, span: tuple[float, float]) -> dict[str, object]:
+    panel = _frame(span, plane.omega, clock)
+    (t0, t1), (w0, w1) = _edges(plane.time), _edges(plane.omega * clock.factor)
+    return {"box": panel.box(), "time": [t0, t1], "frequency": [w0, w1], "unit": clock.unit}
+
+
+def record_data(image: Image, clock: Clock, span: tuple[float, float]) -> dict[str, object]:
+    """What reads the one plane of a recording."""
+    return {"planes": [_level_data(image, clock, span)], "link": "time", "unit": clock.time_unit}
 
 
 def _strong(decay: MotionComparison, image: Image) -> list[int]:

@@ -12,12 +12,12 @@ from ridgeback.compare.recording.recording import distance
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.apart import apart
-from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout
+from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout
 from ridgeback.reports.drawing.marks import area, drawing, group, line, places, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
 from ridgeback.reports.figures.clock import Clock, shown
-from ridgeback.reports.figures.planes import level_plane
+from ridgeback.reports.figures.planes import level_plane, record_data
 
 CLOCK = Clock("s")
 STYLES = ("tl nf", "tl d1 nf", "tl d2 nf", "tl d3 nf", "el nf", "sl nf")
@@ -72,11 +72,11 @@ def _bands(bands: Sequence[Band], panels: Sequence[Panel], x_title: str) -> list
 
 def _band_panel(band: Band, i: int, count: int, *, narrow: bool) -> Panel:
     width = WIDE / count
-    left, right = (56.0, 360.0) if narrow else (i * width + 64.0, (i + 1) * width - 16.0)
+    left, right = (66.0, 360.0) if narrow else (i * width + 64.0, (i + 1) * width - 16.0)
     top = 300.0 * i + 34.0 if narrow else 34.0
     kept = np.isfinite(band.sd) & (band.sd <= 6.0 * np.nanmedian(band.sd))
     others = [y[kept] for _, y, _ in band.over[:1] if np.isfinite(y[kept]).any()]
-    low, high = padded([band.y[kept] - band.sd[kept], band.y[kept] + band.sd[kept], *others], share=0.12)
+    low, high = padded([band.y, band.y[kept] - band.sd[kept], band.y[kept] + band.sd[kept], *others], share=0.08)
     end = float(np.nanmax(band.x)) * 1.03 if band.x.size else 1.0
     return Panel(Scale(0.0, end, left, right), Scale(low, high, top + (196.0 if narrow else 280.0), top))
 
@@ -152,15 +152,16 @@ def signal_figure(recording: RecordingComparison) -> Figure:
             panel.columns(most=4 if narrow else 8, unit="t, s"),
             text(0, 11, recording.column, "m"),
         ]
-        parts.append(panel.curve(recording.time, recording.signal, "ul nf"))
-        return [*parts, panel.curve(recording.amplitude_time, recording.amplitude, "tl nf")]
+        curves = [panel.curve(recording.time, recording.signal, "ul nf")]
+        curves.append(panel.curve(recording.amplitude_time, recording.amplitude, "tl nf"))
+        return [*parts, panel.zooming(curves)]
 
     return Figure(
         key="recording-signal",
         wide=drawing(WIDE, 270, "wide", label, marks(wide, False)),
         narrow=drawing(NARROW, 270, "narrow", label, marks(narrow, True)),
         caption=f"{recording.column} at {number(recording.rate)} samples per s, with the amplitude of its fundamental.",
-        data=readout(((wide,), (narrow,)), series, name="t", unit="s", link="time"),
+        data=readout(((wide,), (narrow,)), series, name="t", unit="s", link="time", places=FINE),
         label=label,
     )
 
@@ -183,6 +184,7 @@ def plane_figure(recording: RecordingComparison) -> Figure:
         caption=f"{image.name}, level in decibels of its maximum, with the track. {image.note}".strip(),
         many="single",
         label=image.name,
+        data=record_data(image, CLOCK, span),
     )
 
 
@@ -206,10 +208,11 @@ def tracks_figure(recording: RecordingComparison) -> Figure:
             panel.columns(most=4 if narrow else 8, unit="t, s"),
             text(0, 11, CLOCK.title(), "m"),
         ]
+        curves = []
         for c, v in zip(drawn, values, strict=True):
             inside = np.where((v >= panel.y.low) & (v <= panel.y.high), v, np.nan)
-            parts.append(panel.curve(c.time, inside, styles[c.name]))
-        return parts
+            curves.append(panel.curve(c.time, inside, styles[c.name]))
+        return [*parts, panel.zooming(curves)]
 
     names = [
         (c.label, styles[c.name], None if c is chosen else distance(chosen, c), v)

@@ -41,45 +41,197 @@
     mark();
   }
 
-  // crosshair and readout; figures with the same link move together
-  const readers = $$("figure.reads").map(figure => ({figure, d: data(figure)})).filter(r => r.d.at);
-  const at = r => { const s = visible(r.figure); return s ? [s, r.d.boxes[s.classList.contains("wide") ? 0 : 1]] : [null, []]; };
+  // crosshair, readout and zoom; figures with the same link move together
+  const make = (name, attributes) => {
+    const e = document.createElementNS(NS, name);
+    for (const [k, v] of Object.entries(attributes)) e.setAttribute(k, v);
+    return e;
+  };
+  const inside = (svg, e) => new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM().inverse());
+  const readers = $$("figure.reads").map(figure => ({figure, d: data(figure)})).filter(r => r.d.at || r.d.planes);
+  const drawings = figure => $$(".drawing > svg", figure).filter(s => s.getBoundingClientRect().width);
+  // each drawing that is laid out with the boxes of its panels
+  const laid = r => drawings(r.figure).map((svg, i) =>
+    [svg, r.d.planes ? [r.d.planes[i].box] : r.d.boxes[svg.classList.contains("wide") ? 0 : 1]]);
+  const span = (r, box) => r.range ?? [box[4], box[5]];
+  const say = (r, text) => { $(".out", r.figure).textContent = text; };
   const show = (r, x) => {
-    const [svg, boxes] = at(r), out = $(".out", r.figure);
     $$(".xh", r.figure).forEach(e => e.remove());
     r.now = x;
-    if (x === null || !svg) { out.textContent = ""; return; }
-    for (const [x0, y0, x1, y1, low, high] of boxes) {
-      const line = document.createElementNS(NS, "line"), p = x0 + (x1 - x0) * (x - low) / (high - low);
-      for (const [k, v] of [["x1", p], ["x2", p], ["y1", y0], ["y2", y1], ["class", "xh"]]) line.setAttribute(k, v);
-      svg.append(line);
+    if (x === null) { say(r, ""); return; }
+    for (const [svg, boxes] of laid(r)) for (const box of boxes) {
+      const [x0, y0, x1, y1] = box, [low, high] = span(r, box), p = x0 + (x1 - x0) * (x - low) / (high - low);
+      if (p >= x0 - .5 && p <= x1 + .5) svg.append(make("line", {x1: p, x2: p, y1: y0, y2: y1, class: "xh"}));
     }
+    if (!r.d.at) return;
     const grid = r.d.at, i = Math.round((x - grid[0]) / (grid[grid.length - 1] - grid[0]) * (grid.length - 1));
     const said = r.d.series.map(([name, unit, v]) => v[i] === null || v[i] === undefined ? "" :
       name + " " + (unit === "%" ? percent(v[i]) : short(v[i]) + (unit ? " " + unit : "")));
-    out.textContent = (r.d.name + " = " + short(grid[i]) + " " + r.d.unit).trim() + "   " + said.filter(Boolean).join("   ");
+    say(r, (r.d.name + " = " + short(grid[i]) + " " + r.d.unit).trim() + "   " + said.filter(Boolean).join("   "));
   };
+  const linked = r => readers.filter(o => o === r || (r.d.link && o.d.link === r.d.link));
   const move = (r, x) => {
-    const grid = r.d.at, held = x === null ? null : Math.min(grid[grid.length - 1], Math.max(grid[0], x));
-    readers.filter(o => o === r || (r.d.link && o.d.link === r.d.link)).forEach(o => show(o, held));
+    const grid = r.d.at, held = x === null || !grid ? x : Math.min(grid[grid.length - 1], Math.max(grid[0], x));
+    linked(r).forEach(o => show(o, held));
   };
-  readers.forEach(r => {
+
+  // the time axis stretched: every panel is a drawing of its own whose view is narrowed, its ticks are written anew
+  const ticks = (low, high) => {
+    const power = 10 ** Math.floor(Math.log10((high - low) / 6));
+    const step = [1, 2, 2.5, 5, 10].map(s => s * power).find(s => (high - low) / s <= 7);
+    const digits = Math.max(0, 1 - Math.floor(Math.log10(step) + 1e-9) + (String(step / power) === "2.5" ? 1 : 0) - 1);
+    const found = [];
+    for (let n = Math.ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; n++) found.push([n * step, (n * step).toFixed(digits)]);
+    return found;
+  };
+  const stretch = (r, range) => {
+    r.range = range;
+    r.figure.classList.toggle("zoomed", range !== null);
+    const whole = $(".whole", r.figure);
+    if (whole) whole.hidden = range === null;
+    $$(".drawing > svg", r.figure).forEach(svg => {
+      const boxes = r.d.boxes[svg.classList.contains("wide") ? 0 : 1];
+      $$(".z", svg).forEach((z, i) => {
+        const [x0, y0, x1, y1, low, high] = boxes[i], [a, b] = range ?? [low, high], scale = (x1 - x0) / (high - low);
+        z.setAttribute("viewBox", [x0 + (a - low) * scale, y0, (b - a) * scale, y1 - y0].join(" "));
+      });
+      $$(".xt", svg).forEach(g => {
+        g.kept ??= g.innerHTML;
+        if (range === null) { g.innerHTML = g.kept; return; }
+        const [left, right, bottom] = g.dataset.x.split(" ").map(Number);
+        g.replaceChildren(...ticks(...range).flatMap(([v, name]) => {
+          const p = left + (right - left) * (v - range[0]) / (range[1] - range[0]);
+          const label = make("text", {x: p, y: bottom + 19, class: "m", "text-anchor": "middle"});
+          label.textContent = name.replace("-", "−");
+          return [make("line", {x1: p, x2: p, y1: bottom, y2: bottom + 5, class: "ax"}), label];
+        }));
+      });
+    });
+    if (r.now !== null && r.now !== undefined) show(r, r.now);
+  };
+  const zooms = r => r.d.at && $(".z", r.figure);
+  const zoom = (r, range) => {
+    const [low, high] = [r.d.at[0], r.d.at[r.d.at.length - 1]], least = (high - low) / 50;
+    let [a, b] = range ?? [low, high];
+    if (b - a < least) { const middle = (a + b) / 2; a = middle - least / 2; b = middle + least / 2; }
+    [a, b] = [Math.max(low, a), Math.min(high, b)];
+    linked(r).filter(zooms).forEach(o => stretch(o, b - a > .999 * (high - low) ? null : [a, b]));
+  };
+  const by = (r, factor) => {
+    const [low, high] = r.range ?? [r.d.at[0], r.d.at[r.d.at.length - 1]], middle = r.now ?? (low + high) / 2;
+    zoom(r, [middle - (middle - low) * factor, middle + (high - middle) * factor]);
+  };
+  readers.filter(r => r.d.at).forEach(r => {
     const box = $(".drawing", r.figure);
+    let from = null, mark = null;
+    const place = e => {
+      const found = laid(r)[0];
+      if (!found) return [null];
+      const [svg, [b]] = found, p = inside(svg, e), [low, high] = span(r, b);
+      return [svg, b, p.x, low + (p.x - b[0]) / (b[2] - b[0]) * (high - low)];
+    };
+    const end = () => { mark?.remove(); from = mark = null; };
     box.addEventListener("pointermove", e => {
-      const [svg, boxes] = at(r);
+      const [svg, b, p, x] = place(e);
       if (!svg) return;
-      const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM().inverse()), b = boxes[0];
-      if (p.x < b[0] - 8 || p.x > b[2] + 8) { move(r, null); return; }
-      move(r, b[4] + (p.x - b[0]) / (b[2] - b[0]) * (b[5] - b[4]));
+      if (from !== null) {
+        const q = Math.min(b[2], Math.max(b[0], p)), [boxes] = [laid(r)[0][1]], last = boxes[boxes.length - 1];
+        if (!mark) svg.append(mark = make("rect", {class: "sel", y: b[1], height: last[3] - b[1]}));
+        mark.setAttribute("x", Math.min(from, q));
+        mark.setAttribute("width", Math.abs(q - from));
+      }
+      if (p < b[0] - 8 || p > b[2] + 8) { move(r, null); return; }
+      move(r, x);
+    });
+    box.addEventListener("pointerleave", () => move(r, null));
+    if (zooms(r)) {
+      box.addEventListener("pointerdown", e => {
+        const [svg, b, p] = place(e);
+        if (svg && e.button === 0 && p >= b[0] && p <= b[2]) { from = p; box.setPointerCapture(e.pointerId); }
+      });
+      box.addEventListener("pointerup", e => {
+        const [svg, b, p] = place(e), [low, high] = svg ? span(r, b) : [0, 1], start = from;
+        end();
+        if (!svg || start === null || Math.abs(p - start) < 8) return;
+        const at = q => low + (Math.min(b[2], Math.max(b[0], q)) - b[0]) / (b[2] - b[0]) * (high - low);
+        zoom(r, [at(start), at(p)].sort((a, c) => a - c));
+      });
+      box.addEventListener("pointercancel", end);
+      box.addEventListener("dblclick", () => zoom(r, null));
+      $(".whole", r.figure).addEventListener("click", () => zoom(r, null));
+    }
+    box.addEventListener("keydown", e => {
+      const grid = r.d.at, n = grid.length, step = grid[1] - grid[0], [low, high] = r.range ?? [grid[0], grid[n - 1]];
+      const now = r.now === undefined ? null : r.now, middle = (low + high) / 2;
+      const to = {ArrowLeft: (now ?? middle) - step, ArrowRight: (now ?? middle) + step, Home: low,
+        End: high, PageDown: (now ?? low) + 16 * step, PageUp: (now ?? high) - 16 * step}[e.key];
+      if (e.key === "Escape") { move(r, null); if (r.range) zoom(r, null); }
+      else if (zooms(r) && (e.key === "+" || e.key === "=")) by(r, .5);
+      else if (zooms(r) && e.key === "-") by(r, 2);
+      else if (zooms(r) && e.key === "0") zoom(r, null);
+      else if (to !== undefined) { e.preventDefault(); move(r, to); }
+    });
+  });
+
+  // planes: the level under the pointer, from the grey of the picture that is drawn
+  const greys = new Map();
+  const grey = image => {
+    if (greys.has(image)) return greys.get(image);
+    greys.set(image, null);
+    const picture = new Image();
+    picture.onload = () => {
+      const canvas = document.createElement("canvas");
+      canvas.width = picture.naturalWidth;
+      canvas.height = picture.naturalHeight;
+      const pen = canvas.getContext("2d", {willReadFrequently: true});
+      pen.drawImage(picture, 0, 0);
+      greys.set(image, [canvas.width, canvas.height, pen.getImageData(0, 0, canvas.width, canvas.height).data]);
+    };
+    picture.src = image.getAttribute("href");
+    return null;
+  };
+  const level = (plane, svg, u, v) => {
+    const shares = $$("mask image", svg).map(image => {
+      const g = grey(image);
+      if (!g) return null;
+      const [w, h, pixels] = g, column = Math.min(w - 1, Math.floor(u * w)), row = Math.min(h - 1, Math.floor((1 - v) * h));
+      return pixels[4 * (row * w + column)] / 255;
+    });
+    if (!shares.length || shares.includes(null)) return null;
+    if (plane.floor !== undefined) return shares[0] * -plane.floor + plane.floor;
+    return plane.knee * Math.sinh((shares[0] - shares[1]) * Math.asinh(1 / plane.knee));
+  };
+  const worded = (plane, value) => value === null ? "" : plane.floor === undefined
+    ? "   " + percent(value).replace(/^/, value < 0 ? "−" : "") + " of the maximum"
+    : value <= plane.floor ? "   below " + plane.floor.toFixed(0).replace("-", "−") + " dB"
+    : "   " + value.toFixed(0).replace("-", "−") + " dB of the maximum";
+  readers.filter(r => r.d.planes).forEach(r => {
+    const box = $(".drawing", r.figure);
+    const read = (i, t, f) => {
+      const plane = r.d.planes[i], svg = drawings(r.figure)[i], [t0, t1] = plane.time, [f0, f1] = plane.frequency;
+      move(r, t);
+      r.at = [i, t, f];
+      const u = (t - t0) / (t1 - t0), v = (f - f0) / (f1 - f0);
+      const found = u < 0 || u > 1 || v < 0 || v > 1 ? null : level(plane, svg, u, v);
+      const text = "t = " + short(t) + (r.d.unit ? " " + r.d.unit : "") + "   ω" + (plane.unit === "Hz" ? " / 2π" : "") + " = " + short(f);
+      say(r, text + (plane.unit ? " " + plane.unit : "") + worded(plane, found));
+    };
+    $$("mask image", box).forEach(grey);
+    box.addEventListener("pointermove", e => {
+      const all = drawings(r.figure), i = all.findIndex(svg => svg.contains(e.target));
+      if (i < 0) return;
+      const p = inside(all[i], e), [x0, y0, x1, y1, a, b, low, high] = r.d.planes[i].box;
+      if (p.x < x0 || p.x > x1 || p.y < y0 || p.y > y1) { move(r, null); return; }
+      read(i, a + (p.x - x0) / (x1 - x0) * (b - a), low + (y1 - p.y) / (y1 - y0) * (high - low));
     });
     box.addEventListener("pointerleave", () => move(r, null));
     box.addEventListener("keydown", e => {
-      const grid = r.d.at, n = grid.length, step = grid[1] - grid[0];
-      const now = r.now === undefined || r.now === null ? null : r.now;
-      const to = {ArrowLeft: (now ?? grid[n >> 1]) - step, ArrowRight: (now ?? grid[n >> 1]) + step, Home: grid[0],
-        End: grid[n - 1], PageDown: (now ?? grid[0]) + 16 * step, PageUp: (now ?? grid[n - 1]) - 16 * step}[e.key];
+      const [i, t, f] = r.at ?? [0, null, null], [, , , , a, b, low, high] = r.d.planes[i].box;
+      const now = [t ?? (a + b) / 2, f ?? (low + high) / 4], dt = (b - a) / 100, df = (high - low) / 100;
+      const to = {ArrowLeft: [-dt, 0], ArrowRight: [dt, 0], ArrowUp: [0, df], ArrowDown: [0, -df]}[e.key];
       if (e.key === "Escape") move(r, null);
-      else if (to !== undefined) { e.preventDefault(); move(r, to); }
+      else if (e.key === "Home" || e.key === "End") { e.preventDefault(); read(e.key === "Home" ? 0 : r.d.planes.length - 1, ...now); }
+      else if (to) { e.preventDefault(); read(i, Math.min(b, Math.max(a, now[0] + to[0])), Math.min(high, Math.max(low, now[1] + to[1]))); }
     });
   });
 
@@ -88,14 +240,17 @@
   if (figure && Object.keys(code).length) {
     const d = data(figure), so = $(".so", figure), sa = $(".sa", figure);
     const unit = v => short(v) + (d.unit ? " " + d.unit : "");
+    const size = (i, j) => {
+      const bound = d.bounds[i][j], sign = d.signs[i][j] === "+" ? "high" : "low";
+      return bound === null ? "–" : (bound > 10 ? "" : "≤ ") + atMost(bound) + ", " + sign;
+    };
     const set = () => {
       const i = +so.value, j = +sa.value, order = d.orders[i], A = d.amplitudes[j];
-      const value = code[order](A, d.k), bound = d.bounds[i][j];
+      const value = code[order](A, d.k);
       $(".oo", figure).textContent = order;
       $(".oa", figure).textContent = d.letter + " = " + unit(A);
       $(".rv", figure).textContent = short(value * d.factor) + (d.frequency_unit ? " " + d.frequency_unit : "");
-      const sign = d.signs[i][j] === "+" ? "+" : "−";
-      $(".re", figure).textContent = bound === null ? "–" : (bound > 10 ? "" : "≤ ") + atMost(bound) + (sign === "+" ? ", high" : ", low");
+      $(".re", figure).textContent = size(i, j);
       $$("svg", figure).forEach((svg, n) => {
         const mk = $(".mk", svg);
         if (!mk) return;
@@ -112,13 +267,24 @@
       });
     };
     [so, sa].forEach(e => e.addEventListener("input", set));
-    $(".drawing", figure).addEventListener("pointerdown", e => {
-      const svg = visible(figure), low = d.boxes[svg.classList.contains("wide") ? 0 : 1][1];
-      const p = new DOMPoint(e.clientX, e.clientY).matrixTransform(svg.getScreenCTM().inverse());
-      if (p.x < low[0] || p.x > low[2] || p.y < low[1] || p.y > low[3]) return;
+    // order and amplitude of the cell under the pointer
+    const cell = e => {
+      const svg = visible(figure), low = d.boxes[svg.classList.contains("wide") ? 0 : 1][1], p = inside(svg, e);
+      if (p.x < low[0] || p.x > low[2] || p.y < low[1] || p.y > low[3]) return null;
       const a = low[4] + (p.x - low[0]) / (low[2] - low[0]) * (low[5] - low[4]);
-      sa.value = d.amplitudes.reduce((best, v, k) => Math.abs(v - a) < Math.abs(d.amplitudes[best] - a) ? k : best, 0);
-      so.value = Math.min(d.orders.length - 1, Math.floor((low[3] - p.y) / (low[3] - low[1]) * d.orders.length));
+      const j = d.amplitudes.reduce((best, v, k) => Math.abs(v - a) < Math.abs(d.amplitudes[best] - a) ? k : best, 0);
+      return [Math.min(d.orders.length - 1, Math.floor((low[3] - p.y) / (low[3] - low[1]) * d.orders.length)), j];
+    };
+    const drawing = $(".drawing", figure), out = $(".out", figure);
+    drawing.addEventListener("pointermove", e => {
+      const at = cell(e);
+      out.textContent = at ? "order " + d.orders[at[0]] + "   " + d.letter + " = " + unit(d.amplitudes[at[1]]) + "   error " + size(...at) : "";
+    });
+    drawing.addEventListener("pointerleave", () => { out.textContent = ""; });
+    drawing.addEventListener("pointerdown", e => {
+      const at = cell(e);
+      if (!at) return;
+      [so.value, sa.value] = at;
       set();
     });
     $(".slid", figure).hidden = false;
@@ -149,13 +315,28 @@
     link.click();
   };
   const uri = (kind, text) => "data:" + kind + ";charset=utf-8," + encodeURIComponent(text);
-  const table = d => [[d.name, ...d.series.map(s => s[0])].map(n => '"' + n.replaceAll('"', '""') + '"').join(","),
-    ...d.at.map((x, i) => [x, ...d.series.map(s => s[2][i] ?? "")].join(","))].join("\n") + "\n";
+  const quoted = n => '"' + n.replaceAll('"', '""') + '"', rows = all => all.map(row => row.join(",")).join("\n") + "\n";
+  const curves = d => [[d.name, ...d.series.map(s => s[0])].map(quoted), ...d.at.map((x, i) => [x, ...d.series.map(s => s[2][i] ?? "")])];
+  const cells = d => [["order", d.letter, "bound", "sign"].map(quoted),
+    ...d.orders.flatMap((n, i) => d.amplitudes.map((a, j) => [n, a, d.bounds[i][j] ?? "", quoted(d.signs[i][j])]))];
+  const plain = cell => quoted(cell.textContent.replace(/[\u2007\u2008]/g, "").replaceAll("−", "-").trim());
+  const typed = table => [...table.rows].filter(row => row.className !== "remark").map(row => [...row.cells].map(plain));
+  const matrix = (d, figure) => d.planes.flatMap((plane, i) => {
+    const svg = drawings(figure)[i], g = grey($("mask image", svg));
+    if (!g) return [];
+    const [w, h] = g, [t0, t1] = plane.time, [f0, f1] = plane.frequency, places = (n, a, b) => [...Array(n).keys()].map(k => a + (k + .5) / n * (b - a));
+    const across = places(w, t0, t1), up = places(h, f0, f1), values = up.map((f, k) => [f.toPrecision(5), ...across.map((t, c) => +level(plane, svg, (c + .5) / w, (k + .5) / h).toPrecision(3))]);
+    return [[quoted((plane.unit ? "frequency, " + plane.unit : "omega") + " by time"), ...across.map(t => t.toPrecision(5))], ...values];
+  });
+  const table = figure => {
+    const d = $("script[type='application/json']", figure) ? data(figure) : {};
+    return rows(d.at ? curves(d) : d.map ? cells(d) : d.planes ? matrix(d, figure) : typed(document.getElementById(figure.dataset.table)));
+  };
   $$("button[data-save]").forEach(button => {
     const figure = button.closest("figure");
     button.parentElement.hidden = false;
     button.addEventListener("click", () => {
-      if (button.dataset.save === "csv") { save(figure.id + ".csv", uri("text/csv", table(data(figure)))); return; }
+      if (button.dataset.save === "csv") { save(figure.id + ".csv", uri("text/csv", table(figure))); return; }
       const drawn = $$(".drawing > svg", figure).filter(s => s.getBoundingClientRect().width);
       drawn.forEach((svg, i) => {
         const name = figure.id + (drawn.length > 1 ? "-" + (i + 1) : ""), text = inlined(svg);

@@ -26,6 +26,24 @@ def equation_latex(text: str) -> str:
     return latex
 
 
+SLOW_FLOW = re.compile(r"^phi' = (.*), a'/a as of (.*)$")
+"""How a class without an equation of motion is written: its slow flow."""
+
+
+def class_mathml(text: str) -> str:
+    """The equation of a class, or its slow flow, set.
+
+    >>> class_mathml("phi' = w0 + w2 a^2, a'/a as of 2 mu u'").count("<math")
+    2
+    """
+    flow = SLOW_FLOW.match(text)
+    if flow is None:
+        return equation_mathml(text)
+    phase = "phi' = " + re.sub(r"\bw(\d)", r"omega\1", flow[1])
+    parts = [equation_mathml(phase), equation_mathml(flow[2])]
+    return f"{parts[0]}, damping as of {parts[1]}" if all(parts) else ""
+
+
 def equation_mathml(text: str) -> str:
     """One ``<math>`` element; empty where the text holds words that are no symbols."""
     if set(re.findall(r"[A-Za-z]{2,}", text)) - {*GREEK, *FUNCTIONS}:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -15,11 +16,15 @@ from ridgeback.compare.report.drift.drift_report import drift_report
 from ridgeback.compare.report.noise_part import TRIALS
 from ridgeback.compare.report.recording_report import recording_report
 from ridgeback.compare.report.results import Report
+from ridgeback.compare.report.several.runs_report import runs_report
+from ridgeback.compare.report.several.study_report import study_report
 from ridgeback.compare.report.system_report import ORDER, TARGET, system_report
 from ridgeback.compare.study import study as studies
 from ridgeback.compare.study.results import Study
 from ridgeback.interface.signals import SignalLike, as_recording
 from ridgeback.interface.unused import refuse_unused
+from ridgeback.numeric.motion.trajectory import Trajectory
+from ridgeback.numeric.recording.recording import Recording
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.parameters import Value
 
@@ -84,6 +89,7 @@ def report(
     oscillator: OscillatorLike | None = None,
     *,
     recording: SignalLike = None,
+    study: str | os.PathLike[str] | None = None,
     rate: float | None = None,
     time: Any = None,
     column: str | int | None = None,
@@ -102,7 +108,7 @@ def report(
     timed: bool = True,
     progress: Wanted = None,
 ) -> Report:
-    """Compare expansions, models and estimated frequencies of an oscillator, or of a recording.
+    """Compare expansions, models and estimated frequencies of an oscillator, of recordings, or of a study.
 
     Parameters
     ----------
@@ -110,7 +116,9 @@ def report(
         What is simulated and derived; by default the damped pendulum of Galleani and Cohen.  With a recording, its
         exact backbone is drawn over the measured one.
     recording : array_like, Series, DataFrame, DataArray, Recording, str or path, optional
-        A signal to report on instead.
+        A signal to report on instead; a list of paths, recordings or trajectories for several on one page.
+    study : str or path, optional
+        The store of a finished study, to report on instead; everything else but ``progress`` is left out.
     rate : float, optional
         Samples per time unit, of the recording or of the simulation.
     time : array_like, optional
@@ -175,16 +183,24 @@ def report(
                 timed=timed,
                 progress=told,
             )
+        if study is not None:
+            refuse("a system or a recording", oscillator=oscillator, recording=recording, rate=rate, initial=initial)
+            return study_report(os.fspath(study), progress=told)
         if recording is not None:
             if oscillator is None:
                 refuse_unused("a recording without an oscillator", parameters=parameters, about=about)
             refuse("a simulation", initial=initial, duration=duration)
             refuse("the study of a system", order=order, orders=orders, amplitudes=amplitudes, target=target)
             theory = None if oscillator is None else as_oscillator(oscillator, parameters=parameters, about=about)
+            named = theory if theory is None or title is None else replace(theory, title=title)
+            if several(recording):
+                refuse("one recording", predict_from=predict_from, time=time)
+                signals = [as_recording(one, rate, column=column) for one in recording]
+                return runs_report(signals, oscillator=named, timed=timed, progress=told)
             used = as_recording(recording, rate, time=time, column=column)
             return recording_report(
                 used,
-                oscillator=theory if theory is None or title is None else replace(theory, title=title),
+                oscillator=named,
                 cycles=predict_from,
                 trials=trials,
                 timed=timed,
@@ -202,6 +218,16 @@ def report(
             timed=timed,
             progress=told,
         )
+
+
+def several(recording: SignalLike) -> bool:
+    """Whether a recording is a list of signals, and not the samples of one.
+
+    >>> several(["a.csv", "b.csv"]), several([0.0, 1.0]), several("a.csv")
+    (True, False, False)
+    """
+    whole = (str, os.PathLike, Recording, Trajectory)
+    return isinstance(recording, list | tuple) and bool(recording) and isinstance(recording[0], whole)
 
 
 def refuse(owner: str, **given: object) -> None:

@@ -55,9 +55,9 @@ class Scope:
 
 @dataclass(frozen=True)
 class Source:
-    """A recording, where its samples are, and how many of its first cycles predict the rest."""
+    """Recordings, where their samples are, and how many of the first cycles of one predict the rest."""
 
-    file: str
+    files: tuple[str, ...]
     column: str | None
     time_column: str | None
     cycles: float | None
@@ -81,9 +81,18 @@ class Source:
 @click.option("--amplitudes", type=GRID, default=None, metavar="START:STOP:COUNT", help="Amplitudes of the study.")
 @click.option("--target", type=POSITIVE, default=None, metavar="E", help="Relative error aimed at.  Default: 0.001.")
 @click.option(
-    "--recording", default=None, metavar="FILE", help="Report on a recording instead: CSV, NPZ, WAV, MAT, HDF5."
+    "--recording",
+    "recordings",
+    multiple=True,
+    metavar="FILE",
+    help="Report on a recording instead: CSV, NPZ, WAV, MAT, HDF5.  Repeat it for several runs on one page.",
 )
-@click.option("--column", default=None, metavar="NAME", help="The recording's samples.")
+@click.option(
+    "--column",
+    default=None,
+    metavar="NAME[,NAME...]",
+    help='The recording\'s samples; several names, or "all", for several channels on one page.',
+)
 @click.option("--time-column", default=None, metavar="NAME", help="The recording's times.")
 @treatment_options
 @click.option(
@@ -124,7 +133,7 @@ def command(
     orders: tuple[int, ...] | None,
     amplitudes: tuple[float, ...] | None,
     target: float | None,
-    recording: str | None,
+    recordings: tuple[str, ...],
     column: str | None,
     time_column: str | None,
     predict_from: float | None,
@@ -149,6 +158,7 @@ def command(
     ridgeback report damped-duffing --set mu=0.02 --initial 1.5,0 --duration 60 -o duffing.html
     ridgeback report --recording decay.csv --column displacement -o decay.html
     ridgeback report --equation "x'' + 9.81/L*sin(x) = 0" --drift "L=1+0.01*t" --initial 1,0 -o swing.html
+    ridgeback report --recording first.csv --recording second.csv -o runs.html
     ridgeback report five.db -o five.html
     """
     if trials == 1:
@@ -167,14 +177,14 @@ def command(
         elif laws:
             refuse_unused("a report on a drift", *(name for name in context.params if name not in BESIDE_A_DRIFT))
             report = of_drift(motion, unique(laws, "--drift"), shown, progress, timed=not no_timings)
-        elif recording is None:
+        elif not recordings:
             belonging = {"--column": column, "--time-column": time_column, "--predict-from": predict_from}
             treating = {f"--{name}": value for name, value in treatment.given().items()}
             refuse({**belonging, **treating}, "belongs to --recording FILE")
             report = of_motion(motion, scope, shown, progress)
         else:
-            source = Source(recording, column, time_column, predict_from, treatment)
-            report = of_recording(source, motion, scope, shown, progress)
+            source = Source(recordings, column, time_column, predict_from, treatment)
+            report = of_recordings(source, motion, scope, shown, progress)
     try:
         publish(report, output, style)
     finally:
@@ -271,10 +281,8 @@ def entitled(oscillator: Oscillator, title: str | None) -> Oscillator:
     return oscillator if title is None else replace(oscillator, title=title)
 
 
-def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progress: Progress) -> Report:
-    """The report on a recording, with an oscillator's exact backbone over it when one is named."""
-    from ridgeback.compare.report.recording_report import recording_report
-
+def of_recordings(source: Source, motion: Motion, scope: Scope, shown: str, progress: Progress) -> Report:
+    """The report on a recording or on several, with an oscillator's exact backbone over it when one is named."""
     refuse({"--initial": motion.initial, "--duration": motion.duration}, "belongs to a simulation, not to a recording")
     studied = {"--order": scope.order, "--orders": scope.orders, "--amplitudes": scope.amplitudes}
     refuse({**studied, "--target": scope.target}, "belongs to the study of a system, not to a recording")
@@ -283,15 +291,33 @@ def of_recording(source: Source, motion: Motion, scope: Scope, shown: str, progr
     if not motion.choice.made:
         refuse({"--title": motion.title}, "names a SYSTEM beside the recording")
     reading = Reading(source.column, source.time_column, motion.rate, treatment=source.treatment)
+    oscillator = entitled(motion.choice.oscillator(), motion.title) if motion.choice.made else None
+    if len(source.files) > 1 or several(source.column):
+        from ridgeback.compare.report.several.runs_report import runs_report
+
+        refuse_unused("a page on several recordings", "predict_from", "trials")
+        found = reading.all(source.files)
+        return runs_report(found, oscillator=oscillator, timed=scope.timed, command=shown, progress=progress)
+    from ridgeback.compare.report.recording_report import recording_report
+
     return recording_report(
-        reading.one(source.file),
-        oscillator=entitled(motion.choice.oscillator(), motion.title) if motion.choice.made else None,
+        reading.one(source.files[0]),
+        oscillator=oscillator,
         cycles=source.cycles,
         trials=scope.trials,
         timed=scope.timed,
         command=shown,
         progress=progress,
     )
+
+
+def several(column: str | None) -> bool:
+    """Whether more than one channel is asked for.
+
+    >>> several("x,y"), several("all"), several("x"), several(None)
+    (True, True, False, False)
+    """
+    return column is not None and (column == "all" or "," in column)
 
 
 def as_typed(arguments: Sequence[str]) -> str:

@@ -126,6 +126,21 @@ class Browser:
         for kind in ("keyDown", "keyUp"):
             self.call("Input.dispatchKeyEvent", type=kind, key=key, code=key)
 
+    def _mouse(self, kind: str, place: tuple[float, float], *, held: bool = False) -> None:
+        button = "left" if held or kind != "mouseMoved" else "none"
+        x, y = place
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, buttons=int(held), clickCount=1)
+
+    def hover(self, place: tuple[float, float]) -> None:
+        self._mouse("mouseMoved", place)
+
+    def drag(self, start: tuple[float, float], end: tuple[float, float]) -> None:
+        self._mouse("mouseMoved", start)
+        self._mouse("mousePressed", start, held=True)
+        self._mouse("mouseMoved", ((start[0] + end[0]) / 2, end[1]), held=True)
+        self._mouse("mouseMoved", end, held=True)
+        self._mouse("mouseReleased", end)
+
     def complaints(self) -> list[str]:
         """Console messages, log entries and uncaught exceptions."""
         found = []

@@ -6,7 +6,7 @@ import pytest
 
 from ridgeback.compare.report.results import Report
 from ridgeback.reports.page import html_page
-from tests.reports import synthetic
+from tests.reports import synthetic, synthetic_several
 
 
 @pytest.fixture(scope="session")
@@ -17,6 +17,16 @@ def full() -> Report:
 @pytest.fixture(scope="session")
 def full_page(full: Report) -> str:
     return html_page(full)
+
+
+@pytest.fixture(scope="session")
+def study_page() -> str:
+    return html_page(synthetic_several.study_report())
+
+
+@pytest.fixture(scope="session")
+def runs_page() -> str:
+    return html_page(synthetic_several.runs_report())
 
 
 @pytest.fixture(scope="session")

@@ -20,6 +20,7 @@ from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import judge
 from ridgeback.compare.identification.candidates import DampingLaw
 from ridgeback.compare.identification.results import Candidate, Identification, MeasuredBackbone, Parameter, Prediction
+from ridgeback.compare.identification.sample_fit import SampleFit, sample_fit
 from ridgeback.compare.motion.harmonics.folding import folding
 from ridgeback.compare.motion.results import (
     Amplitudes,
@@ -479,7 +480,15 @@ def make_identification() -> Identification:
         notes=("Independent samples are counted from the residual's correlation.",),
         failed=("bilinear: no switch in reach",),
         prediction=prediction,
+        fitted=_fitted(),
     )
+
+
+def _fitted() -> SampleFit:
+    t = np.arange(480) / 32.0
+    model = np.exp(-0.05 * t) * np.cos(7.85 * t)
+    samples = model + 0.01 * np.cos(15.7 * t) + 0.002 * np.random.default_rng(2).normal(size=t.size)
+    return sample_fit(t, samples, model, 32.0, 7.85)
 
 
 def provenance() -> Provenance:

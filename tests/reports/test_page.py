@@ -147,10 +147,10 @@ def test_every_part_has_its_section(tree: Element) -> None:
         ({"decay"}, ["motion", "errors"]),
         ({"decay", "benchmark"}, ["time", "motion", "errors"]),
         ({"decay", "paper"}, ["motion", "paper", "errors"]),
-        ({"recording"}, ["recording", "record", "tracks"]),
+        ({"recording"}, ["record", "tracks", "recording"]),
         ({"derivation"}, ["expansion", "code"]),
         ({"noise"}, ["noise"]),
-        ({"identification"}, ["identification", "forecast"]),
+        ({"identification"}, ["identification", "fit", "forecast"]),
         ({"csv"}, ["data"]),
     ],
 )
@@ -251,7 +251,7 @@ def test_every_number_of_a_table_stands_under_its_head(tree: Element) -> None:
 
 def test_a_recording_shows_tracks_backbone_damping_and_fit(recording_page: str) -> None:
     root = parse(recording_page)
-    assert _keys(root) == ["recording", "identification", "forecast", "record", "tracks", "provenance"]
+    assert _keys(root) == ["identification", "fit", "forecast", "record", "tracks", "recording", "provenance"]
     for wanted in ("decay.csv", "displacement_percent", "pseudo-Wigner, 8 s", "The longest window"):
         assert wanted in root.text
     ids = [figure.attributes["id"] for figure in root.all("figure")]
@@ -277,7 +277,8 @@ def test_an_identification_shows_its_ranking_parameters_and_prediction(recording
     assert ranked[0][1:3] == ["0", "90.0 %"]
     assert _cells(root, "parameters")[0][:3] == ["k, natural frequency, in rad/s", "7.8500", "7.8461 to 7.8539"]
     ids = {figure.attributes["id"] for figure in root.all("figure")}
-    assert ids >= {"identify-backbone", "forecast"}
+    assert ids >= {"identify-backbone", "forecast", "sample-fit", "residual-spectrum"}
+    assert "at 2 times the fundamental: a harmonic that the class does not give" in root.text
 
 
 def test_an_identification_without_a_prediction_still_renders() -> None:
