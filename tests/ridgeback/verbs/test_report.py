@@ -52,19 +52,6 @@ def test_a_system(ridgeback: Ridgeback, tmp_path: Path) -> None:
     assert str(tmp_path) not in text
 
 
-def test_a_recording(ridgeback: Ridgeback, tmp_path: Path) -> None:
-    """1.25 Hz, decaying as exp(-0.05 t): a linear oscillator, whatever the amplitude."""
-    samples = [math.exp(-0.05 * i / 32) * math.cos(2 * math.pi * 1.25 * i / 32) for i in range(960)]
-    recording = tmp_path / "decay.csv"
-    recording.write_text("t,x\n" + "".join(f"{i / 32!r},{x!r}\n" for i, x in enumerate(samples)), encoding="utf-8")
-    page = tmp_path / "decay.html"
-    done = ridgeback("report", "--recording", str(recording), "--column", "x", "--trials", "0", "-o", str(page))
-    assert (done.code, done.err) == (0, "")
-    assert "1.25" in done.out.splitlines()[2]
-    assert "What made it: Linear oscillator" in done.out
-    assert "section-identification" in page.read_text(encoding="utf-8")
-
-
 def test_the_page_alone_on_standard_output(ridgeback: Ridgeback) -> None:
     done = ridgeback("report", "linear", *SMALL, "-o", "-")
     assert done.code == 0
@@ -133,7 +120,10 @@ def test_missing_results_are_owned_up_to(tmp_path: Path, monkeypatch: pytest.Mon
 
 
 def test_a_recording_with_a_system_and_its_findings_as_json(ridgeback: Ridgeback, tmp_path: Path) -> None:
-    """Five estimates and one curve of theory are six tracks: all must find a colour or stay out."""
+    """1.25 Hz, decaying as exp(-0.05 t): a linear oscillator, whatever the amplitude.
+
+    Five estimates and one curve of theory are six tracks: all must find a colour or stay out.
+    """
     samples = [math.exp(-0.05 * i / 32) * math.cos(2 * math.pi * 1.25 * i / 32) for i in range(960)]
     recording = tmp_path / "decay.csv"
     recording.write_text("t,x\n" + "".join(f"{i / 32!r},{x!r}\n" for i, x in enumerate(samples)), encoding="utf-8")
@@ -145,9 +135,30 @@ def test_a_recording_with_a_system_and_its_findings_as_json(ridgeback: Ridgeback
     found = json.loads(done.out)
     assert found["output"] == str(page)
     assert "1.25" in found["title"]
+    assert any(line.startswith("What made it: Linear oscillator") for line in found["summary"])
     text = page.read_text(encoding="utf-8")
-    assert 'id="forecast"' in text
-    assert 'id="noise"' in text
+    for part in ("section-identification", "sample-fit", "residual-spectrum", "forecast", "noise"):
+        assert f'id="{part}"' in text
+
+
+def test_two_runs_are_combined_on_one_page(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    """Two decays of one oscillator agree; what belongs to a single recording is refused by name."""
+    words = ["report"]
+    for size in (1.0, 0.6):
+        path = tmp_path / f"run{size:g}.csv"
+        samples = [size * math.exp(-0.05 * i / 16) * math.cos(2 * math.pi * 1.25 * i / 16) for i in range(400)]
+        path.write_text("t,x\n" + "".join(f"{i / 16!r},{x!r}\n" for i, x in enumerate(samples)), encoding="utf-8")
+        words += ["--recording", str(path)]
+    page = tmp_path / "runs.html"
+    done = ridgeback(*words, "linear", "--set", "k=7.85398", "-o", str(page))
+    assert (done.code, done.err) == (0, "")
+    assert "2 signals agree: 1.2500 Hz" in done.out
+    text = page.read_text(encoding="utf-8")
+    for part in ("runs-backbone", "runs-tracks", "runs-samples", "section-identification"):
+        assert f'id="{part}"' in text
+    refused = ridgeback(*words, "--predict-from", "9", "-o", str(page))
+    assert refused.code == 2
+    assert "a page on several recordings has no use for --predict-from" in refused.err
 
 
 def test_options_that_belong_elsewhere_are_refused(ridgeback: Ridgeback) -> None:
