@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from ridgeback.answers.report_text import printed, refuse_incomplete
 from ridgeback.common.progress import Progress, showing
-from ridgeback.console.failure import PartialError, say
-from ridgeback.console.output import STDOUT, json_text, output_path, write_text
+from ridgeback.console.failure import say
+from ridgeback.console.output import STDOUT, output_path, write_text
 from ridgeback.console.verb import Verb
 from ridgeback.options.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
 from ridgeback.options.recording import Reading, Treatment, treatment_options
@@ -23,7 +24,6 @@ from ridgeback.options.unused import refuse_unused
 
 if TYPE_CHECKING:
     from ridgeback.compare.motion.motion import Setting
-    from ridgeback.compare.motion.results import Statement
     from ridgeback.compare.report.results import Report
     from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -362,49 +362,3 @@ def show(output: str, pdf: str | None, *, opened: bool) -> None:
 
         if not webbrowser.open(Path(output).resolve().as_uri()):
             say(f"no browser could be opened; the page is {output}")
-
-
-def refuse_incomplete(report: Report) -> None:
-    """Raise PartialError for a failed certificate, and for methods that gave no result."""
-    checks = report.derivation.certificate if report.derivation else ()
-    wrong = [check.name for check in checks if check.passed is False]
-    if wrong:
-        raise PartialError(f"the page is written, but its certificate fails: {', '.join(wrong)}; it says how")
-    rows = report.benchmark.contenders if report.benchmark else ()
-    missing = list(dict.fromkeys(row.label for row in rows if row.refused and row.kind == "estimate"))
-    if missing:
-        raise PartialError(f"the page is written, but gave no result: {', '.join(missing)}; it says why")
-
-
-def printed(report: Report, output: str, size: int, style: str) -> str:
-    """The findings as text or JSON: what the page says first, and the scores and budget of every method."""
-    if style == "text":
-        return findings(report, output, size)
-    decay = report.decay
-    return json_text(
-        {
-            "output": output,
-            "bytes": size,
-            "title": report.title,
-            "cards": [asdict(card) for card in report.cards],
-            "summary": list(report.summary),
-            "contenders": [row.to_dict() for row in report.benchmark.contenders] if report.benchmark else [],
-            "scores": [asdict(score) for score in decay.scores] if decay else [],
-            "budget": [asdict(row) for row in decay.budget] if decay else [],
-            "statements": [statement_row(said) for said in decay.statements] if decay and report.paper else [],
-        }
-    )
-
-
-def statement_row(said: Statement) -> dict[str, object]:
-    """One of the paper's figures: what it says, what was measured, and the names of the curves drawn."""
-    named = [curve.name for curve in said.curves]
-    return {"figure": said.figure, "title": said.title, "paper": said.paper, "measured": said.measured, "curves": named}
-
-
-def findings(report: Report, output: str, size: int) -> str:
-    """Where the page is, its title, its three figures and its summary."""
-    lines = [f"wrote {output} ({size / 1000:.0f} kB)", "", report.title, *([report.lead] if report.lead else []), ""]
-    lines += [f"  {card.heading}: {card.value} ({card.text})" for card in report.cards]
-    lines += ["", *(f"  {sentence}" for sentence in report.summary)]
-    return "\n".join(lines) + "\n"

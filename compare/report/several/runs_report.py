@@ -14,7 +14,8 @@ from ridgeback.common.progress import Progress, silent
 from ridgeback.common.quantities import frequency
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.preparation import prepared
-from ridgeback.compare.recording.measurements import Measurement, Measurements, measure_recordings
+from ridgeback.compare.recording.measurement import Measurement
+from ridgeback.compare.recording.measurements import Measurements, measure_recordings
 from ridgeback.compare.recording.theory import TheoryBackbone, over_curve
 from ridgeback.compare.report.provenance import provenance
 from ridgeback.compare.report.results import Card, Report
