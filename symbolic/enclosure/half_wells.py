@@ -38,8 +38,8 @@ MAX_EVALUATIONS: Final = 50_000
 MAX_STEPS: Final = 2000
 FINEST: Final = 48
 """Steps shorter than 2**-48 of the way are not taken."""
-REACH: Final = 2**20
-"""How far the other turning point is looked for, in units of the given one."""
+MOST_STRIDES: Final = 60
+"""Strides in which the other turning point is looked for, from the distance of the given one on; they double."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class TwoSided:
 def two_sided(oscillator: Oscillator) -> TwoSided:
     """Both sides of a restoring force.
 
-    Raises InputError for terms in u', symbolic parameters and a force that does not restore on both sides.
+    Raises InputError for terms in u' and symbolic parameters.
 
     >>> own = Oscillator.from_equation("u'' + u + u*abs(u) = 0")
     >>> two_sided(own).odd
@@ -76,10 +76,7 @@ def two_sided(oscillator: Oscillator) -> TwoSided:
         )
     if unset := free_names(force):
         raise InputError(f"{name}: an enclosure needs numbers, and {', '.join(unset)} has none; set it, e.g. to 1")
-    near, far = oscillator.halves
-    if near is None or far is None or near.sign != 1 or far.sign != 1:
-        raise InputError(f"{name}: the force does not restore on both sides of u = 0; nothing oscillates")
-    return TwoSided(name, near, far)
+    return TwoSided(name, *oscillator.halves)
 
 
 class HalfWell:
@@ -143,8 +140,7 @@ class HalfWell:
     def turning(self, energy: arb, unit: arb) -> arb | None:
         """The place where V is ``energy``; None when the force ends before, or too far away."""
         low, step = arb(0), unit.mid()
-        smallest, last = step * arb(2) ** -FINEST, step * REACH
-        while low < last and step > smallest:
+        for _ in range(MOST_STRIDES):
             high = (low + step).mid()
             rise = self.energy(high) - energy
             if not rise.is_finite() or not self._held(low, high):

@@ -7,7 +7,6 @@ term of the force is odd and restores, and their frequency has an enclosure like
 from __future__ import annotations
 
 import sympy
-from flint import fmpq_poly
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.enclosure.well import Well, exact_polynomial
@@ -20,7 +19,7 @@ GUARD = 40
 def strong_well(oscillator: Oscillator) -> Well | None:
     """The well of a polynomial force without a linear term, in the oscillator's own units; None for other forces.
 
-    Raises InputError for terms in u', parameters without a value, and forces that do not restore.
+    Raises InputError for terms in u', and parameters without a value.
     """
     name, force = oscillator.name, sympy.expand(oscillator.substituted_force)
     if force.has(V):
@@ -33,14 +32,6 @@ def strong_well(oscillator: Oscillator) -> Well | None:
     exact = None if potential is None else exact_polynomial(sympy.expand(potential))
     if potential is None or exact is None:
         return None
-    _check_restores(name, exact)
     even = all(exact[j] == 0 for j in range(1, exact.degree() + 1, 2))
     inertia, drag, scale = sympy.S.One, sympy.S.Zero, sympy.S.One
     return Well(name, force, potential, inertia, drag, scale, even=even, polynomial=exact)
-
-
-def _check_restores(name: str, potential: fmpq_poly) -> None:
-    lowest = next((n for n in range(potential.degree() + 1) if potential[n] != 0), None)
-    if lowest is None or lowest % 2 or not potential[lowest] > 0:
-        rest = "there is no force at all" if lowest is None else f"its lowest term goes like u^{lowest - 1}"
-        raise InputError(f"{name}: the force does not restore on both sides of u = 0, since {rest}; nothing oscillates")

@@ -80,15 +80,13 @@ class NoEnergyError(InputError):
 
 
 @lru_cache(maxsize=64)
-def well_of(oscillator: Oscillator, *, mirrored: bool = False) -> Well:
+def well_of(oscillator: Oscillator) -> Well:
     """Return the well of a conservative oscillator, in units with k = 1.
 
     Parameters
     ----------
     oscillator : Oscillator
         Conservative, with numbers for its parameters.
-    mirrored : bool, optional
-        Whether to turn u into -u.
 
     Returns
     -------
@@ -107,8 +105,6 @@ def well_of(oscillator: Oscillator, *, mirrored: bool = False) -> Well:
     >>> well_of(find("duffing")).polynomial
     1/4*x^4 + 1/2*x^2
     """
-    if mirrored:
-        return well_of(oscillator).mirrored()
     _check_kind(oscillator)
     force = oscillator.normalised.bound
     restoring, drag = force.subs(V, 0), _drag(oscillator, force)

@@ -43,8 +43,6 @@ def restoring_sides(oscillator: Oscillator, *, trough: bool) -> tuple[Half, Half
             "use --method multiple-scales or lindstedt, or set its damping to 0"
         )
     right, left = oscillator.halves
-    if right is None or left is None or right.sign == -1 or left.sign == -1:
-        raise InputError(f"{name}: the force does not restore on both sides of u = 0, so nothing oscillates")
     if right.exponent != left.exponent:
         raise InputError(
             f"{name}: the force begins like u^({right.exponent}) for u > 0 and like |u|^({left.exponent}) for u < 0, "

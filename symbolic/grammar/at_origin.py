@@ -144,6 +144,8 @@ def _power(base: arb, expression: sympy.Pow) -> arb:
     if base.is_zero() and exponent > 0 and isinstance(expression.base, sympy.Abs):
         return arb(0)
     if base.contains(0):
+        if not any(symbol.name in _UNKNOWNS for symbol in expression.base.free_symbols):
+            raise InputError(f"{brief(expression)} divides by 0 with the values given; give the parameters other ones")
         raise InputError(
             f"{brief(expression)} is not analytic on both sides of the origin (its base vanishes there); rewrite that "
             "term (powers of abs(u), and odd roots such as u**(1/3), are taken)"

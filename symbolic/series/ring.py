@@ -95,8 +95,8 @@ class TrigRing:
             return constant(self.space, fmpq(0))
         if value is None:
             raise InputError(
-                f"{name} is taken of what oscillates from order 0 on, as u and u' of a limit cycle do, and has no "
-                "finite Fourier series there; expand it in powers of u, to the degree that counts"
+                f"{name} is taken of a parameter, or of what oscillates from order 0 on, as u and u' of a limit cycle "
+                "do, and has no rational or finite series there; expand it in powers of u, to the degree that counts"
             )
         raise InputError(
             f"{name} is taken of something that is not {1 if name == 'log' else 0} at the equilibrium, so its series "

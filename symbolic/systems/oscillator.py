@@ -293,7 +293,7 @@ class Oscillator:
     def is_linear_at_rest(self) -> bool:
         """Whether the force begins linearly in u on both sides of rest, so that there is a natural frequency."""
         if self.is_kinked:
-            return all(found is not None and found.exponent == 1 for found in self.halves)
+            return all(found.exponent == 1 for found in self.halves)
         return bool(self.stiffness != 0)
 
     @property
@@ -307,9 +307,9 @@ class Oscillator:
         return self.is_kinked or not self.is_linear_at_rest
 
     @cached_property
-    def halves(self) -> tuple[Half | None, Half | None]:
+    def halves(self) -> tuple[Half, Half]:
         """The restoring force f(u, 0) on each side of rest, u > 0 first, parameters inserted."""
-        return sides.halves(sides.without_velocity(self.substituted_force))
+        return sides.restoring_halves(self.name, sides.without_velocity(self.substituted_force))
 
     @cached_property
     def natural_frequency(self) -> sympy.Expr:
@@ -321,7 +321,7 @@ class Oscillator:
             raise sides.no_linear_force(self.name)
         if not self.is_kinked:
             return positive_root(self.stiffness)
-        one, other = (positive_root(side.coefficient) for side in self.halves if side is not None)
+        one, other = (positive_root(side.coefficient) for side in self.halves)
         mean = one if one == other else 2 * one * other / (one + other)
         return sympy.radsimp(mean) if mean.is_number else mean
 
@@ -346,7 +346,7 @@ class Oscillator:
                 "measure the unknown from the equilibrium"
             )
         if self.by_sides:
-            sides.check_restores(self.name, self.halves)
+            _ = self.halves
             return
         slope = self.force.diff(U)
         sign = sign_at_origin(slope, self.parameters)

@@ -188,11 +188,18 @@ def halves(force: sympy.Expr) -> tuple[Half | None, Half | None]:
     return right, left
 
 
-def check_restores(name: str, sides: tuple[Half | None, Half | None]) -> None:
-    """Raise InputError unless a force restores on both sides of u = 0."""
-    for where, found in zip(("u > 0", "u < 0"), sides, strict=True):
-        if found is None or found.sign == -1:
-            raise InputError(f"{name}: the force does not restore for {where}, so nothing oscillates about 0")
+def restoring_halves(name: str, force: sympy.Expr) -> tuple[Half, Half]:
+    """Both sides of a force f(u) that restores, u > 0 first; InputError where it does not."""
+    right, left = (
+        _restoring(name, found, where) for where, found in zip(("u > 0", "u < 0"), halves(force), strict=True)
+    )
+    return right, left
+
+
+def _restoring(name: str, found: Half | None, where: str) -> Half:
+    if found is None or found.sign == -1:
+        raise InputError(f"{name}: the force does not restore for {where}, so nothing oscillates about 0")
+    return found
 
 
 def _begun(force: sympy.Expr, d: int) -> Half | None:

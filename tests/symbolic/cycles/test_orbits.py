@@ -15,6 +15,7 @@ from ridgeback.symbolic.cycles.orbit import by_integration, exact_frequency
 from ridgeback.symbolic.enclosure.enclosure import enclose
 from ridgeback.symbolic.expansion.ball_expansion import holds
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 RELATIVISTIC = "u'' + u*(1 - u'**2)**(3/2) = 0"
@@ -84,3 +85,8 @@ def test_a_reversible_centre_agrees_with_its_series(definition: str) -> None:
 def test_what_has_no_frequency_is_refused(equation: str, amplitude: str | int, says: str) -> None:
     with pytest.raises(InputError, match=says):
         exact_frequency(Oscillator.from_equation(equation), amplitude)
+
+
+def test_a_limit_cycle_has_no_frequency_by_amplitude() -> None:
+    with pytest.raises(InputError, match="no orbit for each amplitude"):
+        by_integration(find("van-der-pol"), 1)

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.certificates.accuracy import certified_error
+from ridgeback.symbolic.cycles.orbit import exact_frequency
 from ridgeback.symbolic.enclosure.analytic_strip import Strip, covered_strip, polynomial_strip, strip_of
 from ridgeback.symbolic.enclosure.enclosure import enclose, rounded_down, separatrix
 from ridgeback.symbolic.enclosure.integrand import GeneralIntegrand, OrbitBall, integrand_of
@@ -527,6 +528,10 @@ def test_oscillators_without_an_energy_are_refused(name: str, match: str) -> Non
         ("u'' + u + eps*u**3", "eps has none"),
         ("u'' + u + u*u'**4", "velocity terms other than"),
         ("u'' + u + u**200", "degree 201"),
+        ("u'' + u + c*u*abs(u)", "c has none"),
+        ("u'' + u'/10 + u + u*abs(u)", "no energy with terms in u' beside a kink"),
+        ("u'' + u - 2*u*abs(u)", "amplitude 0.5 has no closed orbit"),
+        ("u'' + u - u*abs(u) + 2*u**2/3", "amplitude 0.5 has no closed orbit"),
     ],
 )
 def test_equations_that_cannot_be_enclosed_say_why(text: str, match: str) -> None:
@@ -557,3 +562,20 @@ def test_bad_values_are_named(amplitude: object, options: dict[str, object], mat
 def test_a_closed_form_that_is_not_there_is_not_made_up() -> None:
     with pytest.raises(InputError, match="no closed form"):
         enclose(own("u'' + u + u**5"), 1, method="closed form")
+    with pytest.raises(InputError, match="no closed form"):
+        enclose(own("u'' + u + u*abs(u)"), 1, method="closed form")
+
+
+def test_at_rest_a_kink_does_not_count() -> None:
+    """Half a cycle with the stiffness of each side: k = 2 k1 k2/(k1 + k2); it is also the root of the stiffness."""
+    bilinear = own("u'' + 4*max(u, 0) + min(u, 0)")
+    rest = enclose(bilinear, 0)
+    assert (rest.omega.overlaps(arb(4) / 3), rest.peak, rest.method) == (True, 0, "closed form")
+    assert bilinear.stiffness == sympy.Rational(16, 9)
+    assert exact_frequency("u'' + u*u'**4 + 4*u", 0).omega.contains(2)
+
+
+def test_a_far_side_that_never_turns_the_motion_back_is_given_up_soon() -> None:
+    """V -> 1 for u < 0, and the quick decay of the force is seen on short stretches only."""
+    with pytest.raises(InputError, match="does not rise as high on the other side"):
+        enclose(own("u'' + u*exp(-abs(u)) + u**2*abs(u)/5 + u**3/5"), 10)

@@ -313,6 +313,13 @@ def test_slow_twin_by_complex_exponentials(values: list[str]) -> None:
         (lambda: lindstedt(find("van-der-pol"), 4, amplitude="action"), "peak or fundamental"),
         (lambda: energy_integral(find("pendulum"), 4).convert("fundamental"), "derive it as 'fundamental'"),
         (lambda: lindstedt(find("pendulum"), 4).difference(lindstedt(find("pendulum"), 4, amplitude="action")), "peak"),
+        (lambda: lindstedt(find("pendulum"), 4).difference(lindstedt(find("van-der-pol"), 4)), "in A meets one in eps"),
+        (lambda: energy_integral(find("pendulum"), 4).residual(), "no waveform to substitute"),
+        (lambda: energy_integral(find("pendulum"), 4).amplitude_as("fundamental"), "derive it as 'fundamental'"),
+        (lambda: energy_integral("u'' + u*abs(u) = 0", 4), r"other powers of A, from A\^\(1/2\)"),
+        (lambda: lindstedt("u'' + k**2*u + c*u**3 = 0", 2).picture(), "without a value; set them to draw"),
+        (lambda: multiple_scales("u'' + k**2*u + c*u**3 = 0", 2).picture(), "without a value; set them to draw"),
+        (lambda: lindstedt("u'' + u*sin(c + u) = 0", 2), "sin is taken of a parameter"),
     ],
 )
 def test_bad_input_says_what_would_work(call, words: str) -> None:  # type: ignore[no-untyped-def]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
@@ -179,6 +180,39 @@ def test_roots_and_signs_are_read_in_text_and_from_sympy() -> None:
 def test_what_has_no_series_is_refused(equation: str, why: str) -> None:
     with pytest.raises(InputError, match=why):
         energy_on_each_side(equation, 2)
+
+
+QUADRATIC = "u'' + u*abs(u) - u**3 = 0"
+
+
+def test_a_series_in_broken_powers_has_one_value_in_every_form() -> None:
+    """As float, ball and expression; the headline, the formula and the picture are of the same series."""
+    series = energy_on_each_side(QUADRATIC, 2)
+    value = float(series(0.04))
+    assert series.in_balls(arb("0.04")).overlaps(arb(value) + arb(0, 1e-15))
+    assert float(series.expression().subs(sympy.Symbol("A", real=True), sympy.Rational(1, 25))) == pytest.approx(value)
+    assert series.in_balls(arb("0.04")).overlaps(enclose(QUADRATIC, "0.04").omega + arb(0, 1e-4))
+    rows = series.rows()
+    assert value == pytest.approx(sum(row["decimal"] * 0.04 ** float(row["power"]) for row in rows))
+    assert [row["power"] for row in rows] == [sympy.Rational(n, 2) for n in (1, 3, 5)]
+    stroke = series.picture().strokes[0]
+    assert stroke.y[-1] == pytest.approx(float(series(1.0)))
+    assert series.formulas()[0].startswith(r"\omega_0(A) = ")
+    assert "omega0 = sqrt(6)" in series.headline()
+
+
+@pytest.mark.parametrize(
+    ("call", "why"),
+    [
+        (lambda: energy_on_each_side("u'' + c*u**3 = 0", 2).in_balls(arb(1)), "hold c as symbols"),
+        (lambda: energy_on_each_side("u'' + c*u**3 = 0", 2).picture(), "without a value; set them to draw"),
+        (lambda: energy_on_each_side(QUADRATIC, 2).truncated(3), r"order 3 is not within 0..2"),
+    ],
+)
+def test_what_a_series_in_broken_powers_cannot_do_it_says(call: Callable[[], object], why: str) -> None:
+    with pytest.raises(InputError, match=why):
+        call()
+    assert energy_on_each_side(QUADRATIC, 2).truncated(1) == energy_on_each_side(QUADRATIC, 1)
 
 
 def test_another_power_on_each_side_has_a_frequency_all_the_same() -> None:

@@ -117,6 +117,7 @@ def test_the_certificate_holds(equation: str) -> None:
         ("u'' + sign(u') + abs(u')*u + u = 0", "do not"),
         ("u'' + sinh(u') + sign(u') + u = 0", "no power of u'"),
         ("u'' + sign(u') + u**3 = 0", "linear restoring force"),
+        ("u'' + sign(u') + u + u**2*abs(u)**(1/2) = 0", "whole powers of u on each side"),
     ],
 )
 def test_what_has_no_average_is_refused(equation: str, why: str) -> None:

@@ -517,6 +517,23 @@ def test_every_zero_is_enclosed_and_a_true_zero() -> None:
         assert delta.subs(a, middle - radius) > 0 > delta.subs(a, middle + radius)
 
 
+def test_a_cycle_of_irrational_frequency_is_that_of_the_scaled_equation() -> None:
+    """u'' - m (1 - u^2) u' + k^2 u in the time k t has m/k for m: here k = sqrt(2), and phi' goes in even powers of m."""
+    wide = multiple_scales(make("u'' - m*(1 - u**2)*u' + 2*u = 0"), 6, weight=1)
+    (square,) = cycle_series(wide)
+    expected = [R(4), *([0] * (len(square) - 1))]
+    assert list(square) == expected
+    unit = frequency_series(multiple_scales(find("van-der-pol"), 6, weight=1), (R(4), R(0)))
+    scaled = [sympy.sqrt(2) * c / sympy.sqrt(2) ** n for n, c in enumerate(unit)]
+    assert [sympy.simplify(a - b) for a, b in zip(frequency_series(wide, square), scaled, strict=True)] == [0] * len(
+        unit
+    )
+    cycle = fixed_points(wide, {"m": "0.1"})[0]
+    assert float(cycle.frequency) == pytest.approx(
+        float(sum(c * R(1, 10) ** n for n, c in enumerate(scaled))), abs=1e-7
+    )
+
+
 def test_no_cycle_and_no_numbers() -> None:
     assert fixed_points(multiple_scales(find("damped-pendulum"), 4), {"mu": "0.1"}) == ()
     assert cycle_series(multiple_scales(make("u'' + c*u' + d*u'**3 + u"), 4)) == ()
@@ -524,6 +541,12 @@ def test_no_cycle_and_no_numbers() -> None:
     flow = multiple_scales(make("u'' - 2*m*u' + u + b*u'**3 = 0"), 4, weights={"b": 0})
     with pytest.raises(InputError, match="no rational number"):
         fixed_points(flow, {"m": "0.1"})
+    assert cycle_series(flow) == ()  # nor is there a series without the number of b
+    bent = multiple_scales(make("u'' - m*(1 - u**2)*u' + u + b*u**5 = 0"), 4, weights={"b": 0, "m": 1})
+    with pytest.raises(InputError, match="coefficient .*b.* of phi' has no number"):
+        fixed_points(bent, {"m": "0.1"})
+    with pytest.raises(InputError, match="hold symbols; give every parameter a number"):
+        frequency_series(bent, cycle_series(bent)[0])
     with pytest.raises(InputError, match="m has no value"):
         fixed_points(flow, {})
     with pytest.raises(InputError, match="no parameter 'q'"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 
 import pytest
@@ -10,6 +11,7 @@ from flint import arb, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ridgeback.common.errors import InputError
 from ridgeback.symbolic.series.harmonic_basis import Balls
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Space, space_for
@@ -128,3 +130,24 @@ def test_functions_of_the_one_constant_where_they_are_rational(name: str) -> Non
     expected = int(getattr(sympy, name)(at))
     ring = TrigRing(SPACES["powers"])
     assert at_zero(ring.function(name, ring.rational(at, 1))) == fmpq(expected)
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda ring, _: ring.number(sympy.sqrt(2)), "2.* is not rational, and the derivation is exact"),
+        (lambda ring, c: ring.invert(c), "no reciprocal: a parameter"),
+        (lambda ring, _: ring.invert(ring.rational(0)), "nonzero rational number at the equilibrium"),
+        (lambda ring, c: ring.function("sin", c), "sin is taken of a parameter"),
+        (lambda ring, _: ring.function("log", ring.rational(2)), "not 1 at the equilibrium"),
+        (lambda ring, _: ring.power(ring.rational(2), 1, 2), "the power 1/2 of 2 is not rational"),
+    ],
+)
+def test_what_is_not_rational_is_no_element(call: Callable[[TrigRing, Trig], object], words: str) -> None:
+    ring = TrigRing(space_for(("c",)))
+    with pytest.raises(InputError, match=words):
+        call(ring, ring.parameter("c"))
+    wave = cosine(ring.space)
+    with pytest.raises(InputError, match="no reciprocal"):
+        ring.invert(wave)
+    assert at_zero(ring.power(ring.rational(9, 4), -1, 2)) == fmpq(2, 3)

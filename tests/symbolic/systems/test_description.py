@@ -82,6 +82,7 @@ def test_places_that_are_no_centre_are_refused(equation: str, about: str, words:
         (lambda t: t.replace('"k**2*(1 - cos(theta))"', '"k**2*theta**2/2"'), "potential"),
         (lambda t: t.replace("sin(theta)", "sin(theta"), "column"),
         (lambda t: t + "=", "not TOML"),
+        (lambda t: t.replace("[oscillator]", "[oscillator]\nabout = '2*pi'"), "potential cannot be given together"),
     ],
 )
 def test_faulty_files_are_named_with_their_fault(tmp_path: Path, change, words: str) -> None:  # type: ignore[no-untyped-def]

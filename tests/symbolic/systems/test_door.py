@@ -69,6 +69,7 @@ def test_parameters_stay_symbolic_and_derivatives_are_found(given: sympy.Expr, f
     [
         U / (1 + U**2),
         sympy.exp(U) - 1,
+        U + sympy.E * U**3,
         sympy.sqrt(1 + U**2) * U,
         U - sympy.Rational(1, 3) * U**3,
         -(-U - 2 * U**2 / 7),
@@ -116,6 +117,9 @@ def test_parameters_and_place_can_be_given() -> None:
         (sympy.Symbol("x") * sympy.Symbol("y"), "which is the unknown"),
         (sympy.Integer(3), "no symbol"),
         (u(t).diff(t, 2) + t * u(t), "time"),
+        (sympy.And(u(t) > 1, u(t) < 2), "is no oscillator|is no equation"),
+        (sympy.Matrix([u(t)]), "is no oscillator|is no equation"),
+        (u(t).diff(t, 2) + u(t) + sympy.Symbol("a b") * u(t) ** 3, "'a b' cannot be written"),
     ],
 )
 def test_what_is_no_oscillator_is_refused_in_one_line(given: object, message: str) -> None:
