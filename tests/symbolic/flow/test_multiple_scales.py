@@ -518,7 +518,7 @@ def test_every_zero_is_enclosed_and_a_true_zero() -> None:
 
 
 def test_a_cycle_of_irrational_frequency_is_that_of_the_scaled_equation() -> None:
-    """u'' - m (1 - u^2) u' + k^2 u in the time k t has m/k for m: here k = sqrt(2), and phi' goes in even powers of m."""
+    """u'' - m (1 - u^2) u' + k^2 u in the time k t has m/k for m: here k = sqrt(2); phi' is even in m."""
     wide = multiple_scales(make("u'' - m*(1 - u**2)*u' + 2*u = 0"), 6, weight=1)
     (square,) = cycle_series(wide)
     expected = [R(4), *([0] * (len(square) - 1))]
@@ -543,7 +543,7 @@ def test_no_cycle_and_no_numbers() -> None:
         fixed_points(flow, {"m": "0.1"})
     assert cycle_series(flow) == ()  # nor is there a series without the number of b
     bent = multiple_scales(make("u'' - m*(1 - u**2)*u' + u + b*u**5 = 0"), 4, weights={"b": 0, "m": 1})
-    with pytest.raises(InputError, match="coefficient .*b.* of phi' has no number"):
+    with pytest.raises(InputError, match=r"coefficient .*b.* of phi' has no number"):
         fixed_points(bent, {"m": "0.1"})
     with pytest.raises(InputError, match="hold symbols; give every parameter a number"):
         frequency_series(bent, cycle_series(bent)[0])

@@ -305,14 +305,17 @@ def test_a_square_that_cancels_leaves_a_linear_acceleration():
 
 @pytest.mark.parametrize("term", ["tan(exp(exp(5 + u**2))**2)", "exp(20000 + u)", "sin(10**9 + u)"])
 def test_towers_of_functions_are_refused_before_they_are_evaluated(term):
-    with pytest.raises(InputError, match="1/Q divides by 0 with the values given"):
-        Oscillator.from_equation("u'' + u'/Q + u = 0", parameters={"Q": 0})
-    with pytest.raises(InputError, match="Q = 0 is divided by; give a number other than 0"):
-        Oscillator.from_equation("u'' + u'/Q + u = 0").with_parameters({"Q": 0})
     with pytest.raises(InputError, match="beyond 10000 in magnitude"):
         make(f"u'' + u + u*{term}")
     with pytest.raises(InputError, match="beyond 10000 in magnitude"):
         make("u'' + u", potential=f"u**2/2 + u*{term}")
+
+
+def test_a_parameter_that_is_divided_by_is_not_zero():
+    with pytest.raises(InputError, match="1/Q divides by 0 with the values given"):
+        Oscillator.from_equation("u'' + u'/Q + u = 0", parameters={"Q": 0})
+    with pytest.raises(InputError, match="Q = 0 is divided by; give a number other than 0"):
+        Oscillator.from_equation("u'' + u'/Q + u = 0").with_parameters({"Q": 0})
 
 
 def test_parameters_cannot_make_a_tower_that_hangs():
