@@ -38,7 +38,7 @@ def known_form(
     end, facts = up_to, tuple[str, ...]()
     if isinstance(series, Expansion | PowerExpansion) and not isinstance(result, SlowFlow | LossFlow):
         end = end or end_of(oscillator, series, result, limit)
-        facts = () if end is None else certified_facts(oscillator, result, end)
+        facts = () if end is None else certified_facts(oscillator, result, end, whole=up_to is not None)
     return form_of(
         result,
         equation=described(oscillator),

@@ -137,9 +137,9 @@ OPTIONS = (
         "--fit",
         type=click.Choice(("minimax",)),
         default=None,
-        help="In place of a series: the polynomial in A^2 next to the exact frequency up to --up-to, its error proved.",
+        help="In place of a series: the polynomial next to the exact frequency up to --up-to, its error proved.",
     ),
-    click.option("--degree", type=int, default=None, metavar="D", help="With --fit: degree in A^2."),
+    click.option("--degree", type=int, default=None, metavar="D", help="With --fit: degree in A^2, or in A where the potential is not even."),
     click.option(
         "--tolerance",
         type=written(rational),

@@ -1,4 +1,7 @@
-"""The exact frequency fitted by a polynomial in A^2 with coefficients of the format, and its error proved."""
+"""The exact frequency fitted by a polynomial with coefficients of the format, and its error proved.
+
+In A^2 where the potential is even, in A where it is not.
+"""
 
 from __future__ import annotations
 
@@ -7,18 +10,18 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final
 
-from flint import arb, arb_poly, ctx, fmpq
+from flint import arb, ctx, fmpq
 from sympy import Expr
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import ball
+from ridgeback.symbolic.codegen.fit.over_range import balls, largest_error
 from ridgeback.symbolic.codegen.fit.remez import Best, remez
 from ridgeback.symbolic.codegen.fit.surrogate import Surrogate, surrogate
 from ridgeback.symbolic.codegen.formulas.wording import OMEGA0, SCALING, frequency_argument, limit_fact
 from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real, fraction, rounded
 from ridgeback.symbolic.codegen.polynomial import K, derivative, polynomial_function
 from ridgeback.symbolic.codegen.program import Argument, Form, Terms
-from ridgeback.symbolic.codegen.proofs.bounds import upper
 from ridgeback.symbolic.codegen.proofs.notes import upwards
 from ridgeback.symbolic.codegen.request import CodeRequest
 from ridgeback.symbolic.enclosure.well import well_of
@@ -28,13 +31,11 @@ from ridgeback.symbolic.systems.oscillator import Oscillator
 MOST_DEGREE: Final = 40
 HARDLY: Final = Fraction(101, 100)
 """Coefficients are rounded with care where plain rounding makes the error larger than this share."""
-SHARP: Final = arb("1.002")
-MOST_BOXES: Final = 20000
 
 
 @dataclass(frozen=True)
 class Fit:
-    """omega0 = k (1 + c_1 A^2 + ... + c_d A^(2d)) for |A| <= end; relative error at most ``error``, proved."""
+    """omega0 = k (1 + c_1 X + ... + c_d X^d), X = A^step, up to A = end; relative error at most ``error``, proved."""
 
     system: str
     scale: Expr
@@ -45,10 +46,21 @@ class Fit:
     optimum: float
     """The relative error of the best fit with real coefficients."""
     real: Real = FLOAT64
+    step: int = 2
+
+    @property
+    def variable(self) -> str:
+        """X."""
+        return "A^2" if self.step == 2 else "A"
+
+    @property
+    def range(self) -> str:
+        """Where the fit holds."""
+        return f"{'|A|' if self.step == 2 else '0 <= A'} <= {float(self.end)!r}"
 
     @property
     def degree(self) -> int:
-        """d, in A^2."""
+        """d, in X."""
         return len(self.coefficients) - 1
 
     def to_dict(self) -> dict[str, object]:
@@ -58,6 +70,7 @@ class Fit:
             "method": "minimax",
             "amplitude": "peak",
             "up_to": str(self.end),
+            "variable": self.variable,
             "degree": self.degree,
             "coefficients": [str(c) for c in self.coefficients],
             "error_bound": float(self.error),
@@ -66,9 +79,10 @@ class Fit:
     def form(self, request: CodeRequest) -> Form:
         """omega0 and its derivative as code."""
         terms: Terms = {
-            (2 * n,): Number(fmpq(c.numerator, c.denominator), request.real) for n, c in enumerate(self.coefficients)
+            (self.step * n,): Number(fmpq(c.numerator, c.denominator), request.real)
+            for n, c in enumerate(self.coefficients)
         }
-        domain = request.domain("A")
+        domain = request.domain("A", even=self.step == 2)
         meaning = f"peak amplitude, {MEANINGS['peak']}"
         arguments = (Argument("A", meaning), frequency_argument(self.scale, request.real))
         functions = (
@@ -86,10 +100,10 @@ class Fit:
         )
         facts = (
             *((f"Equation: {request.equation}.",) if request.equation else ()),
-            f"Method: minimax fit of degree {self.degree} in A^2 to the exact frequency, equal to k at A = 0.",
+            f"Method: minimax fit of degree {self.degree} in {self.variable} to the exact frequency, k at A = 0.",
             f"Variable A: {meaning}.",
-            f"Fit: for |A| <= {float(self.end)!r} the relative error against the exact frequency is at "
-            f"most {upwards(self.error, 3)}, proved over the whole range in ball arithmetic.",
+            f"Fit: for {self.range} the relative error against the exact frequency is at most "
+            f"{upwards(self.error, 3)}, proved over the whole range in ball arithmetic.",
             SCALING,
             *limit_fact("A", request.limit),
             *request.more,
@@ -105,7 +119,7 @@ def minimax(
     tolerance: Fraction | None = None,
     real: Real = FLOAT64,
 ) -> Fit:
-    """Fit omega0(A) of a conservative oscillator with an even potential for |A| <= up_to.
+    """Fit omega0(A) of a conservative oscillator up to an amplitude, in A^2 where its potential is even, else in A.
 
     Parameters
     ----------
@@ -114,7 +128,7 @@ def minimax(
     up_to
         The largest amplitude.
     degree
-        Degree of the polynomial in A^2.
+        Degree of the polynomial.
     tolerance
         In place of a degree: the lowest degree is taken whose proved relative error is at most this.
     real
@@ -123,7 +137,7 @@ def minimax(
     Raises
     ------
     InputError
-        For both or none of degree and tolerance, a potential that is not even, a range that cannot be enclosed, and a
+        For both or none of degree and tolerance, a force that u' changes, a range that cannot be enclosed, and a
         tolerance that no degree up to 40 meets.
 
     Examples
@@ -154,7 +168,7 @@ def minimax(
                 continue
             values, error = _represented(exact, best, d, real)
             if tolerance is None or error <= tolerance:
-                return Fit(oscillator.name, well.scale, up_to, values, error, float(best.size), real)
+                return Fit(oscillator.name, well.scale, up_to, values, error, float(best.size), real, exact.step)
             reached = f"degree {d} comes to {float(error):.3g}"
     raise InputError(
         f"no degree up to {MOST_DEGREE} is within {float(tolerance or 0):.3g} with {real.name} coefficients: {reached}"
@@ -162,8 +176,8 @@ def minimax(
 
 
 def _target(exact: Surrogate) -> Callable[[arb], arb]:
-    """omega0/k - 1 as a function of x = A^2."""
-    half = ball(exact.end) ** 2 / 2
+    """omega0/k - 1 as a function of X."""
+    half = exact.half
     return lambda x: exact.polynomial(x / half - 1) - 1
 
 
@@ -172,17 +186,17 @@ def _best(exact: Surrogate, degree: int) -> Best:
     if all(abs(c) <= exact.remainder for c in (exact.polynomial - 1).coeffs()):
         return Best((arb(0),) * degree, arb(0), ())
     target = _target(exact)
-    return remez(target, ball(exact.end) ** 2, range(1, degree + 1), lambda x: 1 + target(x))
+    return remez(target, 2 * exact.half, range(1, degree + 1), lambda x: 1 + target(x))
 
 
 def _represented(exact: Surrogate, best: Best, degree: int, real: Real) -> tuple[tuple[Fraction, ...], Fraction]:
     """Coefficients of the format: each rounded by itself, or one after the other where that loses too much."""
     plain = (Fraction(1), *(nearest(c, real) for c in best.coefficients))
-    error = proved(exact, plain)
+    error, *_ = largest_error(exact, balls(plain))
     if error <= HARDLY * fraction(best.size.fmpq()):
         return plain, error
     careful = _one_by_one(exact, best, degree, real)
-    other = proved(exact, careful)
+    other, *_ = largest_error(exact, balls(careful))
     return (careful, other) if other < error else (plain, error)
 
 
@@ -200,7 +214,7 @@ def _one_by_one(exact: Surrogate, best: Best, degree: int, real: Real) -> tuple[
 
     What a rounding did is so made good by the coefficients that are still free, as far as they can.
     """
-    target, end = _target(exact), ball(exact.end) ** 2
+    target, end = _target(exact), 2 * exact.half
     fixed: list[Fraction] = []
     free: Sequence[arb] = best.coefficients
     for n in range(1, degree + 1):
@@ -216,32 +230,3 @@ def _one_by_one(exact: Surrogate, best: Best, degree: int, real: Real) -> tuple[
         except InputError:
             free = free[1:]
     return (Fraction(1), *fixed)
-
-
-def proved(exact: Surrogate, coefficients: Sequence[Fraction]) -> Fraction:
-    """An upper bound of |polynomial - exact|/exact over the whole range, exact being the frequency over k.
-
-    On each part of it difference and frequency are expanded about the middle: |D(m + r z)| <= sum |d_i| r^i and
-    exact(m + r z) >= e_0 - sum |e_i| r^i for |z| <= 1.
-    """
-    half = ball(exact.end) ** 2 / 2
-    fitted = arb_poly([ball(c) for c in coefficients])(arb_poly([half, half]))
-    difference = fitted - exact.polynomial
-    count = 8 * len(coefficients)
-    waiting = [(fmpq(2 * i, count) - 1, fmpq(1, count) * 2) for i in range(count)]
-    worst = arb(0)
-    for _ in range(MOST_BOXES):
-        if not waiting:
-            return upper(worst)
-        left, width = waiting.pop()
-        part = arb_poly([arb(left + width / 2), arb(width / 2)])
-        middle, *others = difference(part).coeffs() or [arb(0)]
-        value, *slopes = exact.polynomial(part).coeffs()
-        least = value - sum(map(abs, slopes), arb(0)) - exact.remainder
-        bound = arb((abs(middle) + sum(map(abs, others), arb(0)) + exact.remainder) / least).upper()
-        small = bound <= 4 * exact.remainder or bound <= SHARP * abs(middle / value).lower()
-        if least > 0 and (bound <= worst or small):
-            worst = arb(arb.max(worst, bound))
-        else:
-            waiting += [(left, width / 2), (left + width / 2, width / 2)]
-    raise InputError("the error of the fit could not be bounded; ask for a lower degree or a shorter range")

@@ -1,6 +1,6 @@
-r"""omega0/k of an even potential over a whole range, as a polynomial with a proved remainder.
+r"""omega0/k over a whole range, as a polynomial with a proved remainder.
 
-With f(u) = u g(u^2) and x = A^2 (units with k = 1),
+Of an even potential, f(u) = u g(u^2) and x = A^2 (units with k = 1),
 
     omega0(x) = 1 / mean_theta (2 Q)^(-1/2),      2 Q = mean of g(y) over the segment from x cos^2(theta) to x,
 
@@ -21,13 +21,16 @@ from flint import acb, arb, arb_poly, ctx, fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import ball
+from ridgeback.symbolic.codegen.fit.uneven import widest
 from ridgeback.symbolic.codegen.number import fraction
-from ridgeback.symbolic.enclosure.ball_functions import Function
+from ridgeback.symbolic.enclosure.ball_functions import Function, ball_function
 from ridgeback.symbolic.enclosure.enclosure import enclose_in
 from ridgeback.symbolic.enclosure.well import Well, curves
+from ridgeback.symbolic.grammar.parse import U
 
-GUARD: Final = 192
-"""Working precision is this plus two bits a node: in powers of t Chebyshev polynomials cancel, by 1.3 bits a degree."""
+GUARD: Final = 92
+"""Working precision is the goal, this and two bits a node: in powers of t Chebyshev polynomials cancel, by 1.3 bits a
+degree."""
 COVER_BITS: Final = 64
 GOAL: Final = 100
 """The remainder is below 2^-GOAL."""
@@ -39,62 +42,100 @@ FINEST: Final = fmpq(1, 4096)
 
 @dataclass(frozen=True)
 class Surrogate:
-    """|omega0/k - polynomial(t)| <= remainder for A^2 = X (1 + t)/2, -1 <= t <= 1."""
+    """|omega0/k - polynomial(t)| <= remainder for -1 <= t <= 1."""
 
     end: Fraction
-    """The largest amplitude; X is its square."""
+    """The largest amplitude."""
+    step: int
+    """X = A^step is end^step (1 + t)/2: 2 for an even potential, 1 for another."""
     polynomial: arb_poly
     remainder: arb
-    nodes: int
+    bits: int
+    """The precision that work with the polynomial needs."""
 
     @property
-    def bits(self) -> int:
-        """The precision that work with the polynomial needs."""
-        return GUARD + 2 * self.nodes
+    def half(self) -> arb:
+        """Half of the largest X."""
+        return ball(self.end) ** self.step / 2
 
 
-def surrogate(well: Well, end: Fraction) -> Surrogate:
-    """Enclose omega0/k for |A| <= end.
+@dataclass(frozen=True)
+class Region:
+    """An ellipse about the range of X on which omega0/k is analytic, and what bounds it there."""
 
-    Raises InputError for a potential that is not even, a force that u' changes, and a range of which no ellipse is
-    found on which Re g > 0.
+    step: int
+    rate: fmpq
+    """rho."""
+    bound: arb
+    """M."""
+
+    def nodes(self, goal: int) -> int:
+        """N with 4 M rho^(1-N)/(rho - 1) < 2^-goal."""
+        with ctx.workprec(COVER_BITS):
+            digits = (4 * self.bound / (self.rate - 1)).log() + goal * arb(2).log()
+            return math.ceil(float((digits / arb(self.rate).log()).upper())) + 2
+
+
+def region(well: Well, end: Fraction) -> Region:
+    """Where omega0/k is analytic around |A| <= end, or 0 <= A <= end where the potential is not even.
+
+    Raises InputError for a force that u' changes, and a range for which no ellipse is found.
+
+    >>> from ridgeback.symbolic.enclosure.well import well_of
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> region(well_of(find("duffing")), Fraction(1)).step, region(well_of(find("toda")), Fraction(1)).step
+    (2, 1)
+    """
+    if well.inertia != 1:
+        raise InputError(
+            f"{well.name}: the frequency over a whole range is enclosed for forces of u alone; generate the series"
+        )
+    if well.even:
+        return _even_region(well, fmpq(end.numerator, end.denominator) ** 2)
+    trough = enclose_in(well, end, bits=COVER_BITS).trough
+    with ctx.workprec(COVER_BITS):
+        known, last = curves(well, COVER_BITS, complex_=True), fmpq(end.numerator, end.denominator)
+        bend = ball_function(well.restoring.diff(U, 2), COVER_BITS, complex_=True)
+        found = widest(known, bend, trough.lower().fmpq(), last)
+    if found is None:
+        raise InputError(_not_enclosed(well, end))
+    return Region(1, *found)
+
+
+def _not_enclosed(well: Well, end: Fraction) -> str:
+    return (
+        f"{well.name}: the frequency could not be enclosed over the whole range up to A = {float(end):.6g}; give a "
+        "shorter one"
+    )
+
+
+def surrogate(well: Well, end: Fraction, *, goal: int = GOAL, found: Region | None = None) -> Surrogate:
+    """Enclose omega0/k over the range by a polynomial with a remainder below 2^-goal; errors as for ``region``.
 
     >>> from ridgeback.symbolic.enclosure.well import well_of
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> found = surrogate(well_of(find("duffing")), Fraction(1))
-    >>> bool(found.remainder < 1e-30), found.nodes < 60
+    >>> bool(found.remainder < 1e-30), found.polynomial.degree() < 60
     (True, True)
     """
-    if not well.even or well.inertia != 1:
-        raise InputError(f"{well.name}: a fit is proved for even potentials of u alone; generate the series instead")
-    square = fmpq(end.numerator, end.denominator) ** 2
-    rate, bound = _ellipse(well, square)
-    count = _nodes(rate, bound)
-    with ctx.workprec(GUARD + 2 * count):
-        values, nodes = _values(well, square, count, rate, bound)
-        remainder = 4 * bound * arb(rate) ** (1 - count) / (rate - 1)
-        return Surrogate(end, _interpolant(values, nodes), arb(remainder.upper()), count)
+    around = found or region(well, end)
+    count = around.nodes(goal)
+    bits = goal + GUARD + 2 * count
+    with ctx.workprec(bits):
+        values, nodes = _values(well, end, around, count)
+        remainder = 4 * around.bound * arb(around.rate) ** (1 - count) / (around.rate - 1)
+        return Surrogate(end, around.step, _interpolant(values, nodes), arb(remainder.upper()), bits)
 
 
-def _nodes(rate: fmpq, bound: arb) -> int:
-    """N with 4 M rho^(1-N)/(rho - 1) < 2^-GOAL."""
-    with ctx.workprec(COVER_BITS):
-        digits = (4 * bound / (rate - 1)).log() + GOAL * arb(2).log()
-        return math.ceil(float((digits / arb(rate).log()).upper())) + 2
-
-
-def _ellipse(well: Well, square: fmpq) -> tuple[fmpq, arb]:
+def _even_region(well: Well, square: fmpq) -> Region:
     """The widest ellipse of those tried on which Re g > 0, and the bound M there."""
     with ctx.workprec(COVER_BITS):
         found = curves(well, COVER_BITS, complex_=True)
         for rate in RATES:
             largest = _largest(found.force, found.slope, square, rate)
             if largest is not None:
-                return rate, (2 * largest).sqrt()
-    raise InputError(
-        f"{well.name}: the frequency could not be enclosed over the whole range up to A = "
-        f"{float(fraction(square)) ** 0.5:.6g}; give a shorter one"
-    )
+                return Region(2, rate, (2 * largest).sqrt())
+    raise InputError(_not_enclosed(well, Fraction(float(fraction(square)) ** 0.5)))
 
 
 def _largest(force: Function, slope: Function, square: fmpq, rate: fmpq) -> arb | None:
@@ -139,18 +180,18 @@ def _g(force: Function, slope: Function, y: acb) -> acb:
     return acb(force(u)) / u
 
 
-def _values(well: Well, square: fmpq, count: int, rate: fmpq, bound: arb) -> tuple[list[arb], list[arb]]:
+def _values(well: Well, end: Fraction, around: Region, count: int) -> tuple[list[arb], list[arb]]:
     """omega0/k at the Chebyshev points t_j, from amplitudes next to theirs, and the angles' cosines."""
-    half = arb(square) / 2
-    distance = half * ((rate + 1 / rate) / 2 - 1)
-    bits = ctx.prec - GUARD // 3
+    half = ball(end) ** around.step / 2
+    distance = half * ((around.rate + 1 / around.rate) / 2 - 1)
+    bits = ctx.prec - GUARD // 2
     k = enclose_in(well, 0, bits=bits).omega
     values, nodes = [], []
     for j in range(count):
         t = arb.cos_pi_fmpq(fmpq(2 * j + 1, 2 * count))
         x = half * (1 + t)
-        amplitude = fraction(x.sqrt().mid().fmpq())
-        moved = abs(ball(amplitude) ** 2 - x) * bound / distance  # |f'| <= M/distance by Cauchy's estimate
+        amplitude = fraction((x.sqrt() if around.step == 2 else x).mid().fmpq())
+        moved = abs(ball(amplitude) ** around.step - x) * around.bound / distance  # |f'| <= M/distance, by Cauchy
         omega = enclose_in(well, amplitude, bits=bits).omega / k
         values.append(omega + arb(0, moved.upper()))
         nodes.append(t)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Final, TypeAlias
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.certificates.at_amplitudes import certified_frequencies
 from ridgeback.symbolic.codegen.fit.fit import Fit
+from ridgeback.symbolic.codegen.fit.truncation import errors_up_to
 from ridgeback.symbolic.codegen.formulas.closed_forms import MeanForm, SineSeries
 from ridgeback.symbolic.codegen.proofs.notes import upwards
 from ridgeback.symbolic.expansion.expansion import Expansion
@@ -59,22 +61,44 @@ def end_of(oscillator: Oscillator, series: Series, formula: Formula, limit: floa
     return reach_of(oscillator, series, formula) if limit is None else before_pole(Fraction(limit), formula)
 
 
-def certified_facts(oscillator: Oscillator, formula: Formula, reach: Fraction) -> tuple[str, ...]:
-    """The certified error of a formula at a few amplitudes, in a line; nothing where there is no enclosure.
+def certified_facts(
+    oscillator: Oscillator, formula: Formula, reach: Fraction, *, whole: bool = False
+) -> tuple[str, ...]:
+    """The error of a formula over parts of the range and, when ``whole``, over all of it, in a line.
+
+    Where the exact frequency is not enclosed over a range, at a few amplitudes; nothing where it is not at all.
 
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> certified_facts(find("pendulum"), lindstedt(find("pendulum"), 8), Fraction(3))[0]
-    'Certified relative error against the exact frequency: below 9.1e-09 at A = 0.75, 1.3e-05 at 1.5, 0.0013 at 2.25.'
+    'Truncation: the relative error against the exact frequency is at most 9.1e-09 for |A| <= 0.75, 1.3e-05 up to ...
     """
     if isinstance(formula, MeanForm | SineSeries | Fit):
         return ()  # exact, or with a bound of their own
-    places = [Fraction(f"{float(share * reach):.3g}") for share in SHARES]
+    places = [Fraction(f"{float(share * reach):.3g}") for share in SHARES] + [reach] * whole
+    try:
+        errors, symmetric = errors_up_to(oscillator, formula, places)
+    except InputError:
+        return _at_amplitudes(oscillator, formula, places)
+    first, *rest = (f"{upwards(e)} {{}} {float(a):.10g}" for e, a in zip(errors, places, strict=True))
+    listed = ", ".join(
+        [first.format("for |A| <=" if symmetric else "for 0 <= A <="), *(r.format("up to") for r in rest)]
+    )
+    return (
+        f"Truncation: the relative error against the exact frequency is at most {listed}, proved over the whole range "
+        "in ball arithmetic.",
+    )
+
+
+def _at_amplitudes(
+    oscillator: Oscillator, formula: Series | Resummation, places: Sequence[Fraction]
+) -> tuple[str, ...]:
+    """The certified error at amplitudes; nothing for limit cycles, damping and definitions without an enclosure."""
     try:
         bounds = [reading.to_dict(6)["error_bound"] for reading in certified_frequencies(oscillator, formula, places)]
     except InputError:
-        return ()  # a refusal is an answer here: limit cycles, damping and some definitions have no enclosure
-    pairs = [(upwards(Fraction(str(b))), f"{float(a):g}") for b, a in zip(bounds, places, strict=True)]
+        return ()
+    pairs = [(upwards(Fraction(str(b))), f"{float(a):.10g}") for b, a in zip(bounds, places, strict=True)]
     first, *rest = pairs
     listed = ", ".join([f"{first[0]} at {formula.variable} = {first[1]}", *(f"{b} at {a}" for b, a in rest)])
     return (f"Certified relative error against the exact frequency: below {listed}.",)
