@@ -139,7 +139,9 @@ OPTIONS = (
         default=None,
         help="In place of a series: the polynomial next to the exact frequency up to --up-to, its error proved.",
     ),
-    click.option("--degree", type=int, default=None, metavar="D", help="With --fit: degree in A^2, or in A where the potential is not even."),
+    click.option(
+        "--degree", type=int, default=None, metavar="D", help="With --fit: degree in A^2, in A of a potential not even."
+    ),
     click.option(
         "--tolerance",
         type=written(rational),
