@@ -107,13 +107,27 @@ class Number:
 
         Raises InputError when that is infinite, or zero for a number that is not.
         """
-        value = rounded(fraction(self.exact), self.real) if isinstance(self.exact, fmpq) else self._decided()
+        value = self._rounded() if isinstance(self.exact, fmpq) else self._decided()
         if not math.isfinite(value) or (value == 0 and self.exact != 0):
             raise InputError(
                 f"a coefficient of about 10^{self.decimal_exponent} has no {self.real.name}; generate code for a "
                 "lower order, or scale the unknown"
             )
         return value
+
+    def _rounded(self) -> float:
+        """A rational; doubles by one division of whole numbers, which FLINT has no common factor of."""
+        if self.real is not FLOAT64:
+            return rounded(fraction(self.exact), self.real)
+        try:
+            return int(self.exact.p) / int(self.exact.q)
+        except OverflowError:
+            return math.inf
+
+    @property
+    def representable(self) -> bool:
+        """Whether the nearest number of the format is the number itself."""
+        return isinstance(self.exact, fmpq) and bool(fmpq(*self.nearest.as_integer_ratio()) == self.exact)
 
     def _decided(self) -> float:
         """An irrational number, enclosed ever more tightly until both ends round alike."""
@@ -148,4 +162,6 @@ class Number:
         return self.text
 
     def __repr__(self) -> str:
-        return f"Number({self.text}, {self.real.name})"
+        """In hexadecimal digits, which long numbers are written in quickly; the hash of a form is of them."""
+        exact = f"{int(self.exact.p):x}/{int(self.exact.q):x}" if isinstance(self.exact, fmpq) else self.text
+        return f"Number({exact}, {self.real.name})"

@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from textwrap import wrap
 from typing import ClassVar
 
+from flint import fmpq
+
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen.comments import comment_text
 from ridgeback.symbolic.codegen.number import FLOAT32, Number
@@ -162,13 +164,13 @@ class Language(ABC):
 
     def noted(self, line: str, numbers: list[Number]) -> Iterator[str]:
         """A line with its exact numbers in a comment: behind it, or above it where they are long."""
-        texts = [str(n) for n in numbers if needs_note(n)]
+        texts = [exact_text(n) for n in numbers if needs_note(n)]
         if not texts:
             yield line
         elif len(line) + len(joined := ", ".join(texts)) <= WIDTH:
-            yield f"{line}  {self.remark(exact_text(joined))}"
+            yield f"{line}  {self.remark(joined)}"
         else:
-            yield from (self.remark(part) for text in texts for part in pieces(exact_text(text)))
+            yield from (self.remark(part) for text in texts for part in pieces(text))
             yield line
 
     def remark(self, text: str) -> str:
@@ -235,14 +237,15 @@ def needs_note(number: Number) -> bool:
     return len(number.text) > 4 or not number.text.lstrip("-").isdigit()
 
 
-def exact_text(text: str) -> str:
-    """An exact number for a comment; its letters, digits and a stroke are harmless in every language.
+def exact_text(number: Number) -> str:
+    """An exact number for a comment; the digits and the stroke of a rational are harmless in every language.
 
-    >>> exact_text("-1/16"), exact_text("sqrt(2)*/")
-    ('-1/16', 'sqrt(2) /')
+    >>> from flint import fmpq
+    >>> from sympy import sqrt
+    >>> exact_text(Number(fmpq(-1, 16))), exact_text(Number(2 * sqrt(2)))
+    ('-1/16', '2 sqrt(2)')
     """
-    plain = text.replace(", ", "").replace("/", "").replace("-", "")
-    return text if plain.isdigit() else comment_text(text)
+    return number.text if isinstance(number.exact, fmpq) else comment_text(number.text)
 
 
 def domain_facts(form: Form) -> list[str]:

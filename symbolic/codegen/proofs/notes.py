@@ -11,7 +11,7 @@ from typing import Final
 from flint import arb
 from sympy import Add
 
-from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real, fraction
+from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real
 from ridgeback.symbolic.codegen.program import Form, Function, Operand, Operation, Statement, Step, lowered
 from ridgeback.symbolic.codegen.proofs.bounds import Bound, bound
 from ridgeback.symbolic.enclosure.enclosure import rounded_down
@@ -77,8 +77,7 @@ def roundings(body: Iterable[Statement], result: Operand) -> int:
 
     def of(operand: Operand) -> int:
         if isinstance(operand, Number):
-            exact = not hasattr(operand.exact, "free_symbols") and fraction(operand.exact) == Fraction(operand.nearest)
-            return 0 if exact else 1
+            return 0 if operand.representable else 1
         return known.get(operand, 0)
 
     for statement in body:
