@@ -140,7 +140,7 @@ class Function:
     domain: Domain
     notes: tuple[str, ...] = ()
     """What is proved about the result."""
-    polynomial: Polynomial | None = None
+    polynomial: Polynomial | None = field(default=None, repr=False)  # the statements hold the same numbers
 
     def read(self) -> set[str]:
         """Names of all values that are read."""

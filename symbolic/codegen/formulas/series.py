@@ -112,6 +112,8 @@ class _Series:
 
 
 def _scaled(part: fmpq, scale: Expr) -> fmpq | Expr:
+    if scale == 1:
+        return part
     if scale.is_Rational:
         return part * fmpq(int(scale.p), int(scale.q))
     return as_sympy(part) * scale

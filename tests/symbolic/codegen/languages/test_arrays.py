@@ -1,0 +1,40 @@
+"""Array-API code under other libraries than NumPy, where they are installed."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ridgeback.symbolic.codegen import generate
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
+from ridgeback.symbolic.expansion.energy_integral import energy_integral
+from ridgeback.symbolic.systems.catalogue import find
+from tests.symbolic.generated import load
+
+X = np.linspace(-3.2, 3.2, 101)
+
+
+def test_jax_gives_the_same_bits_and_a_derivative(tmp_path: Path) -> None:
+    """Compiled it fuses products with sums, and differs in the last place; its derivative is the code's own."""
+    jax = pytest.importorskip("jax")
+    jax.config.update("jax_enable_x64", True)
+    module = load(generate(energy_integral(find("pendulum"), 40), "array-api", up_to=Fraction(3)), tmp_path)
+    plain = module.omega0(X)
+    assert np.array_equal(np.asarray(module.omega0(jax.numpy.asarray(X))), plain, equal_nan=True)
+    assert np.allclose(np.asarray(jax.jit(module.omega0)(jax.numpy.asarray(X))), plain, 4e-16, equal_nan=True)
+    inside = X[np.abs(X) <= 3]
+    slope = jax.vmap(jax.grad(module.omega0))(jax.numpy.asarray(inside))
+    assert np.allclose(np.asarray(slope), module.omega0_slope(inside), rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("system", ["pendulum", "cube-root"])
+def test_pytorch_gives_the_same_bits(system: str, tmp_path: Path) -> None:
+    torch = pytest.importorskip("torch")
+    pytest.importorskip("array_api_compat")
+    oscillator = find(system)
+    series = energy_integral(oscillator, 40) if system == "pendulum" else energy_on_each_side(oscillator, 2)
+    module = load(generate(series, "array-api", up_to=Fraction(3)), tmp_path)
+    assert np.array_equal(module.omega0(torch.asarray(X)).numpy(), module.omega0(X), equal_nan=True)
