@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import platform
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +23,14 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
             best.setdefault(item.extra_info["series"], {})[item.extra_info["who"]] = item.stats.min
     rows = [row(series, found) for series, found in best.items() if len(found) == 2]
     if rows:
-        TABLE.write_text(HEAD + "".join(rows), encoding="utf-8")
+        TABLE.write_text(f"{HEAD}{''.join(rows)}\n{surroundings()}\n", encoding="utf-8")
+
+
+def surroundings() -> str:
+    """With what it was measured, and how to measure it again."""
+    versions = ", ".join(f"{name} {version(name)}" for name in ("ridgeback", "python-flint", "sympy"))
+    machine = f"{platform.machine()} with {os.cpu_count()} cores"
+    return f"Python {platform.python_version()}, {versions}; {machine}; by `python -m pytest benchmarks`."
 
 
 def row(series: str, found: dict[str, Any]) -> str:

@@ -49,7 +49,7 @@ def options(command: click.Command, context: click.Context) -> nodes.definition_
     """Each option with its values and its meaning, in the order of ``--help``."""
     records = [record for parameter in command.get_params(context) if (record := parameter.get_help_record(context))]
     found = nodes.definition_list(classes=["options"])
-    for name, meaning in records:
+    for name, meaning in (record for record in records if record[1]):
         item = nodes.definition_list_item("", nodes.term("", "", nodes.literal(text=name)))
         item += nodes.definition("", nodes.paragraph("", *spans(meaning)))
         found += item
