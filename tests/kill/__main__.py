@@ -48,7 +48,7 @@ class Trial:
 
     def run(self, stop: signal.Signals | None = None, after: float = 0.0) -> float:
         """Run the job; send it a signal after so many seconds, if it still runs then.  Answers how long it ran."""
-        begin = time.monotonic()
+        begin, before = time.monotonic(), self.parts()
         process = started(self.name, self.folder)
         try:
             process.wait(after if stop else LONGEST)
@@ -58,11 +58,11 @@ class Trial:
             process.send_signal(stop or signal.SIGKILL)
             process.wait(LONGEST)
         lasted = time.monotonic() - begin
-        self.judge(process, stop)
+        self.judge(process, stop, before if stop else frozenset())
         return lasted
 
-    def judge(self, process: subprocess.Popen[bytes], stop: signal.Signals | None) -> None:
-        """Note what came of a run."""
+    def judge(self, process: subprocess.Popen[bytes], stop: signal.Signals | None, before: frozenset[str]) -> None:
+        """Note what came of a run; what was left ``before`` it by one that was killed goes when state is saved."""
         code, error = process.returncode, (self.folder / "error").read_text(encoding="utf-8", errors="replace")
         allowed = {0, -signal.SIGKILL} if stop == signal.SIGKILL else {0, 130, -signal.SIGINT, -signal.SIGTERM}
         if code not in (allowed if stop else {0}):
@@ -71,16 +71,16 @@ class Trial:
         output = self.folder / "output"
         if output.exists() and output.read_bytes() != self.reference and not said_partial(output):
             self.faults.append("an output that is neither whole nor says that it is partial")
-        if stop != signal.SIGKILL and (left := self.left_over()):
+        if stop != signal.SIGKILL and (left := sorted(self.parts() - before)):
             self.faults.append(f"left over after {stop.name if stop else 'the end'}: {left}")
         if not gone(process.pid):
             self.faults.append(f"processes of the job alive {GRACE:.0f} s after {stop.name if stop else 'its end'}")
             with suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
 
-    def left_over(self) -> list[str]:
+    def parts(self) -> frozenset[str]:
         """Files that are neither state nor output."""
-        return sorted(path.name for path in self.folder.iterdir() if path.name not in ("state", "output", "error"))
+        return frozenset(path.name for path in self.folder.iterdir()) - {"state", "output", "error"}
 
 
 def said_partial(output: Path) -> bool:
