@@ -28,7 +28,7 @@ class Change:
     before: Scalar
     after: Scalar
     relative: float
-    """|after - before| / max(|after|, |before|); infinite where one of them is a reason."""
+    """|after - before| / max(|after|, |before|); infinite where one of them is no finite number."""
 
 
 @dataclass(frozen=True)
@@ -146,7 +146,9 @@ def _changes(cell: str, before: Outcome, after: Outcome, names: list[str]) -> It
 
 
 def _relative(old: Scalar, new: Scalar) -> float:
-    if not isinstance(old, int | float) or not isinstance(new, int | float):
+    if not (
+        isinstance(old, int | float) and isinstance(new, int | float) and math.isfinite(old) and math.isfinite(new)
+    ):
         return math.inf
     size = max(abs(old), abs(new))
     return abs(new - old) / size if size else 0.0

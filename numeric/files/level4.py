@@ -27,9 +27,9 @@ def matrices(data: bytes, source: str) -> Iterator[Stored]:
     while at < len(data):
         place = f"{source}, byte {at}"
         order, kind, form = code(data[at : at + 4], place)
-        head = np.frombuffer(data[at + 4 : at + 20], dtype=f"{order}i4")
-        if head.size < 4:
+        if len(data) < at + 20:
             raise InputError(f"{place}: the file ends within the head of a matrix; it is damaged")
+        head = np.frombuffer(data[at + 4 : at + 20], dtype=f"{order}i4")
         rows, columns, imaginary, length = (int(value) for value in head)
         size, parts = rows * columns, 2 if imaginary else 1
         begin = at + 20 + length

@@ -46,7 +46,9 @@ def exact(given: Any) -> Fraction:
     if isinstance(given, bool) or not isinstance(given, int | float | Decimal | Fraction | str):
         raise InputError(f"{shown(given)} is not a number; give {RULE}")
     text = str(given).strip()
-    if isinstance(given, Decimal | float) and not math.isfinite(given):
+    if not (
+        given.is_finite() if isinstance(given, Decimal) else math.isfinite(given) if type(given) is float else True
+    ):
         raise InputError(f"{text} is not a finite number; give {RULE}")
     if isinstance(given, Decimal) and given and abs(given.adjusted()) > 400:
         raise InputError(f"{shown(text)} has an exponent beyond 400; give a number of moderate size")

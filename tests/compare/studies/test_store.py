@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from ridgeback.common.errors import InputError
+from ridgeback.compare.studies.against import compared
 from ridgeback.compare.studies.file.reading import plan_of
 from ridgeback.compare.studies.measures import backbone
 from ridgeback.compare.studies.plan import Plan
@@ -137,6 +138,43 @@ def test_a_file_that_is_no_store_is_refused_and_kept(plan: Plan, tmp_path: Path,
     with pytest.raises(InputError, match=r"no store|damaged"):
         table(plan, path)
     assert path.read_bytes() == content
+
+
+def test_what_changed_between_two_programs_is_told_cell_by_cell(
+    plan: Plan, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The largest change first; a value that became a reason counts as infinite."""
+    table(plan, tmp_path / "before.db")
+    plain = backbone._values
+
+    def moved(omega: float, reference: float, uncertainty: float) -> Outcome:
+        return "lost" if omega < 0.8 else plain(omega * (2 if omega < 0.9 else 1), reference, uncertainty)
+
+    monkeypatch.setattr(backbone, "_values", moved)
+    with opened(tmp_path / "after.db", plan, "test 2", warned=pytest.fail) as store:
+        complete(plan, store)
+    with existing(tmp_path / "before.db") as first, existing(tmp_path / "after.db") as second:
+        found = compared(first, second, warned=pytest.fail)
+        known = [o for block in finished(plan, first, warned=pytest.fail) for o in block.outcomes]
+    numbers = [o[0] for o in known if not isinstance(o, str)]
+    assert (found.equal, found.changed) == (32 - sum(x < 0.9 for x in numbers), sum(x < 0.9 for x in numbers))
+    assert found.settings[-1] == "program was test 1, is test 2"
+    lost = [change for change in found.changes if change.after == "lost"]
+    assert len(lost) == sum(x < 0.8 for x in numbers)
+    assert {change.relative for change in found.changes if change.column == "omega"} == {0.5}
+    assert all(change.before == "values" for change in lost)
+    assert [change.relative for change in found.changes] == sorted((c.relative for c in found.changes), reverse=True)
+
+
+def test_stores_of_different_cells_have_nothing_in_common(plan: Plan, tmp_path: Path) -> None:
+    table(plan, tmp_path / "backbone.db")
+    other = plan_of(TEXT.replace('"error", "order-needed"', '"decay-error"').replace('"lindstedt", "nome"', '"linear"'))
+    with (
+        opened(tmp_path / "decay.db", other, PROGRAM, warned=pytest.fail) as second,
+        existing(tmp_path / "backbone.db") as first,
+        pytest.raises(InputError, match="backbone and decay cells, which have no cell in common"),
+    ):
+        compared(first, second, warned=pytest.fail)
 
 
 def test_two_runs_at_once_leave_one_whole_store(plan: Plan, tmp_path: Path) -> None:

@@ -12,10 +12,12 @@ from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.studies.examples import NAMES, example
+from ridgeback.compare.studies.file import reading
 from ridgeback.compare.studies.file.axes import exact_values
 from ridgeback.compare.studies.file.lines import keys, line_of
 from ridgeback.compare.studies.file.overrides import literal
 from ridgeback.compare.studies.file.reading import plan_of
+from ridgeback.compare.studies.measures.by_name import measure_of
 from ridgeback.compare.studies.plan import differences, plan_from
 
 TEXT = """\
@@ -94,6 +96,65 @@ def test_examples_are_studies_that_survive_json(name: str) -> None:
         ("[0.5, 1]", "[0.5, 0.5]", "s.toml, line 8, grid.amplitudes: holds 0.5 twice"),
         ("[0.5, 1]", "[0.5, nan]", "s.toml, line 8, grid.amplitudes: NaN is not a finite number"),
         ("[0.5, 1]", "[0.5, 1", "s.toml is not TOML: "),
+        ("[0.5, 1]", "[]", "s.toml, line 8, grid.amplitudes: is an empty list; give"),
+        ("[0.5, 1]", "[0.5, true]", "s.toml, line 8, grid.amplitudes: True is not a number"),
+        ("[0.5, 1]", "[0.5, 1e500]", "s.toml, line 8, grid.amplitudes: '1E+500' has an exponent beyond 400"),
+        ("[0.5, 1]", "[0.5, 1e320]", "s.toml, line 8, grid.amplitudes: holds a number beyond the largest double"),
+        ("[0.5, 1]", '[0.5, "1e3"]', "s.toml, line 8, grid.amplitudes: '1e3' is not a number; write it without quotes"),
+        ("[0.5, 1]", "{ from = 1, to = 2 }", "s.toml, line 8, grid.amplitudes: lacks 'count'; a range is"),
+        (
+            "[0.5, 1]",
+            "{ from = 1, to = 2, count = 3, step = 1 }",
+            "s.toml, line 8, grid.amplitudes: has 'step'; a range is",
+        ),
+        (
+            "[0.5, 1]",
+            "{ from = 1, to = 2, count = 1 }",
+            "s.toml, line 8, grid.amplitudes: count = 1 is not a whole number from 2",
+        ),
+        (
+            "[0.5, 1]",
+            '{ from = 1, to = 2, count = 3, spacing = "cubic" }',
+            "s.toml, line 8, grid.amplitudes: spacing = 'cubic' is neither",
+        ),
+        (
+            "[0.5, 1]",
+            '{ from = 0, to = 2, count = 3, spacing = "log" }',
+            "s.toml, line 8, grid.amplitudes: from = 0 has no logarithm",
+        ),
+        ('"small"', "5", "s.toml, line 3, study.title: 5 is not text; put it in quotation marks"),
+        ('["error"]', "[]", "s.toml, line 4, study.ask: is an empty list; give one or more"),
+        (
+            '["error"]',
+            '["error", "range"]',
+            "s.toml, line 4, study.ask: error and range are answered from different cells",
+        ),
+        ('ask = ["error"]', "", "s.toml, line 2, study.ask: is missing; "),
+        ("[signal]", "[[signal]]", "s.toml, signal: write it as a table, [signal]"),
+        ('system = "pendulum"', "", "s.toml, line 14, oscillator.1: neither system nor equation"),
+        (
+            'system = "pendulum"',
+            'system = "pendulum"\nequation = "u\'\' + u = 0"',
+            "s.toml, line 14, oscillator.1: both system and equation",
+        ),
+        ('"own"', '"a;b"', "s.toml, line 19, oscillator.2.name: 'a;b' is no name"),
+        ('{ mu = [0.01, "1/50"], k = 2 }', "3", "s.toml, line 16, oscillator.1.parameters: 3 is not a table"),
+        (
+            "k = 2",
+            "k = { from = 1, to = 2, count = 10000 }",
+            "s.toml, line 16, oscillator.1.parameters: more than 10000 combinations",
+        ),
+        (
+            "[2, 4]",
+            "[2, 4]\ndamping = 0.1",
+            "s.toml, line 8, grid.damping: the damping mu is among the parameters of oscillator.1",
+        ),
+        (
+            "seed = 3",
+            "periods = 5\nduration = 3.0\nrate = 2",
+            "s.toml, line 25, signal.periods: stands beside duration",
+        ),
+        ("seed = 3", "duration = 3.0\nrate = [1, 2]", "s.toml, line 26, signal.rate: has 2 values; give one"),
     ],
 )
 def test_a_study_that_cannot_run_is_refused_with_its_place(before: str, after: str, message: str) -> None:
@@ -107,6 +168,8 @@ def test_a_study_that_cannot_run_is_refused_with_its_place(before: str, after: s
     ("key", "value", "message"),
     [
         ("order", "2", "--set 'order': a study has no such key"),
+        ("study.title.x", "1", "--set study.title.x: study.title is a value, not a table"),
+        ("oscillator.name", "x", "--set oscillator.name: say which oscillator, as in oscillator.1.name"),
         ("grid.orders", "x", "--set grid.orders: 'x' is not a number"),
         ("oscillator.3.name", "x", "--set oscillator.3.name: '3' is no number from 1 to 2"),
         ("oscillator.1.parameters.zeta", "1", "--set oscillator.1.parameters.zeta: pendulum has no parameter 'zeta'"),
@@ -116,6 +179,20 @@ def test_an_override_that_cannot_be_is_refused_by_its_option(key: str, value: st
     with pytest.raises(InputError) as refusal:
         plan_of(TEXT, name="s.toml", overrides=[(key, value)])
     assert str(refusal.value).startswith(message)
+
+
+def test_a_study_of_nothing_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(InputError, match=r"s\.toml: no oscillator; write \[\[oscillator\]\]"):
+        plan_of(TEXT[: TEXT.index("[[oscillator]]")], name="s.toml")
+    with pytest.raises(InputError, match="own has no parameter mu"):
+        plan_of(TEXT.replace('mu = [0.01, "1/50"], ', "").replace("[2, 4]", "[2, 4]\ndamping = 0.1"))
+    with pytest.raises(InputError, match="nothing is asked; ask one of error"):
+        measure_of(())
+    with pytest.raises(InputError, match="no example 'six-oscillators'; there are"):
+        example("six-oscillators")
+    monkeypatch.setattr(reading, "MOST_CELLS", 23)
+    with pytest.raises(InputError, match=r"s\.toml: more than 23 cells; give fewer"):
+        plan_of(TEXT, name="s.toml")
 
 
 def test_overrides_take_the_place_of_the_file() -> None:

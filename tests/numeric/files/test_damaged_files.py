@@ -16,7 +16,7 @@ from hypothesis.extra import numpy as arrays
 from scipy.io import loadmat, savemat, wavfile
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.files import level5
+from ridgeback.numeric.files import level4, level5
 from ridgeback.numeric.files.matlab import from_mat
 from ridgeback.numeric.files.readers import READERS
 
@@ -120,6 +120,30 @@ def changed(whole: bytes, place: int, form: str, value: int) -> bytes:
     return whole[:place] + word + whole[place + len(word) :]
 
 
+def element(kind: int, data: bytes) -> bytes:
+    """An element of a MAT file of level 5, padded to eight bytes."""
+    return struct.pack("<II", kind, len(data)) + data + bytes(-len(data) % 8)
+
+
+def of_level_5(of_class: int, *parts: bytes, name: bytes = b"u", shape: tuple[int, ...] = (1, 1)) -> bytes:
+    """A variable: its flags, its dimensions, its name, and what follows."""
+    head = element(6, struct.pack("<II", of_class, 0)), element(5, struct.pack(f"<{len(shape)}i", *shape))
+    return element(14, b"".join([*head, element(1, name), *parts]))
+
+
+def nested(depth: int) -> bytes:
+    """Structures in structures."""
+    inner = of_level_5(6, element(9, struct.pack("<d", 1.0)))
+    for _ in range(depth):
+        inner = of_level_5(2, element(5, struct.pack("<i", 4)), element(1, b"a\0\0\0"), inner, name=b"s")
+    return inner
+
+
+HEAD = WHOLE["v5.mat"][:128]
+WAV = WHOLE["int16.wav"]
+WIDTH_4 = element(5, struct.pack("<i", 4))
+
+
 @pytest.mark.parametrize(
     ("name", "content", "said"),
     [
@@ -134,6 +158,25 @@ def changed(whole: bytes, place: int, form: str, value: int) -> bytes:
         ("a.npy", WHOLE["x.npy"].replace(b"'<f8'", b"'<f9'"), "not an NPY file of plain numbers"),
         ("a.mat", changed(WHOLE["v5.mat"], 132, "<I", 2**31), "byte 128: 2147483648 bytes are announced"),
         ("a.mat", WHOLE["v5.mat"][:-3], "the file is damaged"),
+        ("a.mat", HEAD + element(15, zlib.compress(b"")), "byte 128: unpacks to nothing"),
+        ("a.mat", HEAD + element(14, element(6, struct.pack("<II", 6, 0))), "byte 128: no dimensions or no name"),
+        ("a.mat", HEAD + of_level_5(6, shape=()), "byte 128: the dimensions () are none"),
+        ("a.mat", HEAD + of_level_5(6, shape=(-1, 4)), "byte 128: the dimensions (-1, 4) are none"),
+        ("a.mat", HEAD + of_level_5(6, shape=(4, 1)), "byte 128: u has no numbers"),
+        ("a.mat", HEAD + of_level_5(2), "byte 128: structure u has no field names"),
+        ("a.mat", HEAD + of_level_5(2, WIDTH_4, element(1, b"")[:-1] + b"\1"), "the file is damaged"),
+        (
+            "a.mat",
+            HEAD + of_level_5(2, WIDTH_4, element(1, b"a\0\0\0")),
+            "has 0 fields and names of 4 bytes in steps of 4",
+        ),
+        ("a.mat", HEAD + of_level_5(2, WIDTH_4, element(1, b"a\0\0\0"), element(9, bytes(8))), "field a has type 9"),
+        ("a.mat", HEAD + nested(level5.DEEPEST + 2), "nested deeper than"),
+        ("a.mat", WHOLE["v4.mat"] + WHOLE["v4.mat"][:10], "the file ends within the head of a matrix"),
+        ("a.npy", WHOLE["stored.npz"], "a.npy is not an NPY file but an archive; name it .npz"),
+        ("a.wav", WAV[:16] + struct.pack("<I", 12) + WAV[20:32] + WAV[36:], "the format has 12 bytes, fewer than 16"),
+        ("a.wav", WAV[:40] + struct.pack("<I", 0), "it holds no samples"),
+        ("a.csv", b't,u\n0,1\n1,2\n2,"3\n4"\n', "a quoted cell that runs over several lines"),
         ("a.mat", changed(WHOLE["v4.mat"], 4, "<i", 2**30), "byte 0: a matrix of 1073741824 x 48 ends at byte"),
     ],
 )
@@ -142,6 +185,22 @@ def test_the_place_of_the_damage_is_named(name: str, content: bytes, said: str) 
     with pytest.raises(InputError) as caught:
         READERS[suffix](content, name)
     assert said in str(caught.value)
+
+
+def test_what_is_beside_the_numbers_is_passed_over() -> None:
+    """An object of a newer kind, text and complex numbers in old files; NPY headers of version 2."""
+    objects = HEAD + of_level_5(17, name=b"o") + WHOLE["v5.mat"][128:]
+    assert from_mat(objects, "a.mat").names == from_mat(WHOLE["v5.mat"], "a.mat").names
+    stream = io.BytesIO()
+    savemat(stream, {"t": TIME, "word": "text", "z": U + 2j * U, "u": U}, format="4")
+    read = from_mat(stream.getvalue(), "a.mat")
+    assert [name for name in read.names if name in ("t", "u")] == ["t", "u"]
+    assert np.array_equal(read.values(read.names.index("u")), U)
+    (complex_one,) = (stored for stored in level4.matrices(stream.getvalue(), "a.mat") if stored.name == "z")
+    assert np.array_equal(np.ravel(complex_one.load()), U + 2j * U)
+    newer = io.BytesIO()
+    np.lib.format.write_array(newer, U, version=(2, 0))
+    assert np.array_equal(READERS[".npy"](newer.getvalue(), "a.npy").values(0), U)
 
 
 NUMBERS = st.sampled_from(["f8", "f4", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "?", "c16"])
