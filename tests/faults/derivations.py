@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from tests.faults.trial import Case, done, refused, unusable
 
+MANY = ",".join(f"0.{n:05}" for n in range(1, 10_002))
+FRICTION = "--equation \"u'' + sign(u')/10 + u = 0\""
+
 CASES: tuple[Case, ...] = (
     refused("nosuchverb", "'nosuchverb'", "there are systems"),
     refused("Derive pendulum", "'Derive'", "there are systems"),
@@ -136,6 +139,12 @@ CASES: tuple[Case, ...] = (
     refused("derive pendulum --at 2:1:3", "START 2", "STOP 1"),
     refused("derive pendulum --at 1:2:0", "'0'", "from 2 to 10000"),
     refused("derive pendulum --at 1:2:1000000000", "'1000000000'", "from 2 to 10000"),
+    refused(f"derive pendulum --at {MANY}", "amplitudes are more than", "give fewer"),
+    refused("derive pendulum -o ''", "a file name cannot be empty", "use - for the screen"),
+    refused(f"derive {FRICTION} --weight 2", "averaged to first order and have no weights"),
+    refused(f"derive {FRICTION} --transient 0.5 --until 10", "simulate integrates the motion"),
+    done(f"derive {FRICTION} --format json", '"radius": null', "losses"),
+    done("derive pendulum --resummed pade --format mathml", "<math"),
     refused("derive pendulum --at 1,,2", "'' is not a finite", "write a decimal"),
     Case("derive pendulum --at 1e300", 3, ("A = 1e300:", "amplitude 1e+300", "separatrix", "use less")),
     refused("derive pendulum --resummed borel", "'borel'", "is not one of"),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from tests.faults.trial import Case, refused, unusable
+from tests.faults.trial import Case, done, refused, unusable
+
+MANY = ",".join(map(str, range(2000)))
 
 CASES: tuple[Case, ...] = (
     refused("systems nosuch", "'nosuch'", "for instance pendulum"),
@@ -71,6 +73,13 @@ CASES: tuple[Case, ...] = (
     refused("study pendulum --amplitudes 1 --set k=0", "pendulum: the force does not restore", "nothing oscillates"),
     refused("study --amplitudes 1", "name a SYSTEM (ridgeback systems"),
     Case("study duffing --amplitudes 1e300 --orders 2", 3, ("1 of 1 cells have no reference",)),
+    done("study duffing --amplitudes 0.5 --orders 40", "the series converges for A below about"),
+    refused(f"study pendulum --amplitudes 1 --orders {MANY}", "orders are more than", "give fewer"),
+    refused("study pendulum --amplitudes 1 --format parquet -o cells.parquet", "parquet belongs to a study file"),
+    refused("study cells.toml --format parquet", "parquet is no text", "name a file with -o"),
+    refused("study cells.toml --workers 2 --scheduler tcp://localhost:1", "has workers of its own; keep one"),
+    refused("study cells.db", "cells.db is a store", "--against another store"),
+    done("systems --format csv", "pendulum", "potential,reference"),
     refused("report nosuch", "'nosuch'", "for instance pendulum"),
     unusable("report -o missing/out.html", "'missing'", "check the path"),
     unusable("report -o .", "'.'", "check the path"),

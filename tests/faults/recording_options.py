@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from tests.faults.trial import Case, done, refused, unusable
 
+MANY = ",".join(map(str, range(200)))
+
 CASES: tuple[Case, ...] = (
     refused("identify decay.csv two.csv", "Got unexpected extra argument (two.csv)"),
     refused("identify decay.csv --candidates nosuch", "'nosuch'", "use one of"),
@@ -94,6 +96,9 @@ CASES: tuple[Case, ...] = (
     refused("estimate decay.csv --plot out.svg -o out.svg", "'out.svg'", "give each a"),
     refused("estimate decay.csv --monte-carlo 0", "0 trials are not between", "without a second"),
     refused("estimate decay.csv --monte-carlo 1", "1 trials are not between", "without a second"),
+    refused("estimate decay.csv two.csv --monte-carlo 2", "takes one FILE, not 2", "leave the others out"),
+    refused(f"estimate decay.csv --monte-carlo 2 --snr {MANY}", "ratios are more than", "give fewer"),
+    refused("estimate decay.csv --components 9999", "'9999' is neither auto nor a number from 1"),
     refused("estimate decay.csv --monte-carlo x", "'x'", "give a whole"),
     refused("estimate decay.csv --monte-carlo 2 --snr x", "'x'", "write a decimal"),
     refused("estimate decay.csv --monte-carlo 2 --snr ''", "'' is not a finite", "write a decimal"),

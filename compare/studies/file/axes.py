@@ -46,8 +46,8 @@ def exact(given: Any) -> Fraction:
     if isinstance(given, bool) or not isinstance(given, int | float | Decimal | Fraction | str):
         raise InputError(f"{shown(given)} is not a number; give {RULE}")
     text = str(given).strip()
-    if not (
-        given.is_finite() if isinstance(given, Decimal) else math.isfinite(given) if type(given) is float else True
+    if (isinstance(given, float) and not math.isfinite(given)) or (
+        isinstance(given, Decimal) and not given.is_finite()
     ):
         raise InputError(f"{text} is not a finite number; give {RULE}")
     if isinstance(given, Decimal) and given and abs(given.adjusted()) > 400:

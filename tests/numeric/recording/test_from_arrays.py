@@ -97,6 +97,9 @@ def test_xarray_gives_its_coordinate_and_its_unit() -> None:
     same(Recording.from_arrays(array.assign_coords(time=coordinate)))
     data = xarray.Dataset({"u": array, "w": array**2})
     same(Recording.from_arrays(data, column="u"))
+    beside = data.drop_vars("time").assign(place=("other", np.arange(3.0)), offset=1.0)
+    same(Recording.from_arrays(beside, RATE, column="u"))
+    assert [found.name for found in recordings_from_arrays(beside, RATE, column="all")] == ["u", "w"]
     with pytest.raises(InputError, match="dimensions"):
         Recording.from_arrays(xarray.DataArray(np.zeros((20, 2)), dims=("time", "channel")), RATE)
 
@@ -116,6 +119,7 @@ def test_xarray_gives_its_coordinate_and_its_unit() -> None:
         (np.where(T == 1.0, np.inf, X), {"rate": RATE}, "index 16"),
         (X[:9], {"rate": RATE}, "at least"),
         (np.full(40, np.nan), {"rate": RATE}, "at least"),
+        (X, {"time": np.full(X.size, "NaT", dtype="datetime64[s]")}, "every one of the dates is missing"),
     ],
 )
 def test_what_is_no_signal_is_refused_in_one_line(given: Any, how: dict[str, Any], message: str) -> None:

@@ -4,17 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import ridgeback
+from ridgeback.compare.studies.file.reading import plan_of
 from ridgeback.interface.signals import as_recording
 
 TIME = np.arange(400) / 20.0
 DECAY = np.exp(-0.05 * TIME) * np.cos(6.0 * TIME)
 RECORDING = as_recording(DECAY, 20.0)
 SERIES = ridgeback.derive("pendulum", 2)
+PLAN = plan_of(
+    "study.ask = 'error'\ngrid = {orders = 2, amplitudes = 0.5, methods = 'lindstedt'}\n"
+    "[[oscillator]]\nsystem = 'pendulum'"
+)
 
 
 @pytest.mark.parametrize(
@@ -32,10 +38,41 @@ SERIES = ridgeback.derive("pendulum", 2)
         (lambda: ridgeback.generate("pendulum", order=2, degrees=(1, 1)), "degrees"),
         (lambda: ridgeback.generate("pendulum", order=2, resummed="pade", growth=Fraction(1)), "growth"),
         (lambda: ridgeback.generate("pendulum", order=2, resummed="agm", terms=4), "terms"),
-        (lambda: ridgeback.generate("damped-pendulum", order=2, motion=True), "motion"),
         (lambda: ridgeback.report(recording=RECORDING, parameters={"k": 2}), "parameters"),
+        (lambda: ridgeback.generate("damped-pendulum", order=2, resummed="pade"), "resummed"),
+        (lambda: ridgeback.simulate("pendulum", rtol=1e-9, method="taylor"), "rtol"),
     ],
 )
 def test_an_argument_without_a_meaning_is_refused(call: Callable[[], object], name: str) -> None:
     with pytest.raises(ridgeback.InputError, match=rf"\b{name}\b.*(leave|without)"):
         call()
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: ridgeback.simulate("pendulum", digits=20, method="DOP853"), "digits belong to method 'taylor'"),
+        (lambda: ridgeback.simulate(ridgeback.bind("pendulum")), "no initial state of its own"),
+        (
+            lambda: ridgeback.simulate(ridgeback.bind("pendulum"), (1.0, 0.0), method="heyoka"),
+            "give the oscillator itself",
+        ),
+        (lambda: ridgeback.estimate("run.csv", time=TIME), "run.csv has times of its own; leave time out"),
+        (lambda: ridgeback.study("pendulum", (2,), None), "a study needs amplitudes"),
+        (lambda: ridgeback.run_study(PLAN), "needs the path of a store"),
+        (
+            lambda: ridgeback.run_study(PLAN, store="s.db", overrides={"orders": 2}),
+            "overrides belong to a study from a file",
+        ),
+    ],
+)
+def test_what_lacks_something_or_has_too_much_is_refused(call: Callable[[], object], said: str) -> None:
+    with pytest.raises(ridgeback.InputError, match=said) as refused:
+        call()
+    assert "\n" not in str(refused.value)
+
+
+def test_a_plan_of_no_file_is_run_in_the_store_that_is_named(tmp_path: Path) -> None:
+    found = ridgeback.run_study(PLAN, store=tmp_path / "s.db")
+    (row,) = ridgeback.study("pendulum", (2,), [0.5]).relative_error
+    assert [cell["relative_error"] for cell in found.rows()] == list(row)
