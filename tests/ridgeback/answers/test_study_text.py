@@ -12,12 +12,12 @@ import pytest
 
 from ridgeback.answers.study_file import complain
 from ridgeback.answers.study_text import SHOWN_ROWS, SHOWN_SENTENCES, answer_lines, comparison_text
-from ridgeback.console.failure import PartialError
 from ridgeback.common.show.picture import Picture
 from ridgeback.compare.studies.against import Change, Comparison
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.result import StudyResult
 from ridgeback.compare.studies.tasks import Column
+from ridgeback.console.failure import PartialError
 
 COLUMNS = (Column("oscillator", "", "its name"), Column("order", "1", "of the series"))
 
