@@ -19,6 +19,8 @@ FEWEST, THREE_SIGMA = 16, 3.0
 """Ordinates of a spectrum that tell a level of noise, and deviations by which two levels differ."""
 STEADY = 0.05
 """Of the logarithm of an amplitude, that it may swing by in a model of many knots."""
+EXACT = 2e-3
+"""Noise over amplitude below which knots follow what is there: what a model of the whole still misses is in view."""
 MANY, CLOSE = 8, 5.0
 """Intervals between knots and cycles in each, from which on models that gain by them may be following beats."""
 NEAR = 1.45
@@ -87,7 +89,7 @@ def unfinished(models: SignalModels, left: Array) -> str:
     an amplitude that swings all the same is that of beats.
     """
     best = min(models.others, key=lambda model: model.criterion)
-    exact = best.noise < LEAST * float(best.size.max())
+    exact = best.noise < EXACT * float(best.size.max())
     if exact or best.breaks.size - 1 < MANY or best.cycles > CLOSE:
         return ""
     if is_white(left, models.best.band) and swing(models.best) < STEADY:
