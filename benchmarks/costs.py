@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ridgeback.symbolic.expansion.cost import Budget, Cost, effort_of, predict
+from ridgeback.symbolic.expansion.cost import Budget, Cost, balls_of, effort_of, predict
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
@@ -47,7 +47,8 @@ class Case:
     def predicted(self) -> Cost:
         """What is foretold."""
         effort = effort_of(self.oscillator.normalised.bound, U) if self.method == "lindstedt" else 1.0
-        return predict(self.method, self.order, parameters=self.parameters, weights=self.weights, effort=effort)
+        law = balls_of(self.oscillator) if self.method == "balls" else self.method
+        return predict(law, self.order, parameters=self.parameters, weights=self.weights, effort=effort)
 
 
 RUNS: dict[str, Callable[[Oscillator, int], object]] = {
@@ -74,6 +75,8 @@ CASES = (
     Case("multiple-scales", TWO_LOSSES, 36, weights=(2, 2)),
     Case("balls", "van-der-pol", 100),
     Case("balls", "pendulum", 120),
+    Case("balls", "pendulum", 240),
+    Case("balls", "helmholtz-duffing", 60),
 )
 
 

@@ -28,10 +28,10 @@ def in_balls(oscillator: Oscillator, request: Request, digits: int, checkpoint: 
     if request.method not in (None, "lindstedt"):
         raise click.UsageError(f"--digits belongs to lindstedt, not to {request.method}; leave one of the two out")
     refuse_weights(request.weight, request.weights, "--digits")
-    from ridgeback.symbolic.expansion.cost import Budget, predict
+    from ridgeback.symbolic.expansion.cost import Budget, balls_of, predict
     from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
 
-    cost, path = predict("balls", request.order), None if checkpoint is None else Path(checkpoint)
+    cost, path = predict(balls_of(oscillator), request.order), None if checkpoint is None else Path(checkpoint)
     allowed = cost.within(request.budget or Budget())  # else the refusal says it
     with Watch(f"order {request.order} in balls of {digits} digits", cost if allowed else None) as watch:
         try:

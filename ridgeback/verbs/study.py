@@ -10,7 +10,7 @@ import click
 from ridgeback.answers.atlas_table import atlas_verb
 from ridgeback.answers.study_file import is_study_file, study_file_verb
 from ridgeback.answers.study_tables import FORMATS as TABLES
-from ridgeback.console.failure import PartialError
+from ridgeback.console.failure import PartialError, say
 from ridgeback.console.output import json_text, write_text
 from ridgeback.console.tables import Row, aligned, csv_text
 from ridgeback.console.verb import Verb
@@ -141,7 +141,9 @@ def command(
     oscillator = choice.oscillator()
     result = study(oscillator, orders, amplitudes, method=method)
     rows = result.rows()
-    write_text(output, printed(result, rows, style, dropped=dropped_by_study(oscillator)))
+    dropped = dropped_by_study(oscillator)
+    write_text(output, printed(result, rows, style, dropped=dropped))
+    say_dropped(dropped, style)
     unknown = sum(not math.isfinite(float(row["omega_reference"])) for row in rows)
     if unknown:
         raise PartialError(f"{unknown} of {len(rows)} cells have no reference; they are left empty in the output")
@@ -155,12 +157,15 @@ def proved(
     Raises PartialError, with the reason, when some of the frequencies could not be enclosed.
     """
     from ridgeback.compare.study.certified import certified_rows
-    from ridgeback.symbolic.flow.ordering import undamped
+    from ridgeback.compare.study.derived import without_damping
 
-    rows = certified_rows(undamped(oscillator), orders, amplitudes)
+    rows = certified_rows(without_damping(oscillator).oscillator, orders, amplitudes)
     columns = list(dict.fromkeys(key for row in rows for key in row))
     text = {"csv": lambda: csv_text(columns, rows), "json": lambda: json_text(rows)}
-    write_text(output, text.get(style, lambda: aligned(columns, rows) + "\n")())
+    dropped = dropped_by_study(oscillator)
+    above = f"{oscillator.title}: {dropped}\n\n" if dropped else ""
+    write_text(output, text.get(style, lambda: above + aligned(columns, rows) + "\n")())
+    say_dropped(dropped, style)
     refused = [row for row in rows if "refused" in row]
     if refused:
         raise PartialError(f"{len(refused)} of {len(rows)} cells have no enclosed reference: {refused[0]['refused']}")
@@ -183,6 +188,12 @@ def dropped_by_study(oscillator: Oscillator) -> str:
     if oscillator.kind != "damped":
         return ""
     return ", ".join(["the study is of the undamped motion", *(f"{name} = 0" for name in damping_names(oscillator))])
+
+
+def say_dropped(dropped: str, style: str) -> None:
+    """Say beside rows for machines, which have no heading, what damping the study leaves out."""
+    if dropped and style != "text":
+        say(dropped)
 
 
 def as_rows(rows: list[dict[str, float | int | str]]) -> list[Row]:

@@ -4,8 +4,7 @@ The laws are fits to measured runs on one core of a laptop-class machine (2026):
 between the third and the fifth (orders x products x terms x digits), memory like the third, both times the number of
 monomials in the parameters left symbolic; reversion and composition of power series, all that the energy integral does,
 grow less.  They are empirical; ``python benchmarks/costs.py`` shows each within a factor of three of what happens.
-With symbolic parameters it is up to four, because how many monomials occur depends on the equation; the memory of balls
-is that of limit cycles, and the pendulum takes some twenty times less.
+With symbolic parameters it is up to four, because how many monomials occur depends on the equation.
 """
 
 from __future__ import annotations
@@ -17,13 +16,15 @@ from functools import partial
 import sympy
 
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 
 # method: (seconds, its power of the order, bytes, its power), half-way (in the ratio) between the cheapest and the
 # dearest of: pendulum A^60 to A^320, Helmholtz-Duffing A^60 to A^160, hardening 160, u exp(u) 80, u/(1+u^2) 120; with
 # parameters u^2 and u^3 16 to 26, u^3 40, sin(u) and u^2 24; van der Pol eps^30 to eps^120, Rayleigh 96; multiple
 # scales at the damped pendulum 60, 90, two dampings 36, van der Pol 60; energy integral at pendulum A^400 to A^1600,
 # Helmholtz-Duffing A^400, A^800; balls at van der Pol 100, 200, 300, 859 (0.023, 0.13, 0.25, 3.6 GB),
-# pendulum 120, 240 (0.002, 0.007 GB, not in the fit).
+# of odd forces at pendulum 120 to 360 (0.0022 to 0.016 GB), Duffing 60 to 240 (0.001 to 0.022), cubic-quintic 120
+# (0.006); of others at Helmholtz-Duffing 40, 80 (0.002, 0.0066), Toda 40, 80 (0.0009, 0.0032), Morse 50 (0.0023).
 _LAWS = {
     "lindstedt": (8e-8, 3.0, 3.0, 3.0),
     "lindstedt with parameters": (1.4e-7, 2.5, 0.8, 3.0),
@@ -31,6 +32,8 @@ _LAWS = {
     "multiple-scales": (1.5e-9, 4.0, 2.5, 3.0),
     "energy-integral": (5e-8, 2.63, 5.0, 2.4),
     "balls": (8e-8, 3.5, 640.0, 2.3),
+    "balls of an odd force": (5e-7, 2.8, 220.0, 2.0),
+    "balls of a force": (8.5e-6, 2.8, 880.0, 2.0),
 }
 
 
@@ -80,7 +83,7 @@ def predict(
     Parameters
     ----------
     method : str
-        ``lindstedt``, ``limit-cycle``, ``energy-integral``, ``multiple-scales`` or ``balls``.
+        ``lindstedt``, ``limit-cycle``, ``energy-integral``, ``multiple-scales``, or balls by ``balls_of``.
     order : int
         Highest order.
     parameters : int, optional
@@ -105,6 +108,19 @@ def predict(
     monomials = math.comb(order // 2 + parameters, parameters) * weighted_monomials(order / 2, weights)
     memory = size * order**growth * monomials / 1e9
     return Cost(effort * seconds * order**power * monomials, memory * effort)
+
+
+def balls_of(oscillator: Oscillator) -> str:
+    """The law of balls for an oscillator: of a limit cycle, of an odd force, or of any other.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> [balls_of(find(name)) for name in ("van-der-pol", "pendulum", "toda")]
+    ['balls', 'balls of an odd force', 'balls of a force']
+    """
+    if oscillator.kind == "limit-cycle":
+        return "balls"
+    force = oscillator.substituted_force
+    return "balls of an odd force" if force.subs({U: -U, V: -V}) == -force else "balls of a force"
 
 
 EVEN_TOO = 4.0

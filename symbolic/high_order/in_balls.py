@@ -23,7 +23,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, Wanted, showing, silent
 from ridgeback.symbolic.expansion.amplitude import check_amplitude
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, log2, missing_bits
-from ridgeback.symbolic.expansion.cost import Budget, check
+from ridgeback.symbolic.expansion.cost import Budget, balls_of, check
 from ridgeback.symbolic.expansion.expansion import check_order, first_harmonic
 from ridgeback.symbolic.expansion.limit_cycle import cycle_recursion
 from ridgeback.symbolic.expansion.lindstedt import DIRECT, conservative_recursion
@@ -106,7 +106,7 @@ def lindstedt_in_balls(
     check_amplitude(oscillator, amplitude, DIRECT)
     _check_digits(digits)
     require_numbers(oscillator, "balls need")
-    check("balls", order, budget or Budget())
+    check(balls_of(oscillator), order, budget or Budget())
     with showing(progress) as told:
         return enclosed(Task(oscillator, order, amplitude, digits, told), checkpoint)
 

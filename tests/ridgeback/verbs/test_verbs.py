@@ -342,3 +342,14 @@ def test_a_self_excited_slow_flow_names_its_limit_cycle(ridgeback: Ridgeback) ->
     assert line.endswith("stable")
     assert amplitude == pytest.approx(2 + 0.1**2 / 64, abs=1e-7)  # first harmonic, through eps^2
     assert omega == pytest.approx(1 - 0.1**2 / 16 + 17 * 0.1**4 / 3072, abs=1e-9)
+
+
+@pytest.mark.parametrize("proved", [(), ("--certified",)])
+@pytest.mark.parametrize(("style", "where"), [("text", "out"), ("csv", "err"), ("json", "err")])
+def test_a_study_says_what_damping_it_leaves_out(
+    ridgeback: Ridgeback, proved: tuple[str, ...], style: str, where: str
+) -> None:
+    done = ridgeback("study", "damped-pendulum", "--orders", "2", "--amplitudes", "1", *proved, "--format", style)
+    assert done.code == 0
+    assert "the study is of the undamped motion, mu = 0" in getattr(done, where)
+    assert "undamped" not in ridgeback("study", "pendulum", "--orders", "2", "--amplitudes", "1", *proved).out

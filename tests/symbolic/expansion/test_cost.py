@@ -4,7 +4,7 @@ import pytest
 import sympy
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.expansion.cost import Budget, effort_of, predict
+from ridgeback.symbolic.expansion.cost import Budget, balls_of, effort_of, predict
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
@@ -50,3 +50,24 @@ def test_the_energy_integral_goes_to_high_orders() -> None:
     assert predict("energy-integral", 1600).within(Budget(seconds=60, gigabytes=1))
     exact = energy_integral(find("pendulum"), 120).frequency
     assert exact[:41] == lindstedt(find("pendulum"), 40).frequency
+
+
+@pytest.mark.parametrize(
+    ("name", "order", "seconds", "gigabytes"),
+    [
+        ("pendulum", 120, 0.57, 0.0022),
+        ("pendulum", 360, 16.3, 0.0156),
+        ("duffing", 60, 0.06, 0.0010),
+        ("duffing", 240, 1.04, 0.0221),
+        ("cubic-quintic", 120, 0.51, 0.0057),
+        ("helmholtz-duffing", 80, 1.05, 0.0066),
+        ("morse", 50, 0.84, 0.0023),
+        ("toda", 80, 1.22, 0.0032),
+        ("van-der-pol", 100, 1.19, 0.0242),
+    ],
+)
+def test_balls_are_foretold_within_a_factor_of_three(name: str, order: int, seconds: float, gigabytes: float) -> None:
+    """What lindstedt_in_balls took with 30 digits."""
+    cost = predict(balls_of(find(name)), order)
+    assert 1 / 3 < cost.seconds / seconds < 3
+    assert 1 / 3 < cost.gigabytes / gigabytes < 3
