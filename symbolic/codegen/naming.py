@@ -64,7 +64,7 @@ _FOLDED: Final = frozenset(word.lower() for word in _TAKEN)
 # Horner's intermediate results, what is computed from an argument, and the prefixes of what is computed inside.
 _MADE: Final = re.compile(
     r"[yz]\d*(_\d+)*|[cs]_sum\d*|([aw]\d*|at|[cs]\d+|omega0|self|total|low|high|root|part)_.*"
-    r"|.*_(squared|scaled|unchecked|array|test|value|\d+|(by|times)_k(_\d+)?|[hlabrt]{1,2})|__.*"
+    r"|.*_(squared|scaled|unchecked|array|rise|test|value|\d+|(by|times)_k(_\d+)?|[hlabrt]{1,2})|__.*"
 )
 _IDENTIFIER: Final = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 LONGEST: Final = 40

@@ -142,6 +142,9 @@ class Function:
     """What is proved about the result."""
     polynomial: Polynomial | None = field(default=None, repr=False)  # the statements hold the same numbers
 
+    bounded: bool = True
+    """Whether a domain over which rounding has no bound is refused."""
+
     def read(self) -> set[str]:
         """Names of all values that are read."""
         found = [o for statement in self.body for o in operands_of(statement)]

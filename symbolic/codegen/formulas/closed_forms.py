@@ -16,7 +16,7 @@ from flint import arb, ctx, fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import ball
-from ridgeback.symbolic.codegen.formulas.resummations import means_steps, number_of
+from ridgeback.symbolic.codegen.formulas.resummations import means_steps, number_of, slope_of
 from ridgeback.symbolic.codegen.formulas.wording import (
     OMEGA0,
     SCALING,
@@ -156,7 +156,8 @@ def _form(
         *request.more,
     )
     made = Function("omega0", OMEGA0, arguments, needed(steps.taken, result), result, domain)
-    return Form(source.system, f"Fundamental frequency of '{source.system}'", facts, (made,))
+    functions = (made, slope_of(made, request.real))
+    return Form(source.system, f"Fundamental frequency of '{source.system}'", facts, functions)
 
 
 def mean_steps(means: Means, end: float, digits: int) -> int:

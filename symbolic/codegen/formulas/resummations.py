@@ -8,6 +8,7 @@ from flint import fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.rational_function import Coefficients
+from ridgeback.symbolic.codegen.formulas.derivative import differentiated
 from ridgeback.symbolic.codegen.formulas.wording import (
     OMEGA0,
     SCALING,
@@ -18,7 +19,7 @@ from ridgeback.symbolic.codegen.formulas.wording import (
 )
 from ridgeback.symbolic.codegen.motions.trigonometry import cosine_to_quarter
 from ridgeback.symbolic.codegen.naming import variable_name
-from ridgeback.symbolic.codegen.number import Number
+from ridgeback.symbolic.codegen.number import Number, Real
 from ridgeback.symbolic.codegen.polynomial import K, measured
 from ridgeback.symbolic.codegen.program import Argument, Form, Function, Operand, Steps, needed
 from ridgeback.symbolic.codegen.proofs.notes import rounded_down_text
@@ -45,7 +46,13 @@ def resummation_form(formula: Resummation, request: CodeRequest) -> Form:
         *request.more,
     )
     title = f"Fundamental frequency of '{formula.system}', resummed"
-    return Form(formula.system, title, facts, (_function(formula, request),))
+    omega = _function(formula, request)
+    return Form(formula.system, title, facts, (omega, slope_of(omega, request.real)))
+
+
+def slope_of(omega: Function, real: Real) -> Function:
+    """The derivative of omega0 by its variable, operation by operation."""
+    return differentiated(omega, "omega0_slope", f"Derivative of omega0 by {omega.domain.argument}.", real)
 
 
 def _function(formula: Resummation, request: CodeRequest) -> Function:

@@ -11,6 +11,7 @@ from typing import Final
 from flint import arb
 from sympy import Add
 
+from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real
 from ridgeback.symbolic.codegen.program import Form, Function, Operand, Operation, Statement, Step, lowered
 from ridgeback.symbolic.codegen.proofs.bounds import Bound, bound
@@ -26,7 +27,12 @@ def annotated(form: Form) -> Form:
 
 def rounding_notes(form: Form, function: Function) -> tuple[str, ...]:
     """The bound over the domain where one is known; for a polynomial without one, in terms of its terms."""
-    found = bound(form, function)
+    try:
+        found = bound(form, function)
+    except InputError:
+        if function.bounded:
+            raise
+        return ()
     if found is not None:
         return (bound_note(function, found),)
     if function.polynomial is None or form.mode == "accurate":

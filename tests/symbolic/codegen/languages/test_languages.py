@@ -17,7 +17,9 @@ from flint import arb, ctx
 from ridgeback.compare.binding.generated_code import check, tool_of, write_files
 from ridgeback.symbolic.codegen import LANGUAGES, form_of, generate, packaged
 from ridgeback.symbolic.codegen.evaluation import value_at
+from ridgeback.symbolic.codegen.formulas.closed_forms import mean_form
 from ridgeback.symbolic.codegen.program import Form, Mode
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -99,15 +101,16 @@ def test_all_languages_give_one_hash(language: str, mode: Mode, tmp_path: Path) 
 
 @pytest.mark.parametrize("language", RUNNING)
 def test_every_self_test_passes(language: str) -> None:
-    """Orders, a limit cycle's motion with sines, and a slow flow whose symbols are words of the languages."""
+    """A limit cycle's motion with sines, a slow flow whose symbols are words of the languages, a cube root, the agm."""
     if tool_of(language) is None:
         pytest.skip(f"nothing runs {language} here")
     words = "u'' + lambda*u' + double*u**2 + u + nullptr*u**3 + asm*u**5 = 0"
     flow = form_of(multiple_scales(Oscillator.from_equation(words), 4))
     cycle = form_of(lindstedt(find("van-der-pol"), 3), motion=language != "numba")
-    functions = tuple(
-        replace(f, name=f"{f.name}_{tail}") for form, tail in ((flow, "flow"), (cycle, "cycle")) for f in form.functions
-    )
+    root = form_of(energy_on_each_side(find("cube-root"), 2))
+    mean = form_of(mean_form(find("pendulum")), up_to=END)
+    forms = ((flow, "flow"), (cycle, "cycle"), (root, "root"), (mean, "mean"))
+    functions = tuple(replace(f, name=f"{f.name}_{tail}") for form, tail in forms for f in form.functions)
     found = check(replace(flow, functions=functions), language)
     assert found.state == "passed", found
 
