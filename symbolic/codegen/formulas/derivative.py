@@ -40,8 +40,8 @@ def differentiated(function: Function, name: str, summary: str, real: Real) -> F
     result = slopes.of(function.result)
     value: Operand = slopes.steps.number(0) if result is None else result
     body = needed(slopes.steps.taken, value)
-    changed = {"notes": (), "polynomial": None, "bounded": False}
-    return replace(function, name=name, summary=summary, body=body, result=value, **changed)
+    made = replace(function, name=name, summary=summary, body=body, result=value)
+    return replace(made, notes=(), polynomial=None, bounded=False)
 
 
 class _Slopes:
