@@ -26,6 +26,7 @@ PartKind = Literal[
     "provenance",
     "fold",
     "equations",
+    "links",
 ]
 
 

@@ -20,6 +20,7 @@ from ridgeback.reports.figures.motion import motion
 from ridgeback.reports.figures.noise import noise_figure, noise_heading, noise_sentence, noise_table
 from ridgeback.reports.figures.order_map import letter, order_map, reach_sentence
 from ridgeback.reports.figures.planes import planes
+from ridgeback.reports.index_sections import index_sections
 from ridgeback.reports.outside_sections import outside_sections
 from ridgeback.reports.parts import (
     Part,
@@ -44,6 +45,7 @@ FORMULAS = 2
 def sections(report: Report) -> tuple[Section, ...]:
     """The sections of a page below its head, empty ones left out."""
     found = (
+        *index_sections(report),
         *study_sections(report),
         *drift_sections(report),
         *runs_sections(report),

@@ -21,6 +21,8 @@ class Sheet:
     title: str
     kind: str
     """What an index of pages calls it."""
+    subject: str = ""
+    """What it is about, for an index."""
     lead: str = ""
     described: Described | None = None
     cards: tuple[Card, ...] = ()
@@ -41,6 +43,7 @@ def report_sheet(report: Report) -> Sheet:
     return Sheet(
         title=report.title,
         kind=_kind(report),
+        subject=_subject(report),
         lead=report.lead,
         described=report.described,
         cards=report.cards,
@@ -59,8 +62,19 @@ def report_sheet(report: Report) -> Sheet:
     )
 
 
+def _subject(report: Report) -> str:
+    """The oscillator, or the recording."""
+    if report.described is not None:
+        return ", ".join(part for part in (report.described.name, report.described.given) if part)
+    return "" if report.recording is None else f"{report.recording.source}, {report.recording.column}"
+
+
 def _kind(report: Report) -> str:
     """What an index calls the page."""
+    if report.indexed:
+        return "index"
+    if report.drift is not None:
+        return "drift"
     if report.answered is not None:
         return "study"
     if report.runs is not None:

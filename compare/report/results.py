@@ -16,6 +16,7 @@ from ridgeback.compare.noise.results import NoiseStudy
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.error_grid import ErrorGrid
 from ridgeback.compare.report.several.answered import Answered
+from ridgeback.compare.report.several.indexed import Page
 from ridgeback.compare.report.several.runs import Runs
 from ridgeback.compare.report.shown import ShownReport
 from ridgeback.compare.study.results import Certified, Derivation, Range, Study
@@ -101,6 +102,8 @@ class Report(ShownReport):
         A motion whose parameters drift, beside omega0 at its conserved action.
     runs : Runs, optional
         Several signals of one experiment, measured and combined.
+    indexed : tuple of Page
+        Other reports that this one lists.
     noise : NoiseStudy, optional
         The estimators in noise, beside the Cramér-Rao bound.
     identification : Identification, optional
@@ -141,6 +144,7 @@ class Report(ShownReport):
     answered: Answered | None = None
     drift: DriftComparison | None = None
     runs: Runs | None = None
+    indexed: tuple[Page, ...] = ()
 
     def findings(self) -> tuple[tuple[str, str, str], ...]:
         """The cards."""

@@ -150,8 +150,8 @@ def command(
 
     Without an argument: the damped pendulum of Galleani and Cohen, k = 4 pi, mu = 0.01, from 0.95 pi at rest.  With
     a recording, SYSTEM is optional and its exact backbone is drawn over the measured one; the oscillators that could
-    have made it are ranked.  The store of a study (.db) becomes a page of its answers.  With
-    --drift the page holds omega0 at the conserved action against the motion integrated under the drift.
+    have made it are ranked.  The store of a study (.db) becomes a page of its answers, a folder of reports an
+    index.  With --drift the page holds omega0 at the conserved action against the motion integrated under the drift.
 
     \b
     ridgeback report
@@ -160,6 +160,7 @@ def command(
     ridgeback report --equation "x'' + 9.81/L*sin(x) = 0" --drift "L=1+0.01*t" --initial 1,0 -o swing.html
     ridgeback report --recording first.csv --recording second.csv -o runs.html
     ridgeback report five.db -o five.html
+    ridgeback report reports/ -o reports/index.html
     """
     if trials == 1:
         raise click.UsageError("--trials 1 shows no spread; use at least 2, or 0 for no noise study")
@@ -171,7 +172,10 @@ def command(
     scope = Scope(order, orders, amplitudes, target, trials, not no_timings)
     shown = as_typed(context.find_root().obj or ("report",))
     with showing(True) as progress:
-        if (choice.system or "").endswith(STORE):
+        if choice.system is not None and Path(choice.system).is_dir():
+            refuse_unused("an index of a folder", *(name for name in context.params if name not in BESIDE_A_STORE))
+            report = of_folder(choice.system, output, shown)
+        elif (choice.system or "").endswith(STORE):
             refuse_beside_a_store(context)
             report = of_study(str(choice.system), shown, progress)
         elif laws:
@@ -231,6 +235,13 @@ def of_study(store: str, shown: str, progress: Progress) -> Report:
     from ridgeback.compare.report.several.study_report import study_report
 
     return study_report(store, command=shown, warned=say, progress=progress)
+
+
+def of_folder(folder: str, output: str, shown: str) -> Report:
+    """The index of a folder of reports."""
+    from ridgeback.compare.report.several.index import index_report
+
+    return index_report(folder, beside="" if output == STDOUT else Path(output).parent, command=shown)
 
 
 def refuse(given: Mapping[str, object], why: str) -> None:
