@@ -96,12 +96,16 @@ def _time_title(found: Benchmark, decay: MotionComparison) -> str:
         where = {_where(found, d) for d in drawn if d.letter == letter_} - {""}
         if len(where) == 1:
             places.setdefault(where.pop(), []).append(name)
-    said = [f"{listing(names)} err most {place}" for place, names in places.items()]
     wigner = next((d for d in drawn if d.row.method == "wigner"), None)
     if wigner is not None and (place := _where(found, wigner)):
-        name = f"the {short_name(wigner.row)}"
-        said.append(f"{name} {place}" if said else f"{name} errs most {place}")
-    return f"In time, {listing(said)}" if said else "Frequency in time"
+        places.setdefault(place, []).append(f"the {short_name(wigner.row)}")
+    said = [f"{listing(names)} {place}" for place, names in places.items()]
+    if not said:
+        return "Frequency in time"
+    first = next(iter(places.values()))
+    one = len(first) == 1 and first[0].startswith("the ")
+    verb = " errs most " if one else " err most "
+    return f"In time, {listing(first)}{verb}{listing([next(iter(places)), *said[1:]])}"
 
 
 def _where(found: Benchmark, drawn: Drawn) -> str:

@@ -45,10 +45,9 @@ def cards(known: Known) -> tuple[Card, ...]:
 
 
 def best_of_way(found: Benchmark, way: Way) -> Row | None:
-    """The plain expansion, the series, or the estimate of least error; another row of the way where there is none."""
+    """The contender of a way that has the least error, as the verdict takes it."""
     of_way = [row for row in found.contenders if WAYS[row.kind] == way and row.ranked]
-    plain = [row for row in of_way if row.kind == "expansion"]
-    return closest(plain, found.reference.floor) or closest(of_way, found.reference.floor)
+    return closest(of_way, found.reference.floor)
 
 
 def refusal(found: Benchmark, way: Way) -> str:

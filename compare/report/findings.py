@@ -87,8 +87,9 @@ def _costs(found: Benchmark) -> str:
     if formula is None or estimate is None or not formula.time_ns_per_value or not estimate.time_ns_per_value:
         return ""
     ratio = estimate.time_ns_per_value / formula.time_ns_per_value
+    known = " once A is known" if formula.amplitude_from is not None else ""
     return (
-        f"A value of {short_name(formula)} costs {duration(1e-9 * formula.time_ns_per_value)} once A is known, "
+        f"A value of {short_name(formula)} costs {duration(1e-9 * formula.time_ns_per_value)}{known}, "
         f"{number(float(f'{ratio:.1g}'), 1)} times less than one of {short_name(estimate)}."
     )
 

@@ -63,7 +63,8 @@ def short_name(row: Row) -> str:
             return "exact ω₀ less μ²" if row.method == "averaged-damped" else "exact ω₀"
         case "linear":
             return "linear oscillator (3)"
-    name = row.label.partition(", A(t)")[0].replace(", order", " of order")
+    name = row.label.partition(", A(t)")[0].replace(", order", " of order").replace("Pade", "Padé")
+    name = name.replace("A^2", "A²")
     return f"{name[0].lower() if name[1:2].islower() and not name.startswith('Pad') else name[0]}{name[1:]}"
 
 
@@ -88,7 +89,7 @@ def refused_names(rows: Sequence[Row]) -> str:
     """
     groups: dict[str, list[int]] = {}
     for row in rows:
-        name = re.sub(r",?( of)? order \d+$", "", short_name(row))
+        name = re.sub(r",?( of)? order \d+$| of degree \d+ in A²$", "", short_name(row))
         groups.setdefault(RESUMMED.get(name, name), []).extend([] if row.order is None else [row.order])
     return listing([f"{name}{_orders(orders)}" for name, orders in groups.items()])
 

@@ -121,8 +121,17 @@ def _caption(which: Shown, *, timed: bool) -> str:
 
 def _wide(which: Shown, target: float, label: str) -> str:
     panel = _panel(which)
-    marks = [*_frame(which, panel, target), *_families(which, panel), *_estimates(which, panel)]
+    marks = [
+        *_frame(which, panel, target),
+        *_families(which, panel),
+        *_estimates(which, panel, _line_of(panel, target)),
+    ]
     return drawing(WIDE, HEIGHT, "wide", label, marks)
+
+
+def _line_of(panel: Panel, target: float) -> float | None:
+    """Where the target is drawn; None outside the panel."""
+    return panel.y(target) if panel.y.low < target < panel.y.high else None
 
 
 def _panel(which: Shown) -> Panel:
@@ -130,8 +139,8 @@ def _panel(which: Shown) -> Panel:
     costs, errors = [which.cost(row) for row in rows], [error(row) for row in rows]
     floor = which.found.reference.floor
     low, high = min(*errors, max(floor, LEAST)), min(max(errors), 30.0)
-    room = max((high / low) ** 0.08, 2.2)
-    low, high = low / room, high * room
+    span = high / low
+    low, high = low / max(span**0.08, 2.2), high * max(span**0.14, 2.2)
     x = Scale(0.4 * min(costs), 4.0 * max(costs), 70.0, 968.0, log=True)
     return Panel(x, Scale(low, high, 384.0, 48.0, log=True))
 
@@ -155,10 +164,17 @@ def _frame(which: Shown, panel: Panel, target: float) -> Iterable[str]:
     yield text(panel.right, HEIGHT - 10, f"cost of one track of {count} values", "m", "end")
     if panel.y.low < target < panel.y.high:
         yield line(panel.left, panel.y(target), panel.right, panel.y(target), "tg")
-        yield group([text(panel.right, panel.y(target) - 5, f"target {threshold(target)}", "m sm", "end")], "halo")
+        y = panel.y(target)
+        above = y - 5 > panel.top + 30 or y < panel.top + 4
+        place = y - 5 if above else max(y, panel.top + 18) + 15
+        yield group([text(panel.right, place, f"target {threshold(target)}", "m sm", "end")], "halo")
     if floor > panel.y.low:
         words = f"below {per_cent(floor)} two readings of ω₀(t) disagree"
-        yield group([text(0.62 * panel.left + 0.38 * panel.right, panel.bottom - 8, words, "m sm", "middle")], "halo")
+        formulas = (*which.expansions, *which.in_python)
+        low = [x for x, y, _ in _places(which, panel, formulas) if y > panel.bottom - 26]
+        clear = all(x > panel.left + text_width(words, 12.6) + 16 for x in low)
+        x = panel.left + 8 if clear else 0.3 * (panel.left + panel.right)
+        yield group([text(x, panel.bottom - 8, words, "m sm")], "halo")
 
 
 def per_cent_tick(value: float) -> str:
@@ -226,7 +242,12 @@ def _families(which: Shown, panel: Panel) -> Iterable[str]:
     s += [dot(x, y, 4.5, "s", _title(row)) for x, y, row in exact]
     words = [_numbers(which, panel, which.terms, "s")]
     words += _named(which, panel, which.terms, "s b", "series (14), by terms")
-    words += [text(x - 9, y + 4, "exact ω₀ at A(t) of (21)", "s", "end") for x, y, _ in exact]
+    own = [x for x, _, _ in _places(which, panel, which.estimates) if math.isfinite(x)]
+    for x, y, _ in exact:
+        aside = bool(own) and x > min(own) - 30
+        words.append(
+            text(x + (9 if aside else -9), y + 4, "exact ω₀ at A(t) of (21)", "s", "start" if aside else "end")
+        )
     yield group([*s, group(words, "halo")], "fS")
 
 
@@ -237,12 +258,18 @@ def _named(which: Shown, panel: Panel, rows: Sequence[Row], style: str, name: st
         return []
     if last:
         x, y, _ = max(at, key=lambda p: p[1])
-        return [text(x + 9, min(y + 17, panel.bottom - 22), name, style)]
+        if y + 17 < panel.bottom - 22:
+            return [text(x + 9, y + 17, name, style)]
+        return [text(max(p[0] for p in at) + 10, y + 4, name, style)]
     x, y, _ = min(at, key=lambda p: p[1])
-    return [text(max(x - 12, panel.left + 4), max(y - 10, panel.top + 12), name, style)]
+    if y < panel.top + 20:
+        x, y, _ = max(at, key=lambda p: p[1])
+        return [text(max(x - 12, panel.left + 4), min(y + 20, panel.bottom - 22), name, style)]
+    return [text(max(x - 12, panel.left + 4), y - 10, name, style)]
 
 
-def _estimates(which: Shown, panel: Panel) -> Iterable[str]:
+def _estimates(which: Shown, panel: Panel, target: float | None) -> Iterable[str]:
+    """Estimates with their names at the left, clear of the line of the target."""
     at = [p for p in _places(which, panel, which.estimates) if math.isfinite(p[0])]
     if not at:
         return
@@ -260,6 +287,9 @@ def _estimates(which: Shown, panel: Panel) -> Iterable[str]:
             parts.append(trace("tt nf", "M", x, y, "L", a, b))
             parts.append(dot(a, b, 3.6, "to", f"{capital(name)}, own bias removed"))
         parts.append(dot(x, y, 4.5, "t", _title(row)))
+        wide = text_width(name)
+        if target is not None and abs(height - target) < 10:
+            words.append(rect(edge - wide - 2, height - 8, wide + 4, 16, "bgf"))
         words.append(text(edge, height + 4, name, "t b" if row.method == best else "t", "end"))
     head = text(panel.right, panel.top + 16, f"estimates from {which.found.time.size} samples", "t b", "end")
     yield group([*parts, group([head, *words], "halo")], "fT")

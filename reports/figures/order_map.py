@@ -16,7 +16,7 @@ from ridgeback.reports.drawing import cells
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure
 from ridgeback.reports.drawing.marks import dot, drawing, group, line, places, text, trace
 from ridgeback.reports.drawing.panel import Panel
-from ridgeback.reports.drawing.scale import Scale, padded, tick_labels
+from ridgeback.reports.drawing.scale import ROUNDING, Scale, padded, tick_labels
 from ridgeback.reports.figures.clock import Clock
 
 KINDS = {1e-2: "c1", 1e-3: "c2", 1e-6: "c3"}
@@ -68,7 +68,8 @@ def _caption(study: Study, grid: ErrorGrid, observed: bool) -> str:
         )
     if study.convergence_radius:
         text_ += f" The series converges for {name} below {number(study.convergence_radius)}"
-        text_ += f" ± {number(study.convergence_uncertainty, 1)}." if study.convergence_uncertainty else "."
+        open_ = study.convergence_uncertainty or 0.0
+        text_ += f" ± {number(open_, 1)}." if open_ > ROUNDING * study.convergence_radius else "."
     return text_
 
 

@@ -32,7 +32,7 @@ class Head(HTMLParser):
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         """A tag begins."""
         found = {name: value or "" for name, value in attrs}
-        self._within = tag == "title"
+        self._within = tag == "title" and not self.title
         if tag == "meta" and "name" in found:
             self.metas.setdefault(found["name"], found.get("content", ""))
 
