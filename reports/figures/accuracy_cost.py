@@ -165,8 +165,8 @@ def _frame(which: Shown, panel: Panel, target: float) -> Iterable[str]:
     if panel.y.low < target < panel.y.high:
         yield line(panel.left, panel.y(target), panel.right, panel.y(target), "tg")
         y = panel.y(target)
-        above = y - 5 > panel.top + 30 or y < panel.top + 4
-        place = y - 5 if above else max(y, panel.top + 18) + 15
+        free = y - 5 > panel.top + 30 or y < panel.top + 4
+        place = y - 5 if free else max(y, panel.top + 18) + 15
         yield group([text(panel.right, place, f"target {threshold(target)}", "m sm", "end")], "halo")
     if floor > panel.y.low:
         words = f"below {per_cent(floor)} two readings of ω₀(t) disagree"
