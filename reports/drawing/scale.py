@@ -60,11 +60,14 @@ def round_values(low: float, high: float, most: int) -> tuple[float, ...]:
     if not span > 0:
         return (low,)
     power = 10.0 ** math.floor(math.log10(span / max(most, 1)))
-    for step in (s * p for p in (power, 10 * power) for s in STEPS):
-        first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
-        if last - first < most:
-            return tuple(float(f"{n * step:.12g}") for n in range(first, last + 1))
-    return (low, high)
+    ways = ((s * p, range(*_within(low, high, s * p))) for p in (power, 10 * power) for s in STEPS)
+    step, kept = next((step, kept) for step, kept in ways if len(kept) <= most)
+    return tuple(float(f"{n * step:.12g}") for n in kept)
+
+
+def _within(low: float, high: float, step: float) -> tuple[int, int]:
+    """The first multiple of a step in a range and the one after the last, to rounding."""
+    return math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1
 
 
 def decades(low: float, high: float, most: int) -> tuple[float, ...]:
@@ -103,6 +106,7 @@ def tick_labels(values: Iterable[float]) -> list[str]:
     ticks = list(values)
     size = max((abs(v) for v in ticks), default=0.0)
     if size >= 1e6 or 0.0 < size < 1e-3:
-        return [minus(f"{v:.3g}") for v in ticks]
+        digits = next((d for d in range(3, 17) if len({f"{v:.{d}g}" for v in ticks}) == len(set(ticks))), 17)
+        return [minus(f"{v:.{digits}g}") for v in ticks]
     places = next((d for d in range(7) if all(abs(v - round(v, d)) <= 1e-9 * max(size, 1e-9) for v in ticks)), 7)
     return [minus(f"{v + 0.0:.{places}f}") for v in ticks]

@@ -63,7 +63,10 @@ Checks: TypeAlias = dict[str, Callable[[], Check]]
 
 
 def certify(
-    oscillator: OscillatorLike, result: Expansion | PowerExpansion | SlowFlow | LossFlow, *, progress: Wanted = None
+    oscillator: OscillatorLike,
+    result: Expansion | BallExpansion | PowerExpansion | SlowFlow | LossFlow,
+    *,
+    progress: Wanted = None,
 ) -> tuple[Check, ...]:
     """Run every independent check that applies to a result.
 
@@ -71,7 +74,7 @@ def certify(
     ----------
     oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
         Any form of the oscillator whose result it is.
-    result : Expansion, PowerExpansion, SlowFlow or LossFlow
+    result : Expansion, BallExpansion, PowerExpansion, SlowFlow or LossFlow
         To be checked.
     progress : bool or callable, optional
         ``True`` shows a bar; a function is told the share done and the check that begins.
@@ -92,6 +95,8 @@ def certify(
     ['residual', 'normalisation', 'energy integral', 'multiple scales']
     """
     oscillator = as_oscillator(oscillator)
+    if isinstance(result, BallExpansion):
+        return certify_balls(oscillator, result)
     if isinstance(result, LossFlow):
         checks: Checks = {"quadrature": lambda: _guarded("quadrature", lambda: _losses_against(oscillator, result))}
     else:

@@ -1,14 +1,22 @@
 """A certificate passes what is right, notices what is wrong, and says what does not apply."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 
 import pytest
+import sympy
 from flint import fmpq
 
+from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.balls import ball, natural_frequency, number_ball
+from ridgeback.symbolic.certificates.at_cycles import certified_cycles
 from ridgeback.symbolic.certificates.certificate import certify
+from ridgeback.symbolic.certificates.lost_energy import enclosed_growth_rate
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
 from ridgeback.symbolic.series.trigonometric import cosine
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -39,6 +47,42 @@ def test_what_does_not_apply_is_said() -> None:
     assert found["residual"].passed
     assert found["energy integral"].passed is None
     assert "u'" in found["energy integral"].statement
+
+
+def test_balls_beside_the_exact_coefficients_fail() -> None:
+    balls = lindstedt_in_balls(find("duffing"), 6, digits=20)
+    wrong = replace(balls, coefficients=(*balls.coefficients[:4], balls.coefficients[4] + 1, *balls.coefficients[5:]))
+    assert all(check.passed for check in certify(find("duffing"), balls))
+    failed = [check for check in certify(find("duffing"), wrong) if check.passed is False]
+    assert len(failed) == 2
+    assert all("orders [4] lie outside their balls" in check.statement for check in failed)
+
+
+def test_a_flow_that_does_not_solve_the_equation_fails() -> None:
+    flow = multiple_scales(find("damped-pendulum"), 4)
+    wrong = replace(flow, delta=(*flow.delta[:2], 2 * flow.delta[2], *flow.delta[3:]))
+    checks = {check.name: check for check in certify(find("damped-pendulum"), wrong)}
+    assert checks["residual"].passed is False
+    assert "do not cancel" in checks["residual"].statement
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: certified_cycles(find("pendulum"), [Fraction(1)]), "pendulum has no small parameter"),
+        (
+            lambda: enclosed_growth_rate(Oscillator.from_equation("u'' + u + abs(u')**(1/2)*u' = 0"), sympy.S.One, 64),
+            r"goes with \|u'\|\^\(3/2\), and whole powers only",
+        ),
+        (lambda: ball("one"), "'one' is a str, not a real number"),
+        (lambda: natural_frequency(sympy.sqrt(sympy.Symbol("k")) ** 3), "no number for its parameters"),
+        (lambda: number_ball(sympy.zeta(3)), "no real number that balls know"),
+    ],
+)
+def test_what_balls_cannot_hold_is_refused(call: Callable[[], object], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        call()
+    assert ball(fmpq(1, 3)).contains(fmpq(1, 3))
 
 
 def test_the_number_of_coefficients_that_agree_is_said() -> None:
