@@ -13,7 +13,8 @@ from ridgeback.interface.derivation import derivation
 from ridgeback.interface.source import known_form
 from ridgeback.interface.unused import refuse_unused
 from ridgeback.symbolic.codegen import Formula, written
-from ridgeback.symbolic.codegen.formulas.closed_forms import mean_form, sine_series
+from ridgeback.symbolic.codegen.formulas.closed_forms import sine_series
+from ridgeback.symbolic.codegen.formulas.symbolic_mean import closed_form
 from ridgeback.symbolic.codegen.program import MODES as ARITHMETIC
 from ridgeback.symbolic.codegen.program import Mode
 from ridgeback.symbolic.expansion.cost import Budget
@@ -219,7 +220,7 @@ def in_its_place(
 ) -> Formula:
     """Another formula in place of the series: a closed form, or one from the same coefficients."""
     if kind == "agm":
-        return mean_form(oscillator)
+        return closed_form(oscillator)
     if kind == "sine":
         return sine_series(oscillator, terms)
     if not isinstance(series, Expansion):

@@ -93,9 +93,10 @@ def _from_series(oscillator: Oscillator, series: Derived, code: Code) -> Formula
     if isinstance(series, PowerExpansion | LossFlow):
         raise InputError(series.refusal())
     if code.resummed in ("agm", "sine"):
-        from ridgeback.symbolic.codegen.formulas.closed_forms import mean_form, sine_series
+        from ridgeback.symbolic.codegen.formulas.closed_forms import sine_series
+        from ridgeback.symbolic.codegen.formulas.symbolic_mean import closed_form
 
-        return mean_form(oscillator) if code.resummed == "agm" else sine_series(oscillator, code.terms or 1)
+        return closed_form(oscillator) if code.resummed == "agm" else sine_series(oscillator, code.terms or 1)
     at = None if code.up_to is None else (code.up_to,)
     demand = Demand(resummed=code.resummed, degrees=code.degrees, growth=code.growth, at=at)
     return resummed_from(oscillator, series, demand)

@@ -19,6 +19,7 @@ from ridgeback.symbolic.codegen.formulas.flows import slow_flow_form
 from ridgeback.symbolic.codegen.formulas.powers import loss_form, power_form
 from ridgeback.symbolic.codegen.formulas.resummations import resummation_form
 from ridgeback.symbolic.codegen.formulas.series import expansion_form
+from ridgeback.symbolic.codegen.formulas.symbolic_mean import SymbolicMean
 from ridgeback.symbolic.codegen.languages.registry import find_language, languages
 from ridgeback.symbolic.codegen.naming import checked_identifier, identifier
 from ridgeback.symbolic.codegen.number import REALS
@@ -34,7 +35,8 @@ from ridgeback.symbolic.resummation.resummation import Resummation
 
 __all__ = ["LANGUAGES", "Formula", "form_of", "generate", "packaged", "written"]
 
-Formula: TypeAlias = "Expansion | PowerExpansion | SlowFlow | LossFlow | Resummation | MeanForm | SineSeries | Fit"
+Formula: TypeAlias = "Expansion | PowerExpansion | SlowFlow | LossFlow | Resummation | Closed | Fit"
+Closed: TypeAlias = "MeanForm | SymbolicMean | SineSeries"
 LANGUAGES = tuple(languages())
 DIGEST = 16
 """Hexadecimal digits of the input's hash that are printed."""
@@ -145,7 +147,7 @@ def form_of(
 
 
 def _built(result: Formula, request: CodeRequest) -> Form:
-    if isinstance(result, MeanForm | SineSeries | Fit):
+    if isinstance(result, MeanForm | SymbolicMean | SineSeries | Fit):
         return result.form(request)
     if isinstance(result, Resummation):
         return resummation_form(result, request)

@@ -48,6 +48,10 @@ class Matlab(Language):
     def fused(self, a: str, b: str, c: str, form: Form) -> str:  # noqa: ARG002
         return f"fused({a}, {b}, {c})"
 
+    def root(self, a: str, form: Form) -> str:  # noqa: ARG002
+        """The square root, which is not a number, and not complex, where ``a`` is negative."""
+        return f"sqrt(abs({a})) + 0./({a} >= 0)"
+
     def assign(self, name: str, value: str, *, first: bool, form: Form) -> str:  # noqa: ARG002
         return f"{name} = {value};"
 

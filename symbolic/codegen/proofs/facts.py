@@ -11,6 +11,7 @@ from ridgeback.symbolic.certificates.at_amplitudes import certified_frequencies
 from ridgeback.symbolic.codegen.fit.fit import Fit
 from ridgeback.symbolic.codegen.fit.truncation import errors_up_to
 from ridgeback.symbolic.codegen.formulas.closed_forms import MeanForm, SineSeries
+from ridgeback.symbolic.codegen.formulas.symbolic_mean import SymbolicMean
 from ridgeback.symbolic.codegen.proofs.notes import upwards
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
@@ -22,7 +23,7 @@ from ridgeback.symbolic.singularities.settled import settled_limits
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 Series: TypeAlias = "Expansion | PowerExpansion"
-Formula: TypeAlias = "Expansion | PowerExpansion | Resummation | MeanForm | SineSeries | Fit"
+Formula: TypeAlias = "Expansion | PowerExpansion | Resummation | MeanForm | SymbolicMean | SineSeries | Fit"
 SHARES: Final = (Fraction(1, 4), Fraction(1, 2), Fraction(3, 4))
 """Where in the range the error is certified."""
 INSIDE: Final = Fraction(999, 1000)
@@ -56,6 +57,8 @@ def end_of(oscillator: Oscillator, series: Series, formula: Formula, limit: floa
     """The end of the domain where none is given: the end of the oscillation, or of the series' convergence."""
     if isinstance(formula, Fit):
         return formula.end
+    if isinstance(formula, SymbolicMean):
+        return None
     if isinstance(formula, MeanForm | SineSeries):
         return None if limit is None else INSIDE * Fraction(limit)
     return reach_of(oscillator, series, formula) if limit is None else before_pole(Fraction(limit), formula)
@@ -73,7 +76,7 @@ def certified_facts(
     >>> certified_facts(find("pendulum"), lindstedt(find("pendulum"), 8), Fraction(3))[0]
     'Truncation: the relative error against the exact frequency is at most 9.1e-09 for |A| <= 0.75, 1.3e-05 up to ...
     """
-    if isinstance(formula, MeanForm | SineSeries | Fit):
+    if isinstance(formula, MeanForm | SymbolicMean | SineSeries | Fit):
         return ()  # exact, or with a bound of their own
     places = [Fraction(f"{float(share * reach):.3g}") for share in SHARES] + [reach] * whole
     try:
