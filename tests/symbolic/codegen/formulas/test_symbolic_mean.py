@@ -27,7 +27,7 @@ SINE = Oscillator.from_equation("L*u'' + g*sin(2*u) = 0")
     ],
 )
 def test_it_is_the_exact_frequency(oscillator: Oscillator, values: dict[str, str], amplitudes: tuple[str, ...]) -> None:
-    form = form_of(closed_form(oscillator), up_to=None if oscillator is CUBIC else Fraction(3, 2))
+    form = form_of(closed_form(oscillator), up_to=None if oscillator is CUBIC else Fraction(31, 20))
     omega, slope = form.functions
     assert [a.name for a in omega.arguments] == ["A", *values]
     given = [float(Fraction(v)) for v in values.values()]
@@ -43,7 +43,7 @@ def test_it_is_the_exact_frequency(oscillator: Oscillator, values: dict[str, str
 def test_there_is_none_beyond_the_separatrix_and_of_other_forces() -> None:
     form = form_of(closed_form(CUBIC))
     assert math.isnan(value_at(form, form.functions[0], (4.0, 7.25, -0.5, 2.5)))
-    with pytest.raises(InputError, match="--up-to below 1.5708"):
+    with pytest.raises(InputError, match=r"--up-to below 1\.5708"):
         form_of(closed_form(SINE))
     with pytest.raises(InputError, match="neither c sin"):
         closed_form(Oscillator.from_equation("u'' + u + c*u**2 = 0"))
