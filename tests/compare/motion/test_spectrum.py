@@ -85,3 +85,24 @@ def test_leakage_is_no_harmonic_of_an_odd_force() -> None:
     helmholtz = setting(find("helmholtz-duffing"), initial=(0.5, 0.0), duration=80.0)
     motion = integrate_motion(helmholtz, digits=None)
     assert 2 in seen(motion, orders(lambda t: motion.trajectory.at(t)[0], motion.rising))
+
+
+def test_the_wigner_peak_and_the_smoothed_one_part_at_the_kink_of_a_bilinear_oscillator() -> None:
+    """Stops with a preload: omega0(t) has a corner where the decay leaves them, as in the appendix of the paper."""
+    from ridgeback.compare.benchmark.ways.estimates import along
+    from ridgeback.numeric.motion.bilinear import Bilinear, as_dynamics
+    from ridgeback.numeric.motion.bilinear_motion import bilinear_motion
+    from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
+
+    stops = Bilinear(2 * np.pi, 4 * np.pi, 1.0, mu=0.03, symmetric=True, preload=6.0)
+    run = bilinear_motion(stops, (3.0, 0.0), duration=60.0, rate=24.0)
+    reference = cycle_frequency(run, dynamics=as_dynamics(stops)).at(run.time)
+    inside = (run.time > 6.0) & (run.time < 54.0)
+    assert reference[inside][0] > 1.4 * reference[inside][-1]
+    assert reference[inside][-1] == pytest.approx(np.sqrt((2 * np.pi) ** 2 - 0.03**2), rel=1e-6)
+    errors = {}
+    for method in ("wigner", "smoothed-pseudo-wigner"):
+        omega = along(estimate(run.u, run.rate, method=method, bias=False), run.time)
+        errors[method] = float(np.sqrt(np.nanmean((omega / reference - 1)[inside] ** 2)))
+    assert errors["smoothed-pseudo-wigner"] < 6e-4
+    assert errors["wigner"] > 20 * errors["smoothed-pseudo-wigner"]
