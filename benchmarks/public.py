@@ -132,7 +132,9 @@ def rows(trials: int) -> list[dict[str, Any]]:
             least = bound(x, frequency, snr)
             for method in known:
                 errors = squares(results, name, method, snr)
-                table.append({"signal": name, "SNR, dB": snr, "method": method, "rms": rms(errors), "bound": least})
+                kept = [error for error in errors if math.isfinite(error)]
+                place = {"signal": name, "SNR, dB": snr, "method": method}
+                table.append({**place, "rms": rms(kept), "bound": least, "refused": len(errors) - len(kept)})
     return table
 
 
@@ -144,8 +146,8 @@ def squares(results: Mapping[str, Any], signal: str, method: str, snr: float) ->
 
 
 def rms(errors: list[float]) -> float:
-    """Root of the mean; not a number where a trial gave none."""
-    return math.sqrt(sum(errors) / len(errors))
+    """Root of the mean; not a number where no trial gave one."""
+    return math.sqrt(sum(errors) / len(errors)) if errors else math.nan
 
 
 def draw(table: list[dict[str, Any]], path: str) -> None:

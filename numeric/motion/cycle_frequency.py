@@ -169,7 +169,7 @@ def cycle_frequency(trajectory: Trajectory, *, dynamics: Dynamics | None = None)
     >>> bool(np.allclose(cycles.omega, 3.0, rtol=1e-11)), bool(abs(cycles.at(0.0)[0] - 3.0) < 1e-9)
     (True, True)
     """
-    symmetric = dynamics is not None and is_symmetric(dynamics)
+    symmetric = dynamics is not None and is_symmetric(dynamics, largest=float(np.abs(trajectory.u).max()))
     families = _families(trajectory, symmetric)
     readings = tuple(_reading(*family) for family in families if family[1].size >= _LEAST_EVENTS)
     if not readings:
@@ -193,8 +193,8 @@ def cycle_frequency(trajectory: Trajectory, *, dynamics: Dynamics | None = None)
     )
 
 
-def is_symmetric(dynamics: Dynamics) -> bool:
-    """Tell whether f(-u, -u') = -f(u, u'), checked at a few states of different size.
+def is_symmetric(dynamics: Dynamics, *, largest: float = 1.0) -> bool:
+    """Tell whether f(-u, -u') = -f(u, u'), checked at a few states of different size, up to the largest |u| and at 1.
 
     >>> from ridgeback.numeric.motion.dynamics import helmholtz_duffing, van_der_pol
     >>> is_symmetric(van_der_pol(1.0)), is_symmetric(helmholtz_duffing())
@@ -202,6 +202,7 @@ def is_symmetric(dynamics: Dynamics) -> bool:
     """
     k = dynamics.natural_frequency
     states = [(0.3, 0.2 * k), (1.0, -0.7 * k), (-0.05, 0.01 * k), (0.6, 0.0)]
+    states += [(share * largest, 0.02 * share * k * largest) for share in (1.0, 0.9, 0.6, 0.3)]
     try:
         pairs = [(dynamics.force(u, v), dynamics.force(-u, -v)) for u, v in states]
     except (ValueError, OverflowError, ZeroDivisionError):

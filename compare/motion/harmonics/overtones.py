@@ -82,9 +82,13 @@ def carrier(outcomes: tuple[Outcome, ...]) -> Track | None:
     return next((tracks[name] for name in _CARRIERS if name in tracks), None)
 
 
+def _odd(motion: Motion) -> bool:
+    return is_symmetric(motion.dynamics, largest=float(np.abs(motion.trajectory.u).max()))
+
+
 def leakage_db(motion: Motion, levels: Orders) -> float | None:
     """The strongest even multiple under an odd force, which has none: what the analysis itself leaks; else None."""
-    if not is_symmetric(motion.dynamics):
+    if not _odd(motion):
         return None
     return max(levels.level_db(m) for m in range(2, MOST + 1, 2))
 
@@ -92,7 +96,7 @@ def leakage_db(motion: Motion, levels: Orders) -> float | None:
 def seen(motion: Motion, levels: Orders, *, least_db: float = VISIBLE_DB) -> tuple[int, ...]:
     """Multiples that the motion has above a level; under an odd force, those that stand above their even neighbours."""
     visible = [m for m in range(2, MOST + 1) if levels.level_db(m) > least_db]
-    if not is_symmetric(motion.dynamics):
+    if not _odd(motion):
         return tuple(visible)
     beside = {m: max(levels.level_db(n) for n in (m - 1, m + 1) if 1 < n <= MOST) for m in visible if m % 2}
     return tuple(m for m, leaked in beside.items() if levels.level_db(m) > leaked + MARGIN_DB)

@@ -19,6 +19,7 @@ from ridgeback.numeric.motion.bilinear import (
     restoring,
 )
 from ridgeback.numeric.motion.bilinear_motion import bilinear_motion
+from ridgeback.numeric.motion.cycle_frequency import cycle_frequency, is_symmetric
 from ridgeback.numeric.motion.trajectory import integrate
 from ridgeback.numeric.orbits.period import exact_frequency
 
@@ -150,3 +151,15 @@ def test_unusable_numbers_are_refused(values: tuple[float, ...], said: str) -> N
 def test_unusable_amplitude_is_refused() -> None:
     with pytest.raises(InputError, match="peak amplitude -1"):
         bilinear_frequency(Bilinear(1.0, 2.0), [0.5, -1.0])
+
+
+def test_a_stop_that_is_met_far_out_makes_the_oscillator_asymmetric() -> None:
+    one_sided = Bilinear(2 * np.pi, 4 * np.pi, 1.5, mu=0.03)
+    run = bilinear_motion(one_sided, (4.0, 0.0), duration=20.0, rate=24.0)
+    dynamics = as_dynamics(one_sided)
+    assert is_symmetric(dynamics)
+    assert not is_symmetric(dynamics, largest=4.0)
+    found = cycle_frequency(run, dynamics=dynamics).at(run.time)
+    low, high = bilinear_frequency(one_sided, [run.turnings.value[-2:].max(), 4.0])
+    assert np.nanmin(found) == pytest.approx(low, rel=0.01)
+    assert np.nanmax(found) == pytest.approx(high, rel=0.01)
