@@ -164,7 +164,7 @@ def test_work_over_the_budget_is_refused_beforehand_and_allowed_when_asked_for(r
         (["pendulum", "--digits", "0"], "--digits"),
         (["pendulum", "--digits", "5", "--checkpoint", "-"], "file"),
         (["pendulum", "--digits", "5", "--method", "energy-integral"], "lindstedt"),
-        (["pendulum", "--digits", "5", "--weight", "2"], "--weight"),
+        (["pendulum", "--digits", "5", "--weight", "2"], "weight belongs to multiple-scales"),
         (["pendulum", "--digits", "5", "--format", "latex"], "text or json"),
         (["damped-pendulum", "--digits", "5"], "multiple-scales"),
         (["pendulum", "--digits", "5", "--amplitude", "energy"], "energy"),
