@@ -18,6 +18,7 @@ Amplitudes are ``peak`` (the positive turning point) unless named otherwise.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -119,6 +120,8 @@ def action(dynamics: Dynamics, peak: ArrayLike) -> Array:
 def peak_of_action(dynamics: Dynamics, value: ArrayLike) -> Array:
     """Return the peak A with J(A) = value, for 0 <= value < J at the separatrix; Newton with dJ/dA = V'(A)/omega0.
 
+    Raises InputError for an action that no orbit has.
+
     >>> from ridgeback.numeric.motion.dynamics import linear
     >>> peak_of_action(linear(k=2.0), [9.0])
     array([3.])
@@ -139,11 +142,21 @@ def peak_of_action(dynamics: Dynamics, value: ArrayLike) -> Array:
         return root - np.sqrt(target), restoring(A) / (2 * table.omega * root)
 
     guess = np.minimum(np.sqrt(2 * target / dynamics.natural_frequency), 0.9 * limit)
-    high = np.full_like(guess, limit * (1 - 1e-9)) if math.isfinite(limit) else guess.copy()
-    while target.size and math.isinf(limit) and np.any(short := value_and_slope(high)[0] < 0):
-        high = np.where(short, 2 * high, high)
+    high = np.full_like(guess, limit * (1 - 1e-9)) if math.isfinite(limit) else _beyond(value_and_slope, guess)
+    if np.isnan(high).any():
+        lost = target[np.isnan(high)][0]
+        raise InputError(f"{dynamics.name}: no amplitude has the action {lost:.9g}; the well levels off below it")
     peak[moving] = bracketed_newton(value_and_slope, np.zeros_like(guess), high, guess=guess, rising=True)
     return frozen(peak)
+
+
+def _beyond(value_and_slope: Callable[[Array], tuple[Array, Array]], start: Array) -> Array:
+    """Places from ``start`` on where a function is positive, by doubling; NaN where it has no number before it is."""
+    place = start.copy()
+    with np.errstate(all="ignore"):
+        while place.size and np.any((value := value_and_slope(place)[0]) < 0):
+            place = np.where(value < 0, 2 * place, place)
+        return np.where(value >= 0, place, np.nan) if place.size else place
 
 
 def _doubled(dynamics: Dynamics, low: Array, high: Array, tolerance: float) -> tuple[Array, Array, Array]:

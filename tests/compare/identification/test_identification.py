@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -84,6 +85,19 @@ def test_a_result_is_frozen_and_json_knows_it(hardening: Identification) -> None
     assert len(text["data"]["amplitude"]) == hardening.data.amplitude.size
     with pytest.raises(ValueError, match="read-only"):
         hardening.best.omega[0] = 0.0
+
+
+def test_the_verdict_says_what_was_found_and_no_more(hardening: Identification) -> None:
+    best, second, *_ = hardening.candidates
+    alone = replace(hardening, indistinguishable=(best.name,))
+    assert alone.verdict.startswith(f"{best.title}, damping {best.damping_law}; next comes {second.title}, BIC")
+    alone = replace(hardening, candidates=(best,))
+    assert alone.verdict.startswith(f"{best.title}, damping {best.damping_law}. What it leaves unexplained is")
+    poor = replace(alone, unexplained=0.9)
+    assert poor.verdict.startswith(f"No candidate describes this recording; the nearest is {best.title}")
+    assert "the best candidate leaves 90% of the signal's rms" in poor.verdict
+    free = replace(alone, candidates=(replace(best, has_equation=False),))
+    assert ": no equation among the candidates does as well." in free.verdict
 
 
 def test_what_cannot_be_told_apart_is_said() -> None:

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
+from ridgeback.compare.identification import preparation
 from ridgeback.compare.identification.identify import identify
+from ridgeback.compare.identification.preparation import prepared
 from ridgeback.compare.identification.results import Identification
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import duffing
@@ -49,6 +51,27 @@ def test_clipped_samples_enter_no_fit() -> None:
     assert found.samples < 600
     assert near(found, "mu", 0.05)
     assert near(found, "a0", 1.0)
+
+
+def test_a_span_is_used_alone_and_said() -> None:
+    """Too few cycles, too few samples in the span, and too many for fits are refused."""
+    t = np.arange(1600) / 20.0
+    whole = Recording(t, np.exp(-0.01 * t) * np.cos(6.0 * t), 20.0, "u", "mm", "decay.csv", "")
+    part = prepared(whole, span=(10.0, 40.0))
+    assert (part.recording.time[0], part.recording.time[-1]) == (10.0, 40.0)
+    assert part.notes[0] == "Only times from 10 to 40 were used."
+    with pytest.raises(InputError, match=r"decay\.csv: 11 samples lie within 10 to 10\.5"):
+        prepared(whole, span=(10.0, 10.5))
+    with pytest.raises(InputError, match=r"[45]\.\d cycles are too few to tell oscillators apart; give 6 or more"):
+        identify(whole, candidates=("linear",), span=(10.0, 15.0))
+
+
+def test_more_samples_than_fits_can_hold_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    t = np.arange(1600) / 20.0
+    whole = Recording(t, np.exp(-0.01 * t) * np.cos(6.0 * t), 20.0, "u", "mm", "decay.csv", "")
+    monkeypatch.setattr(preparation, "MOST_SAMPLES", 400)
+    with pytest.raises(InputError, match=r"decay\.csv: \d+ samples are over the budget of 400 for fits"):
+        prepared(whole)
 
 
 def test_a_hum_is_taken_off_and_said() -> None:

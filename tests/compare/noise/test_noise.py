@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -110,6 +111,20 @@ def test_cell_is_made_of_its_trials() -> None:
     nothing = cell_of("x", 3.0, trials[-1:], {})
     assert nothing.rms is None
     assert nothing.failures == 1
+
+
+def test_a_trial_without_an_estimate_has_its_reason(paper: Truth) -> None:
+    """A study by model-fit needs an oscillator; a record may be too short; a track may be nowhere valid."""
+    unnamed = attempt(replace(paper, oscillator=None), paper.x, "model-fit", {})
+    assert judged(paper, unnamed).reason.startswith("model-fit needs an oscillator; name it and its free parameters")
+    short = attempt(paper, paper.x[:9], "hilbert", {})
+    assert isinstance(short, InputError)
+    assert judged(paper, short) == Trial(reason=str(short))
+    track = attempt(paper, paper.x, "hilbert", {})
+    assert isinstance(track, Track)
+    nowhere = replace(track, valid=np.zeros(track.time.size, dtype=np.bool_))
+    assert judged(paper, nowhere).reason == "hilbert: no valid sample in the interior"
+    assert judged(paper, track).reason == ""
 
 
 def test_truth_of_a_recording_is_its_smooth_model() -> None:

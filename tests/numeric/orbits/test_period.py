@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.motion.dynamics import Dynamics, duffing, helmholtz_duffing, linear, pendulum, van_der_pol
+from ridgeback.numeric.orbits.orbit_table import orbit_table
 from ridgeback.numeric.orbits.period import action, exact_frequency, peak_limit, peak_of_action, trough
 from ridgeback.numeric.orbits.potential import peak_of_potential, potential_at
 
@@ -184,3 +185,26 @@ def test_potential_and_its_inverse(u):
 def test_refusals_name_value_and_limit(call, message):
     with pytest.raises(InputError, match=message):
         call()
+
+
+def test_a_well_that_levels_off_has_no_orbit_of_more_action() -> None:
+    """Morse, V = (1 - exp(-u))^2/2: J = 1 - sqrt(1 - 2 E) < 1, with E = V(A) (P. M. Morse, Phys. Rev. 34 (1929) 57)."""
+    wanted = np.array([0.1, 0.5, 0.9])
+    expected = -np.log(1 - np.sqrt(1 - (1 - wanted) ** 2))
+    np.testing.assert_allclose(peak_of_action(MORSE, wanted), expected, rtol=1e-11)
+    assert peak_of_action(MORSE, [0.0]).tolist() == [0.0]
+    with pytest.raises(InputError, match="no amplitude has the action 2; the well levels off below it"):
+        peak_of_action(MORSE, [0.5, 2.0])
+
+
+@pytest.mark.parametrize(
+    ("oscillator", "peak", "said"),
+    [
+        (duffing(eps=-1.0), 1.0, "peak amplitude 1 does not turn back"),
+        (duffing(eps=-1.0), 1.5, r"peak amplitude 1\.5 does not turn back"),
+        (helmholtz_duffing(alpha=1.0, eps=0.0), 0.6, r"peak amplitude 0\.6 has no trough in its well"),
+    ],
+)
+def test_a_separatrix_is_no_orbit(oscillator: Dynamics, peak: float, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        orbit_table(oscillator, [0.25, peak])
