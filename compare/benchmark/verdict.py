@@ -55,7 +55,7 @@ def closest(rows: Iterable[Row], floor: float) -> Row | None:
     known = [row for row in rows if row.relative_rms_error is not None]
     return min(
         known,
-        key=lambda r: (max(_error(r), floor), r.kind != "expansion", r.order or 0, r.method),
+        key=lambda r: (max(_error(r), floor), r.kind != "expansion", r.order or 0, r.language != "c", r.method),
         default=None,
     )
 

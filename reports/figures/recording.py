@@ -117,7 +117,7 @@ def backbone_figure(recording: RecordingComparison) -> Figure:
     f = CLOCK.factor
     x = recording.backbone_amplitude
     theory = recording.over
-    over = () if theory is None else ((f"{theory.title}, exact", theory.omega * f, "el nf"),)
+    over = () if theory is None else ((f"{theory.title}, exact", theory.omega * f, "el d1 nf"),)
     bands = (
         Band(CLOCK.title(), x, recording.backbone_omega * f, recording.backbone_omega_sd * f, over),
         Band("growth rate a′/a, 1/s", x, recording.growth_rate, recording.growth_rate_sd),
