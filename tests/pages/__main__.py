@@ -50,6 +50,9 @@ def prepared(folder: Path) -> None:
     """The reader's own files under the names of the pages."""
     for arguments in GIVEN:
         subprocess.run([sys.executable, "-m", "ridgeback", *arguments], cwd=folder, check=True)
+    for run in folder.glob("run*.csv"):  # times and samples, as most recordings are
+        rows = run.read_text(encoding="utf-8").splitlines()
+        run.write_text("".join(f"{row.rpartition(',')[0]}\n" for row in rows), encoding="utf-8")
     decay = (folder / "sloshing-decay.csv").read_text(encoding="utf-8")
     (folder / "decay.csv").write_text(decay.replace("displacement [mm]", "displacement"), encoding="utf-8")
     (folder / "mine.toml").write_text(MINE, encoding="utf-8")
@@ -58,7 +61,9 @@ def prepared(folder: Path) -> None:
 def outcome(line: str, folder: Path, seconds: float) -> str:
     """What came of a line: "" where it ended well."""
     words = shlex.split(line, comments=True)
-    absent = [word for word in words if re.fullmatch(r"[\w-]+\.(h5|wav|mat|db)", word) and not (folder / word).exists()]
+    absent = [
+        word for word in words if re.fullmatch(r"[\w-]+\.(csv|h5|wav|mat|db)", word) and not (folder / word).exists()
+    ]
     try:
         done = subprocess.run(
             ["bash", "-c", line],
