@@ -20,7 +20,7 @@ from ridgeback.numeric.tracking.track import Track
 
 PER_CYCLE = 24
 """Samples per cycle that are kept when a recording is thinned."""
-ENOUGH = 6000
+ENOUGH = 3000
 MOST_SAMPLES = 60_000
 ARTICLES = {"velocity": "a velocity", "acceleration": "an acceleration"}
 WINDOW_CYCLES = 4.0

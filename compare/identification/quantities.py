@@ -24,6 +24,8 @@ AGREES = 0.05
 """Share of that fall, beside a third of CONTRADICTED, that may be left for the right one: slow flows are series."""
 NOTHING = 1e-3
 """Noise over amplitude below which an equation's slow flow, a series, is not held against it."""
+NEAR_BEST = 9.0
+"""Times the least sum of squares, that an equation may leave which is tried for another quantity."""
 AS_OTHER = ("duffing-hardening", "duffing-softening", "pendulum", "helmholtz-duffing")
 """Smooth laws with harmonics, one of which the quantity must agree with."""
 
@@ -42,7 +44,8 @@ def refuse_another_quantity(ready: Prepared, data: Data, ranked: Ranked, progres
     lost = min(fall(found, ready.noise / data.length) for found in equations)
     if lost < CONTRADICTED:
         return
-    for quantity, left in described_as(ready, ready.noise / data.length, progress):
+    names = tuple(found.model.name for found in near_best(equations) if found.model.name in AS_OTHER)
+    for quantity, left in described_as(ready, names, ready.noise / data.length, progress):
         if left < AGREES * lost + CONTRADICTED / 3.0:
             raise InputError(
                 f"{ready.recording.label}: the waveform contradicts a displacement, and is that of {ARTICLES[quantity]}"
@@ -51,14 +54,22 @@ def refuse_another_quantity(ready: Prepared, data: Data, ranked: Ranked, progres
             )
 
 
-def described_as(ready: Prepared, noise: float, progress: Progress) -> Iterator[tuple[str, float]]:
+def near_best(fits: list[Fit]) -> list[Fit]:
+    """Those that leave little more than the best of them: their backbone bends the right way."""
+    least = min(found.sum_of_squares for found in fits)
+    return [found for found in fits if found.sum_of_squares <= NEAR_BEST * least]
+
+
+def described_as(
+    ready: Prepared, names: tuple[str, ...], noise: float, progress: Progress
+) -> Iterator[tuple[str, float]]:
     """The fall of the best equation for the samples taken for each other quantity; ``noise`` over the amplitude."""
-    for quantity in ARTICLES:
+    for quantity in ARTICLES if names else ():
         progress(0.9, f"the waveform as that of {ARTICLES[quantity]}")
         try:
             turned = as_displacement(ready.recording, quantity)
             data = prepare(turned, local_track(turned), kept=ready.kept)
-            found = rank(data, AS_OTHER, LAWS, "bic", silent).fits[0]
+            found = rank(data, names, LAWS, "bic", silent).fits[0]
         except InputError:
             continue
         yield quantity, fall(found, noise)

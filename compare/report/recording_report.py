@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from ridgeback.common.progress import Progress, silent
+from ridgeback.compare.identification.preparation import part_of
 from ridgeback.compare.noise.monte_carlo import truth_of
 from ridgeback.compare.noise.truth import SMOOTH, Truth
 from ridgeback.compare.recording.recording import compare_recording
@@ -21,6 +22,9 @@ from ridgeback.numeric.recording.reading import read_recording
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
+
+MOST_SAMPLES = 2000
+"""Of a recording, whose smooth model the estimators are tried on in noise: a longer one tells no more of them."""
 
 
 def recording_report(
@@ -116,9 +120,10 @@ def _read(
 
 
 def _truth(recording: Recording, found: RecordingComparison) -> Truth:
-    """The recording's own smooth model, from the track that the comparison made where that has every sample."""
+    """The smooth model of the recording's first MOST_SAMPLES, from the comparison's track where that has them all."""
     known = [c.omega for c in found.curves if c.name == SMOOTH and c.time.size == recording.time.size]
-    return truth_of(recording, omega=known[0] if known else None)
+    first = part_of(recording, slice(MOST_SAMPLES))
+    return truth_of(first, omega=known[0][:MOST_SAMPLES] if known else None)
 
 
 def _settings(found: RecordingComparison, theory: Oscillator | None, chosen: Mapping[str, object]) -> dict[str, object]:
