@@ -33,6 +33,8 @@ GAIN, STRICTER = 12.0, 3.0
 MOST_TONES = 6
 TURNS, RESTED = 30, 0.02
 """Of fitting in turns: most of them, and the fall of the criterion in one with which it ends."""
+TAKEN_OFF = 0.7
+"""Of the power of samples, that a tone may leave which is to be one of them."""
 SAME = 0.1
 """Of the noise, by which tones may differ between two models."""
 ROUNDS = 3
@@ -66,6 +68,7 @@ def separated(
     multiples: tuple[int, ...] | None,
     excluded: Mask | None = None,
     most: int = MOST_TONES,
+    band: tuple[float, float] | None = None,
 ) -> Separated:
     """Model one oscillation and what is beside it.
 
@@ -85,6 +88,8 @@ def separated(
         Samples that are known to be wrong, such as clipped ones.
     most : int
         Tones that are looked for at most.
+    band : (float, float), optional
+        Where the oscillation is, rad per time unit: what is stronger beyond is taken for tones first.
 
     Raises
     ------
@@ -106,7 +111,9 @@ def separated(
         bare = signal_models(x, rate, guide, half=half, multiples=(), known=Known(sound.astype(float)))
         filled = np.where(sound, x, bare.best.samples())
     given = Given(filled, rate, guide, half, multiples, sound)
-    models, tones = with_tones(given, (), most)
+    stronger = () if band is None else stronger_beyond(given, band)
+    most += len(stronger)
+    models, tones = with_tones(given, stronger, most)
     count = 0
     for _ in range(ROUNDS):
         left, cycle = residual(given.x, models.best, tones), TWO_PI * rate / float(np.median(guide))
@@ -121,7 +128,8 @@ def separated(
     omega = float(np.average(models.best.omega, weights=models.best.size**2))
     known = models.coloured(colour(left, rate, omega, models.best.basis.count))
     single = np.where(given.sound, given.x - total(tones, given.time), models.best.samples())
-    return Separated(single, known, given.sound, tones, count, doubt(known, given.x, left, rate, guide))
+    reason = off_the_band(models.best, band) or doubt(known, given.x, left, rate, guide)
+    return Separated(single, known, given.sound, tones, count, reason)
 
 
 @lru_cache(maxsize=2)
@@ -133,6 +141,7 @@ def separated_once(
     multiples: tuple[int, ...] | None,
     excluded: bytes | None,
     most: int,
+    band: tuple[float, float] | None,
 ) -> Separated:
     """``separated`` of arrays as their bytes, kept for the next method that asks for the same of the same samples."""
     return separated(
@@ -143,6 +152,7 @@ def separated_once(
         multiples=multiples,
         excluded=None if excluded is None else np.frombuffer(excluded, dtype=np.bool_),
         most=most,
+        band=band,
     )
 
 
@@ -184,6 +194,36 @@ class Given:
             known = replace(known, beside=np.concatenate([tone.tangent(time) for tone in tones], axis=1))
         left = self.x - total(tones, time)
         return signal_models(left, self.rate, self.guide, half=self.half, multiples=self.multiples, known=known)
+
+
+def stronger_beyond(given: Given, band: tuple[float, float]) -> tuple[Tone, ...]:
+    """Tones beyond a band that are stronger than what is in it, so that a model does not follow them instead."""
+    found: tuple[Tone, ...] = ()
+    sound = given.known.sound_of(given.x.size)
+    while len(found) < MOST_TONES:
+        left = given.x - total(found, given.time)
+        try:
+            omega = strongest_frequency(left, given.rate)
+        except InputError:
+            break
+        if band[0] <= omega <= band[1]:
+            break
+        tone = fitted_tone(left, given.time, omega, sound)
+        if float(np.var(left - tone.samples(given.time))) > TAKEN_OFF * float(np.var(left)):
+            break
+        found = (*found, tone)
+    return found
+
+
+def off_the_band(model: SplineModel, band: tuple[float, float] | None) -> str:
+    """Why a model cannot be trusted that left the band it was to be in; empty where it did not, or there is none."""
+    omega = float(np.average(model.omega, weights=model.size**2))
+    if band is None or band[0] <= omega <= band[1]:
+        return ""
+    return (
+        f"the band {band[0]:.4g} to {band[1]:.4g} rad per time unit holds no oscillation that stands out beside a "
+        f"stronger one near {omega:.4g}; give another --band"
+    )
 
 
 def with_tones(given: Given, here: tuple[Tone, ...], most: int) -> tuple[SignalModels, tuple[Tone, ...]]:

@@ -189,6 +189,7 @@ class Request:
                 self.options.multiples,
                 None if signal.wrong is None else signal.wrong.tobytes(),
                 self.options.most_tones,
+                self.options.band,
             )
         except InputError:
             return self

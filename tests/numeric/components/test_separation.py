@@ -137,3 +137,16 @@ def test_a_frequency_that_jumps_claims_nothing() -> None:
     t = np.arange(240) / 8.0
     x = np.where(t < 15.0, np.cos(6.0 * t), np.cos(8.0 * t)) + 0.003 * np.random.default_rng(1).normal(size=240)
     assert estimate(x, 8.0).no_interval is not None
+
+
+def test_a_band_isolates_the_weaker_of_two_modes_up_to_the_ends() -> None:
+    t = np.arange(1200) / RATE
+    rng = np.random.default_rng(6)
+    x = sum(a * np.exp(-0.6 * t) * np.cos(2 * np.pi * f * t) for a, f in ((1.0, 20.0), (0.4, 31.0)))
+    band = (2 * np.pi * 25.0, 2 * np.pi * 37.0)
+    track = estimate(x + 0.01 * rng.normal(size=t.size), RATE, band=band)
+    assert track.interval is not None
+    held = track.interval.holds(np.full(t.size, 2 * np.pi * 31.0))
+    assert np.mean(held) > 0.8
+    assert np.abs(track.omega / (2 * np.pi * 31.0) - 1.0).max() < 0.01
+    assert any(abs(tone.omega / (2 * np.pi) - 20.0) < 0.1 for tone in track.used.tones)
