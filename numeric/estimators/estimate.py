@@ -265,12 +265,12 @@ def estimation(
     options = options if no_room is None else replace(options, bias=False)
     request = prepared(samples, options, search=search)
     noise = request.presence
+    if method in QUADRATIC and options.band is not None:
+        refuse_cross_term(request, method)
     request = in_its_stretch(request, samples) if noise.found else without_bias_of(request)
     if request.options.bias:
         request = request.separated()
         samples = with_motion_of(request, samples)
-    if method in QUADRATIC and options.band is not None:
-        refuse_cross_term(request, method)
     progress(0.1, "choosing an estimator" if method == "auto" else method)
     name, request = for_auto(request) if method == "auto" else (method, request)
     if method == "harmonic-least-squares":
