@@ -7,13 +7,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final
 
+import sympy
+
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Wanted, showing
 from ridgeback.compare.study.certified import Known, references
 from ridgeback.symbolic.certificates.accuracy import accuracy
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.singularities.limits import Limits, limits
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.entries.every import known_frequency, listed
@@ -147,14 +151,51 @@ def _chart(oscillator: Oscillator, orders: tuple[int, ...]) -> Chart:
     exact = known_frequency(oscillator.name)
     try:
         series = _series(oscillator)
-        found = limits(series)
+        if isinstance(series, PowerExpansion) and not any(series.coefficients[1:]):
+            return Chart(oscillator.name, equation, exact, orders, None, (), _one_term(series))
+        found = limits(over_power(series) if isinstance(series, PowerExpansion) else series)
     except InputError as refusal:
         return Chart(oscillator.name, equation, exact, orders, None, (), str(refusal))
     inside = () if found.radius is None else _inside(oscillator, orders, found.radius)
     return Chart(oscillator.name, equation, exact, orders, found, inside)
 
 
-def _series(oscillator: Oscillator) -> Expansion:
+def _one_term(series: PowerExpansion) -> str:
+    """Of a force that is a power of |u| the leading term is all there is."""
+    value = f"{float(series.lead.evalf(20)):.10g}"
+    power = "A" if series.growth == 1 else f"A^({series.growth})"
+    return f"none: omega0 = {value} {power} exactly, at every amplitude"
+
+
+def over_power(series: PowerExpansion) -> Expansion:
+    """A series in powers of A about a power law, over its leading term: it converges where that does.
+
+    Raises InputError for broken powers, whose radius would be that of another variable than A.
+    """
+    if series.root != 1:
+        raise InputError(
+            f"the series of {series.system} runs in powers of A^(1/{series.root}), for which no limits are read"
+        )
+    return Expansion(
+        system=series.system,
+        method=series.method,
+        variable=series.variable,
+        amplitude=series.amplitude,
+        order=series.order,
+        scale=sympy.S.One,
+        scaled_variable=False,
+        coefficients=series.coefficients,
+        waveform=None,
+        amplitude_coefficients=None,
+        residual_of=None,
+        names=series.names,
+        constants=series.constants,
+    )
+
+
+def _series(oscillator: Oscillator) -> Expansion | PowerExpansion:
+    if oscillator.by_sides:
+        return energy_on_each_side(oscillator, LONG)
     if oscillator.kind == "conservative" and not oscillator.substituted_force.has(V):
         found = energy_integral(oscillator, LONG)
         if isinstance(found, Expansion):

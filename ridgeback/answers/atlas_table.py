@@ -21,6 +21,9 @@ relative error of the series, truncated after the order that heads the column, a
 Radii and places are estimated from the last of 48 to 96 coefficients, with the uncertainty that neighbouring estimates
 show; where none is printed it is below the last digit. Errors are proved: the series is held against an enclosure of
 the exact frequency in ball arithmetic, by the energy, by validated integration, or by interval Newton (limit cycles).
+Of a force with a kink at rest (`abs`, `max`) the series is put together from the energy on each side, and its radius is
+that of the nearest singularity of either side's force, continued through rest. Of a force that is a power of |u| omega0
+is one power of A, which is all: nothing limits it, and no order is missing.
 Made by `ridgeback study --atlas --orders {orders} --format markdown`.
 """
 

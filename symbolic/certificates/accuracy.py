@@ -111,6 +111,11 @@ def _series(oscillator: Oscillator, order: int, definition: str = "peak") -> Exp
     return derive(oscillator, order, amplitude=definition)
 
 
+def _truncated(oscillator: Oscillator, order: int) -> Expansion | PowerExpansion:
+    """The series of any force: of one with a kink or without a linear part by the energy on each side."""
+    return energy_on_each_side(oscillator, order) if oscillator.by_sides else _series(oscillator, order)
+
+
 def resummations(oscillator: Oscillator, order: int) -> tuple[Formula, ...]:
     """Return the truncated series of an oscillator and every resummation of it that exists at this order.
 
@@ -179,7 +184,7 @@ def accuracy(
     """
     exact = [_enclosed(oscillator, a) for a in amplitudes] if reference is None else reference
     pairs = list(zip(amplitudes, exact, strict=True))
-    formulas = resummations(oscillator, order) if resummed else (_series(oscillator, order),)
+    formulas = resummations(oscillator, order) if resummed else (_truncated(oscillator, order),)
     return tuple(
         Accuracy(formula, tuple(_error(formula, amplitude, omega) for amplitude, omega in pairs))
         for formula in formulas

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from fractions import Fraction
 from pathlib import Path
 
 import mpmath
@@ -11,7 +12,12 @@ import pytest
 
 from ridgeback.answers.atlas_table import cells, markdown
 from ridgeback.common.errors import InputError
-from ridgeback.compare.study.atlas import atlas
+from ridgeback.compare.study.atlas import atlas, over_power
+from ridgeback.symbolic.certificates.accuracy import accuracy
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
+from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+from ridgeback.symbolic.singularities.limits import limits
+from ridgeback.symbolic.systems.any_form import as_oscillator
 
 DOCS = Path(__file__).resolve().parents[3] / "docs" / "results" / "atlas.md"
 
@@ -87,3 +93,30 @@ def test_the_page_in_docs_is_what_the_command_makes() -> None:
     page = DOCS.read_text(encoding="utf-8").splitlines()
     for line in markdown(atlas(["pendulum", "morse", "relativistic"])).splitlines():
         assert line in page
+
+
+def test_forces_with_kinks_have_a_radius_or_one_term() -> None:
+    """u + u|u|: the force of u > 0 continued through rest has another zero at u = -1, the separatrix of its series."""
+    names = ["kinked-spring", "cube-root", "quadratic", "cubic"]
+    kinked, *powers = atlas(names, orders=(4, 8))
+    assert kinked.limits is not None
+    assert kinked.limits.radius == pytest.approx(1.0, abs=1e-6)
+    assert all(abs(later) < abs(first) for first, later in (item.errors for item in kinked.inside))
+    assert [chart.why.split(" exactly")[0] for chart in powers] == [
+        "none: omega0 = 1.070450514 A^(-1/3)",
+        "none: omega0 = 0.9146813565 A^(1/2)",
+        "none: omega0 = 0.8472130848 A",
+    ]
+    page = DOCS.read_text(encoding="utf-8").splitlines()
+    assert all(line in page for line in markdown(atlas(["bilinear", "kinked-spring", "cubic"])).splitlines())
+
+
+def test_a_series_about_a_power_law_is_charted() -> None:
+    """u^3 + u^5 has the zeros +-i beside rest: the period is singular at A^2 = -1."""
+    series = energy_on_each_side("u'' + u**3 + u**5 = 0", 96)
+    assert isinstance(series, PowerExpansion)
+    found = limits(over_power(series))
+    assert found.radius == pytest.approx(1.0, abs=1e-3)
+    (row,) = accuracy(as_oscillator("u'' + u**3 + u**5 = 0"), 8, [Fraction(1, 2)], resummed=False)
+    assert row.errors[0] is not None
+    assert 1e-6 < abs(float(row.errors[0].mid())) < 1e-4
