@@ -16,6 +16,7 @@ from ridgeback.symbolic.enclosure import analytic_strip, ball_integral, half_wel
 from ridgeback.symbolic.enclosure.enclosure import Enclosure
 from ridgeback.symbolic.flow import fixed_points, reconstruction, transient
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.high_order import in_balls
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 
@@ -70,6 +71,13 @@ def started() -> object:
         (passage, "MOST_STEPS", 1, REVERSIBLE, UNDECIDED),
         (taylor_step, "TRIES", 0, REVERSIBLE, UNDECIDED),
         (cycle_enclosure, "MOST_BITS", 1, proved, UNPROVED),
+        (
+            in_balls,
+            "ATTEMPTS",
+            0,
+            lambda: in_balls.lindstedt_in_balls(find("duffing"), 6, digits=20),
+            "do not give 20 digits",
+        ),
         (search, "MOST_STEPS", 1, found, "found no limit cycle"),
         (transient, "MOST_STEPS", 1, settling, "takes more than 1 steps"),
         (reconstruction, "MOST_ITERATIONS", 1, started, "start closer to rest"),

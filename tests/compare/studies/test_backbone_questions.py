@@ -102,3 +102,13 @@ def test_resummations_and_minimax_fits_take_part_in_work_against_precision() -> 
     assert ("minimax/python", 3) not in rows  # a polynomial in A^2 has an even degree in A
     if ("minimax/c", 8) in rows:
         assert rows["minimax/c", 8]["largest"] == pytest.approx(rows["minimax/python", 8]["largest"], rel=1e-6)
+
+
+def test_an_order_that_cannot_be_judged_is_not() -> None:
+    """Too few amplitudes, an interval too wide, and a formula that is no truncated series."""
+    A = np.geomspace(0.01, 0.5, 20)
+    assert slope(A[:5], A[:5] ** 4, np.full(5, 1e-16)) is None
+    assert slope(A, np.full(20, 1e-17), np.full(20, 1e-16)) is None
+    assert verdict(4, None).startswith("not decided: fewer than")
+    assert verdict(4, Slope(4.0, 9.0, 20)) == "not decided: the interval is too wide"
+    assert verdict(None, None) == "no theoretical order: not a truncated series"

@@ -17,7 +17,7 @@ from ridgeback.compare.studies.questions import best_estimator, crossings, decay
 from ridgeback.compare.studies.questions.crossings import Duel, axes_of
 from ridgeback.compare.studies.questions.crossings import crossings as crossings_along
 from ridgeback.compare.studies.running import tasks_of
-from ridgeback.compare.studies.tasks import Finished, run
+from ridgeback.compare.studies.tasks import Finished, Outcome, run
 
 PAPER = """
 [study]
@@ -50,6 +50,28 @@ seed = 5
 """
 
 
+ODD = """
+[study]
+ask = "decay-error"
+[[oscillator]]
+system = "van-der-pol"
+parameters = { eps = 0.3 }
+amplitudes = 1
+[[oscillator]]
+system = "damped-pendulum"
+amplitudes = 2
+[grid]
+orders = [0, 4]
+methods = [
+    "lindstedt/energy", "lindstedt/action", "series/energy", "pade/energy", "averaged-action", "closed-form/energy",
+    "harmonic-least-squares/global",
+]
+[signal]
+periods = 12
+samples_per_period = 16
+"""
+
+
 def blocks(plan: Plan) -> list[Finished]:
     return [Finished(task, run(task)) for task in tasks_of(plan)]
 
@@ -58,6 +80,29 @@ def blocks(plan: Plan) -> list[Finished]:
 def paper() -> tuple[Plan, list[Finished]]:
     plan = plan_of(PAPER)
     return plan, blocks(plan)
+
+
+def test_a_method_that_a_motion_has_no_use_for_says_why() -> None:
+    """A limit cycle has one frequency, whatever its energy; what goes by energy, or is of a pendulum, it refuses."""
+    found: dict[tuple[object, ...], Outcome] = {
+        (block.task.system.name, at[0], at[4]): outcome
+        for block in blocks(plan_of(ODD))
+        for at, outcome in block.rows()
+    }
+    reasons = {key: outcome for key, outcome in found.items() if isinstance(outcome, str)}
+    vdp, pendulum = "van-der-pol", "damped-pendulum"
+    assert reasons == {
+        **{(vdp, "series/energy", n): f"{vdp} is no pendulum; the series (14) is of k^2 sin(u)" for n in (0, 4)},
+        **{(vdp, "pade/energy", n): f"{vdp} has no A(t) from the energy: fit only" for n in (0, 4)},
+        (vdp, "averaged-action", None): f"{vdp} has no averaged action",
+        (vdp, "closed-form/energy", None): f"{vdp} has no potential, so no frequency for each energy",
+        (pendulum, "series/energy", 0): "the series (14) has one term or more",
+        (pendulum, "pade/energy", 0): f"{pendulum}: omega0 is constant through order 0; nothing is to be resummed",
+    }
+    rms = {key: float(outcome[0]) for key, outcome in found.items() if not isinstance(outcome, str)}  # type: ignore[arg-type]
+    assert rms[vdp, "lindstedt/energy", 4] == rms[vdp, "lindstedt/action", 4] < 0.2 * rms[vdp, "lindstedt/energy", 0]
+    assert rms[pendulum, "lindstedt/action", 4] < 0.01 * rms[pendulum, "lindstedt/action", 0]
+    assert rms[vdp, "harmonic-least-squares/global", None] < 1e-3
 
 
 def test_errors_along_the_paper_s_decay(paper: tuple[Plan, list[Finished]]) -> None:
