@@ -90,6 +90,12 @@ def test_the_nome_is_recognised_by_the_force() -> None:
             nome(Oscillator.from_equation(equation), 8)
 
 
+@pytest.mark.parametrize("steps", [-1, 7, 2.0, True])
+def test_steps_of_the_nome_are_a_small_whole_number(steps: object) -> None:
+    with pytest.raises(InputError, match=r"steps .* is not a whole number from 0 to 6; use 2"):
+        nome(find("pendulum"), 8, steps=steps)  # type: ignore[arg-type]
+
+
 def test_the_nome_form_ends_with_the_oscillation() -> None:
     for name, beyond in (("pendulum", 3.1416), ("pendulum", 6.0), ("duffing-softening", 1.01)):
         with pytest.raises(InputError, match="does not hold at A"):

@@ -264,6 +264,10 @@ def test_names_cannot_smuggle_markup() -> None:
     assert "<img" not in hostile._repr_html_()
 
 
+def test_a_table_without_rows_is_nothing() -> None:
+    assert html_table([]) == latex_table([]) == ""
+
+
 def test_an_oscillator_is_a_line_and_its_equation() -> None:
     pendulum = ridgeback.oscillator("pendulum", parameters={"k": 2})
     assert repr(pendulum) == "<Oscillator: pendulum, theta'' + 2*mu*theta' + k**2*sin(theta) = 0 (mu = 0, k = 2)>"
