@@ -87,7 +87,8 @@ class OrderCrossing:
 
     estimate: str
     estimate_error: float
-    amplitude_from: Source
+    amplitude_from: Source | None
+    """None: of a limit cycle, whose series is in eps."""
     before: int | None
     """The last order that errs more; None when the lowest order is better already."""
     after: int | None
@@ -100,7 +101,7 @@ class OrderCrossing:
         >>> OrderCrossing("pseudo-wigner", 4.6e-4, "action", 20, 30, True).sentence()
         'expansion at A(t) from the action passes pseudo-wigner between orders 20 and 30'
         """
-        head = f"expansion at A(t) from the {self.amplitude_from}"
+        head = f"expansion at A(t) from the {self.amplitude_from}" if self.amplitude_from else "expansion in eps"
         if self.after is None:
             return f"{head} stays behind {self.estimate} to order {self.before}"
         if self.before is None:

@@ -17,7 +17,8 @@ from ridgeback.compare.benchmark.contenders import (
 )
 from ridgeback.numeric.arrays import Array, Mask
 
-SOURCES: tuple[Source, ...] = ("energy", "action", "fit")
+SOURCES: tuple[Source | None, ...] = ("energy", "action", "fit", None)
+"""None: the limit cycle, whose series is in eps."""
 SHOWN_ORDERS = (2, 4, 8, 12, 20)
 """Orders whose crossing in amplitude is looked for."""
 
@@ -33,7 +34,7 @@ def crossings(
     )
 
 
-def expansions(rows: Sequence[Row], source: Source) -> list[Row]:
+def expansions(rows: Sequence[Row], source: Source | None) -> list[Row]:
     """The ranked expansions at one amplitude, by order, each once."""
     found = [r for r in rows if r.kind == "expansion" and r.amplitude_from == source and r.language == "python"]
     return sorted((r for r in found if r.ranked), key=lambda r: r.order or 0)
@@ -52,7 +53,7 @@ def by_order(rows: Sequence[Row], reference: Reference) -> Iterator[OrderCrossin
             yield passing(series, estimate, source, reference)
 
 
-def passing(series: Sequence[Row], estimate: Row, source: Source, reference: Reference) -> OrderCrossing:
+def passing(series: Sequence[Row], estimate: Row, source: Source | None, reference: Reference) -> OrderCrossing:
     """The first order from which every higher one errs less than an estimate; ``series`` is by order."""
     error = float(estimate.relative_rms_error or 0.0)
     worse = [r for r in series if float(r.relative_rms_error or 0.0) >= error]
@@ -85,12 +86,17 @@ def by_amplitude(
     size = amplitude[support]
     if np.ptp(size) <= _change(size, window):
         return
-    for source in SOURCES:
+    for source in amplitudes_of(rows):
         for row in expansions(rows, source):
             if row.order in SHOWN_ORDERS:
                 for estimate in raw_estimates(rows):
                     better = smooth[row.method] < smooth[estimate.method]
                     yield _crossing(row, estimate, source, better, size, window)
+
+
+def amplitudes_of(rows: Sequence[Row]) -> list[Source]:
+    """The amplitudes that the expansions take."""
+    return [source for source in SOURCES if source is not None and expansions(rows, source)]
 
 
 def _crossing(row: Row, estimate: Row, source: Source, better: Mask, size: Array, window: int) -> AmplitudeCrossing:

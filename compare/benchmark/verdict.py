@@ -76,6 +76,6 @@ def _ends(row: Row, estimate: Row | None, rows: Sequence[Row], reference: Refere
     if estimate is None or row.kind not in ("expansion", "estimate"):
         return
     for source in SOURCES if row.kind == "estimate" else (row.amplitude_from,):
-        series = expansions(rows, source) if source is not None else []
-        if series and source is not None and not (source == "energy" and expansions(rows, "action")):
+        series = expansions(rows, source)
+        if series and not (source == "energy" and expansions(rows, "action")):
             yield passing(series, estimate, source, reference).sentence()

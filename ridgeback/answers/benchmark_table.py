@@ -157,7 +157,7 @@ def passed(found: Benchmark) -> list[str]:
     return [line for source in sources for line in at_source(found, source)]
 
 
-def at_source(found: Benchmark, source: str) -> list[str]:
+def at_source(found: Benchmark, source: str | None) -> list[str]:
     """The same at one amplitude."""
     below = {(c.estimate, c.order): c.words() for c in found.crossings.amplitudes if c.amplitude_from == source}
     orders = sorted({order for _, order in below})
@@ -167,7 +167,7 @@ def at_source(found: Benchmark, source: str) -> list[str]:
         for c in found.crossings.orders
         if c.amplitude_from == source
     ]
-    head = f"expansions at A(t) from the {source} against estimates"
+    head = f"expansions {f'at A(t) from the {source}' if source else 'in eps'} against estimates"
     return ["", head, aligned(["estimate", "passed", *ahead.values()], lines)] if lines else []
 
 

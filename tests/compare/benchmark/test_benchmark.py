@@ -13,7 +13,7 @@ from ridgeback.answers.benchmark_table import COLUMNS, benchmark_text
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.benchmark import assembled, benchmark
 from ridgeback.compare.benchmark.contenders import Reference, Row
-from ridgeback.compare.benchmark.crossings import by_order
+from ridgeback.compare.benchmark.crossings import amplitudes_of, by_order
 from ridgeback.compare.benchmark.judging import common_support
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import judge
@@ -225,3 +225,17 @@ def test_contenders_without_a_common_stretch_are_refused() -> None:
 def test_a_track_of_few_values_is_held_as_their_mean() -> None:
     track = Track(np.arange(5.0), np.array([1.0, 2.0, 9.0, 9.0, 9.0]), np.arange(5) < 2, "flat")
     assert held_beyond(track, np.arange(3.0)).tolist() == [1.5, 1.5, 1.5]
+
+
+def test_the_series_of_a_limit_cycle_passes_estimates_by_order_and_not_by_amplitude() -> None:
+    errors = {2: 1e-3, 4: 1e-5, 8: 1e-7}
+    rows = [
+        Row(f"l-{n}", "", "expansion", order=n, language="python", relative_rms_error=e, ranked=True)
+        for n, e in errors.items()
+    ]
+    rows.append(Row("wigner", "wigner", "estimate", relative_rms_error=1e-4, ranked=True))
+    (found,) = by_order(rows, Reference("", 1e-9, 1e-8))
+    assert (found.amplitude_from, found.before, found.after, found.settled) == (None, 2, 4, True)
+    assert found.sentence() == "expansion in eps passes wigner between orders 2 and 4"
+    assert amplitudes_of(rows) == []
+    assert "expansion in eps passes wigner between orders 2 and 4" in judge(rows, Reference("", 1e-9, 1e-8)).limit
