@@ -60,7 +60,7 @@ def _named(runs: Runs) -> Iterator[Part]:
     yield Part("table", _class_table(runs))
     for i, named in enumerate(runs.named):
         if named.made is not None:
-            table = parameter_table(named.made.best, key=f"parameters-{i}")
+            table = parameter_table(named.made.best, key=f"parameters-{i}", of=named.label)
             yield fold(f"Parameters of {named.label}", Part("text", named.made.verdict), Part("table", table))
 
 

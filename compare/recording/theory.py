@@ -69,7 +69,9 @@ class TheoryBackbone:
     def sentence(self) -> str:
         """The judgement in words."""
         if self.agreement is Agreement.UNCOVERED:
-            return f"{self.title} oscillates at none of the measured amplitudes."
+            low, high = (f"{end(self.amplitude):.3g}" for end in (np.min, np.max))
+            degrees = "; an angle in degrees needs --unit deg" if "sin(" in self.equation else ""
+            return f"{self.title} oscillates at none of the measured amplitudes, {low} to {high}{degrees}."
         part = "" if self.covered == 1 else f" over the {100 * self.covered:.0f} % of it at which that oscillates"
         size = f"{offset(self.mean)} on average ({per_cent(self.rms)} rms){part}"
         if self.agreement is Agreement.DIFFERS:

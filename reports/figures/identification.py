@@ -148,11 +148,14 @@ def ranking_table(found: Identification) -> Table:
     )
 
 
-def parameter_table(candidate: Candidate, key: str = "parameters") -> Table:
-    """The fitted numbers of one candidate with their 95 % intervals, value and ends to the same decimals."""
+def parameter_table(candidate: Candidate, key: str = "parameters", of: str = "") -> Table:
+    """The fitted numbers of one candidate with their 95 % intervals, value and ends to the same decimals.
+
+    ``of`` names the signal where a page has several.
+    """
     return Table(
         key,
-        f"{candidate.title}: {candidate.equation}",
+        f"{f'{of}, ' if of else ''}{candidate.title}: {candidate.equation}",
         ("parameter", "value", "95 % interval"),
         tuple(Row((_named(p), *_with_interval(p))) for p in candidate.parameters),
     )

@@ -354,6 +354,9 @@
     });
   });
 
+  // what scrolls sideways can be reached by the keyboard
+  $$(".eqs dd,.terms,.sys .eq").forEach(e => { if (e.scrollWidth > e.clientWidth) e.tabIndex = 0; });
+
   // copying, and sorting of tables by their columns
   $$("button[data-copy],.tab button").forEach(b => {
     b.hidden = false;
