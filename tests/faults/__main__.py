@@ -20,7 +20,8 @@ def main() -> int:
     print("| about | cases | handled well | most processor time |\n|---|---|---|---|")
     total = 0
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
+        folder = Path(name) / "samples"  # in a folder of its own, beside which there is nothing
+        folder.mkdir()
         write_samples(folder)
         for case in WARM:
             tried(case, folder)

@@ -214,7 +214,7 @@ CASES: tuple[Case, ...] = (
     refused("study study_good.toml --dry-run --set amplitudes=-1", "holds -1"),
     refused("study --example nosuch", "'nosuch'", "paper"),
     refused("study --example paper --orders 2", "--orders"),
-    Case("study study_beyond.toml --store s.db", 3, ("2 of 2 cells have no value", "says why"), MADE),
+    Case("study study_beyond.toml --store beyond.db", 3, ("2 of 2 cells have no value", "says why"), ("beyond.db",)),
     Case(
         f"{FIRST} && $R study study_good.toml --set orders=2 --store s.db", 2, ("orders", "another study"), MADE, True
     ),
