@@ -30,6 +30,8 @@ FINE, COARSE = (5, 4), (3, 2)
 """Degrees of phase and amplitude."""
 ROOM = 1.3
 """Samples wanted in a window for each parameter."""
+MOST_UNSETTLED, WIDER = 0.25, 1.25
+"""Share of windows whose finer fit may not come to rest before all are widened by this factor."""
 LEFT = 0.5
 """Of the parabola's bias the quartic keeps this times (h a'/a)^2, h half the window, and LEAST_LEFT at least: for any
 power law a' = -c a^(p + 1) the next term of the logarithm is that much smaller, at the ends of a window."""
@@ -178,8 +180,26 @@ def local_rates(
         pilot = harmonic_fit(real, rate, omega, half=half, shape=Shape(multiples, *COARSE), centres=sparse)
         halves = half_widths(pilot, omega, rate, fewest=needed, clean=clean)
     centres = np.arange(0, real.size, spacing(halves, cycle, rate))
-    halves = halves[centres]
-    degrees = FINE if 2 * int(halves.min()) + 1 >= needed else COARSE
+    halves, longest = halves[centres], (real.size - 1) // 2
+    while True:
+        found = fitted(real, rate, omega, multiples, centres=centres, halves=halves, start=start)
+        if fixed or unsettled(found) <= MOST_UNSETTLED or int(halves.min()) >= longest:
+            return found
+        halves = np.minimum(np.ceil(WIDER * halves).astype(halves.dtype), longest)
+
+
+def fitted(
+    real: Array,
+    rate: float,
+    omega: Array,
+    multiples: tuple[int, ...],
+    *,
+    centres: NDArray[np.intp],
+    halves: NDArray[np.intp],
+    start: float,
+) -> LocalRates:
+    """Both fits at each centre in its own window."""
+    degrees = FINE if 2 * int(halves.min()) + 1 >= int(ROOM * Shape(multiples, *FINE).size) + 1 else COARSE
 
     def fits(phase_degree: int, amplitude_degree: int) -> HarmonicFit:
         shape = Shape(multiples, phase_degree, amplitude_degree)
@@ -193,3 +213,12 @@ def local_rates(
         )
 
     return LocalRates(centres, halves, fits(*degrees), fits(*COARSE), real.size, rate)
+
+
+def unsettled(found: LocalRates) -> float:
+    """Of the windows in which the parabola came to rest, the share in which the quartic did not.
+
+    Harmonics with a quintic each are nearly the same over three cycles; over four or five they are told apart.
+    """
+    coarse = found.coarse.settled
+    return float((coarse & ~found.fine.settled).sum()) / max(1, int(coarse.sum()))

@@ -144,3 +144,14 @@ def test_a_steady_oscillation_is_left_whole() -> None:
     for size in (0.05, 0.3):
         x = np.cos(2 * np.pi * (1.0 * t + 0.01 * t**2)) + size * np.random.default_rng(2).normal(size=640)
         assert estimate(x, 32.0, bias=False).used.span is None
+
+
+def test_windows_widen_until_strong_harmonics_are_told_apart():
+    time = np.arange(397) / 40.0
+    amplitude = 5 * np.exp(-0.09 * time)
+    phase = 7.85 * time - 0.0176 * np.cumsum(amplitude**2) / 40
+    x = amplitude * np.cos(phase) + 0.012 * amplitude**2 * np.cos(2 * phase) + 8e-4 * amplitude**3 * np.cos(3 * phase)
+    x += 0.02 * np.random.default_rng(1).normal(size=time.size)
+    found = backbone(estimate(x, 40.0), x, 40.0)  # over three cycles no window of 33 parameters comes to rest
+    assert np.all(np.abs(found.growth_rate + 0.09) < 4 * found.growth_rate_sd)
+    assert np.median(found.growth_rate_sd) < 0.01
