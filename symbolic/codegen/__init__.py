@@ -106,14 +106,23 @@ def written(form: Form, language: str) -> str:
     """A form as source text; raises InputError for what the language does not have."""
     target = find_language(language)
     target.accept(form)
-    return target.write(form)
+    return trimmed(target.write(form))
 
 
 def packaged(form: Form, language: str) -> dict[str, str]:
     """A form as the files of a small package by their paths; errors as for ``written``."""
     target = find_language(language)
     target.accept(form)
-    return target.package(form)
+    return {path: trimmed(text) for path, text in target.package(form).items()}
+
+
+def trimmed(text: str) -> str:
+    r"""Text whose lines do not end in blanks.
+
+    >>> trimmed("// \nint i;  \n")
+    '//\nint i;\n'
+    """
+    return "\n".join(map(str.rstrip, text.split("\n")))
 
 
 def form_of(
