@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import signal
 from scipy.ndimage import maximum_filter1d
 
 from ridgeback.common.errors import InputError
@@ -16,6 +15,7 @@ from ridgeback.numeric.estimators.estimate import estimate, estimation
 from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.recording.quantity import named_quantity
 from ridgeback.numeric.recording.recording import Recording
+from ridgeback.numeric.signal.decimation import RINGING, Samples, every
 from ridgeback.numeric.tracking.track import Track
 
 PER_CYCLE = 24
@@ -119,11 +119,10 @@ def usable(recording: Recording, span: tuple[float, float] | None) -> tuple[Reco
         notes.append(f"Only times from {span[0]:g} to {span[1]:g} were used.")
     factor = thinning(recording)
     if factor > 1:
-        values = signal.decimate(recording.values, factor, ftype="fir", zero_phase=True)
         recording = replace(
             recording,
             time=recording.time[::factor],
-            values=values,
+            values=thinned(recording, factor),
             rate=recording.rate / factor,
             clipped=maximum_filter1d(recording.clipped, 2 * factor + 1)[::factor],
             filled=recording.filled[::factor],
@@ -135,6 +134,16 @@ def usable(recording: Recording, span: tuple[float, float] | None) -> tuple[Reco
             f"use a span of {MOST_SAMPLES / recording.rate:.4g} time units or less"
         )
     return recording, tuple(notes)
+
+
+def thinned(recording: Recording, factor: int) -> Array:
+    """Every ``factor``-th sample after a low-pass filter; as measured at the ends, which the filter reaches beyond.
+
+    Errs by less than 2e-4 of the amplitude up to three quarters of the new Nyquist frequency (``decimation.FLAT``).
+    """
+    values = recording.values[::factor].copy()
+    values[RINGING:-RINGING] = every(Samples(recording.values, recording.rate, 0.0), factor).x
+    return values
 
 
 def part_of(recording: Recording, cut: slice) -> Recording:

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import savgol_coeffs
+from scipy.signal import savgol_coeffs, savgol_filter
 
 from ridgeback.numeric.harmonics.local_fit import Shape
 from ridgeback.numeric.harmonics.spline_model import SplineModel
@@ -38,8 +38,8 @@ class Window:
 def expected_error(model: SplineModel, half: int, degree: int, margin: int) -> float:
     """Relative root mean square error of omega by local fits of the model's own signal and noise.
 
-    The mean is over all but ``margin`` samples at each end, or half a window if that is more; over some CENTRES of them
-    in a long record.
+    The mean is over all but ``margin`` samples at each end, the same for windows of every length, so that they compare;
+    over some CENTRES of them in a long record.  Within half a window of an end the end's own window counts.
 
     >>> from ridgeback.numeric.harmonics.spline_fit import best_model, harmonic_splines
     >>> t = np.arange(640) / 32.0
@@ -50,13 +50,17 @@ def expected_error(model: SplineModel, half: int, degree: int, margin: int) -> f
     """
     rate = 1.0 / float(model.time[1] - model.time[0])
     omega, amplitude = model.tone(1)
-    coefficients = savgol_coeffs(2 * half + 1, degree, deriv=1, delta=1.0 / rate, use="dot")
-    first, step = max(margin, half), max(1, omega.size // CENTRES)
-    at = slice(first, max(omega.size - first, first + 1), step)
-    around = np.lib.stride_tricks.sliding_window_view(model.phase, 2 * half + 1)[first - half :: step]
-    bias = around[: omega[at].size] @ coefficients - omega[at]
-    size = np.maximum(np.abs(amplitude), 1e-3 * np.abs(amplitude).max())[at]
-    noise = np.sqrt(2.0 * (coefficients**2).sum()) * model.noise / size
+    size, step = 2 * half + 1, max(1, omega.size // CENTRES)
+    at = np.arange(margin, max(omega.size - margin, margin + 1), step)
+    coefficients = savgol_coeffs(size, degree, deriv=1, delta=1.0 / rate, use="dot")
+    slope = np.empty(at.size)
+    first, last = (at < half), (at >= omega.size - half)
+    inner = ~(first | last)
+    slope[inner] = np.lib.stride_tricks.sliding_window_view(model.phase, size)[at[inner] - half] @ coefficients
+    slope[first] = savgol_filter(model.phase[:size], size, degree, deriv=1, delta=1.0 / rate)[at[first]]
+    slope[last] = savgol_filter(model.phase[-size:], size, degree, deriv=1, delta=1.0 / rate)[at[last] - omega.size]
+    bias, strength = slope - omega[at], np.maximum(np.abs(amplitude), 1e-3 * np.abs(amplitude).max())[at]
+    noise = np.sqrt(2.0 * (coefficients**2).sum()) * model.noise / strength
     return float(np.sqrt(np.mean((bias**2 + noise**2) / omega[at] ** 2)))
 
 

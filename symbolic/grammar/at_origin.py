@@ -145,7 +145,8 @@ def _power(base: arb, expression: sympy.Pow) -> arb:
         return arb(0)
     if base.contains(0):
         if not any(symbol.name in _UNKNOWNS for symbol in expression.base.free_symbols):
-            raise InputError(f"{brief(expression)} divides by 0 with the values given; give the parameters other ones")
+            other = " with the values given; give the parameters other ones" if expression.free_symbols else ""
+            raise InputError(f"{brief(expression)} divides by 0{other}")
         raise InputError(
             f"{brief(expression)} is not analytic on both sides of the origin (its base vanishes there); rewrite that "
             "term (powers of abs(u), and odd roots such as u**(1/3), are taken)"

@@ -204,6 +204,8 @@ def _restoring(name: str, found: Half | None, where: str) -> Half:
 
 def _begun(force: sympy.Expr, d: int) -> Half | None:
     """A side with its first term, from its power series."""
+    if force.has(sympy.I, sympy.oo, -sympy.oo, sympy.zoo, sympy.nan):
+        raise InputError(f"the force on one side of rest, {brief(force)}, is not finite and real; rewrite it")
     ring = _Expressions(
         sympy.Integer, {name: getattr(sympy, name) for name in FUNCTIONS}, _dot, sympy.Pow, sympy.sympify
     )

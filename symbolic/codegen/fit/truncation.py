@@ -40,7 +40,7 @@ def errors_up_to(
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> errors, _ = errors_up_to(find("pendulum"), lindstedt(find("pendulum"), 2), [Fraction(1), Fraction(2)])
     >>> [round(float(e), 4) for e in errors]
-    [0.0004, 0.0072]
+    [0.0003, 0.0033]
     """
     well, last = well_of(oscillator), ends[-1]
     around = region(well, last)

@@ -1,9 +1,11 @@
 """Where a force begins on each side of rest, beside differentiation."""
 
+import pytest
 import sympy
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ridgeback.common.errors import InputError
 from ridgeback.symbolic.grammar.kinks import U
 from ridgeback.symbolic.systems.sides import halves
 
@@ -38,3 +40,11 @@ def test_a_tower_of_functions_costs_no_more_than_its_nodes():
     # tanh(x)^7 cancels to the order of u: the first term that is left is that of u^14
     vanishing = sympy.tanh(sympy.atanh(U**2) ** 7) + U**15
     assert [(side.power, side.sign) for side in halves(vanishing)] == [(14, 1), (14, -1)]
+
+
+@pytest.mark.parametrize(
+    "wrong", [sympy.atanh(sympy.atanh(sympy.sign(U))), sympy.log(sympy.sign(U)), 1 / (1 - sympy.sign(U))]
+)
+def test_a_side_that_is_not_finite_and_real_is_refused(wrong):
+    with pytest.raises(InputError, match="not finite and real"):
+        halves(U + wrong)

@@ -1,0 +1,37 @@
+"""The error that a window is expected to make, beside the plain filter over every sample."""
+
+import numpy as np
+import pytest
+from scipy.signal import savgol_coeffs, savgol_filter
+
+from ridgeback.numeric.estimators import window_choice
+from ridgeback.numeric.estimators.window_choice import expected_error
+from ridgeback.numeric.harmonics.spline_fit import best_model, harmonic_splines
+
+RATE = 32.0
+
+
+@pytest.fixture(scope="module")
+def model():
+    t = np.arange(640) / RATE
+    x = np.exp(-0.05 * t) * np.cos(2 * np.pi * (t - 0.3 * np.exp(-0.2 * t)))
+    x += 0.01 * np.random.default_rng(2).normal(size=t.size)
+    return best_model(harmonic_splines(x, RATE, np.full(640, 2 * np.pi)))
+
+
+def over_every_sample(model, half, degree, margin):
+    """Its own signal filtered whole: scipy fits the end's window where there is no room round a sample."""
+    size, (omega, amplitude) = 2 * half + 1, model.tone(1)
+    bias = savgol_filter(model.phase, size, degree, deriv=1, delta=1 / RATE) - omega
+    response = np.linalg.norm(savgol_coeffs(size, degree, deriv=1, delta=1 / RATE))
+    noise = np.sqrt(2) * model.noise * response / np.abs(amplitude)
+    return np.sqrt(np.mean(((bias**2 + noise**2) / omega**2)[margin : omega.size - margin]))
+
+
+@pytest.mark.parametrize("half", [16, 48, 160])
+@pytest.mark.parametrize("degree", [3, 5])
+def test_windows_of_every_length_are_judged_over_the_same_samples(model, half, degree, monkeypatch):
+    whole = over_every_sample(model, half, degree, 32)
+    assert expected_error(model, half, degree, 32) == pytest.approx(whole, rel=1e-9)
+    monkeypatch.setattr(window_choice, "CENTRES", 160)
+    assert expected_error(model, half, degree, 32) == pytest.approx(whole, rel=0.05)
