@@ -25,12 +25,15 @@ for name in {GONE!r}:
 def refused(*_, **__):
     raise RuntimeError("can't start new thread")
 
+def unsupported(*_, **__):
+    raise OSError(138, "emscripten does not support processes.")
+
 threading.Thread.start = refused
 import os, subprocess
-subprocess.Popen.__init__ = refused
+subprocess.Popen.__init__ = unsupported
 for name in ("fork", "posix_spawn", "posix_spawnp", "forkpty", "system"):
     if hasattr(os, name):
-        setattr(os, name, refused)
+        setattr(os, name, unsupported)
 import ridgeback
 """
 
