@@ -30,7 +30,7 @@ def exact(system: str, x: float) -> arb:
         if system == "pendulum":
             return mean(one, (amplitude / 2).cos())[1]
         square = amplitude * amplitude
-        return mean((one + square).sqrt(), (one + square / 2).sqrt())[1]
+        return mean((one + square).sqrt(), (one + square * arb(0.5)).sqrt())[1]
 
 
 @pytest.mark.parametrize("system", ["pendulum", "duffing"])
