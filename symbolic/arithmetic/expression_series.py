@@ -161,6 +161,8 @@ class Program:
 
     def _build_function(self, e: sympy.Expr) -> Node:
         name = getattr(e.func, "__name__", str(e))
+        if not e.args:  # the imaginary unit, or an infinity of the complex plane
+            raise InputError(f"{e} is no real number, so there is no power series with it")
         check_expandable(e, {*self.inputs, *self._fixed})
         argument = self._compile(e.args[0])
         if name in _PAIRS:

@@ -48,3 +48,8 @@ def test_a_tower_of_functions_costs_no_more_than_its_nodes():
 def test_a_side_that_is_not_finite_and_real_is_refused(wrong):
     with pytest.raises(InputError, match="not finite and real"):
         halves(U + wrong)
+
+
+def test_a_side_with_a_derivative_that_is_not_real_is_refused():
+    with pytest.raises(InputError, match="no real number"):
+        halves(U + sympy.asin(10 * sympy.sign(U)))
