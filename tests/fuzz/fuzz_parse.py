@@ -16,7 +16,7 @@ VOCABULARY = WORDS.split()
 LEAVES = ("u", "u'", "k", "mu", "2", "1", "1/3", "pi", "0.1")
 CALLS = [word for word in VOCABULARY if len(word) > 1 and word.endswith("(")]
 POWERS = ("**2", "**3", "**-1", "**(1/2)", "**(-2/3)", "**7")
-BOUNDS = ("-max_total_time=20", "-max_len=400", "-timeout=60")
+BOUNDS = ("-max_total_time=20", "-max_len=400", "-timeout=180")
 
 
 def text_from(data):
