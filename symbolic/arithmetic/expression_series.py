@@ -162,7 +162,9 @@ class Program:
     def _build_function(self, e: sympy.Expr) -> Node:
         name = getattr(e.func, "__name__", str(e))
         if not e.args:  # the imaginary unit, or an infinity of the complex plane
-            raise InputError(f"{e} is no real number, so there is no power series with it")
+            raise InputError(
+                f"{e} is no real number; keep what roots, logarithms and inverse functions are taken of in range"
+            )
         check_expandable(e, {*self.inputs, *self._fixed})
         argument = self._compile(e.args[0])
         if name in _PAIRS:

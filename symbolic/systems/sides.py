@@ -205,9 +205,12 @@ def _restoring(name: str, found: Half | None, where: str) -> Half:
 def _begun(force: sympy.Expr, d: int) -> Half | None:
     """A side with its first term, from its power series."""
     if force.has(sympy.I, sympy.oo, -sympy.oo, sympy.zoo, sympy.nan):
-        raise InputError(f"the force on one side of rest, {brief(force)}, is not finite and real; rewrite it")
+        raise InputError(
+            f"the force on one side of rest, {brief(force)}, is not finite and real; keep what roots, "
+            "logarithms and inverse functions are taken of within their range"
+        )
     ring = _Expressions(
-        sympy.Integer, {name: getattr(sympy, name) for name in FUNCTIONS}, _dot, sympy.Pow, sympy.sympify
+        sympy.Integer, {name: getattr(sympy, name) for name in FUNCTIONS}, _dot, sympy.Pow, number=lambda e: e
     )
     fixed = {symbol: [symbol] for symbol in force.free_symbols - {U}}
     series = Program(force, ring, {}, U, V, fixed={**fixed, U: [sympy.S.Zero, sympy.S.One]}).root
