@@ -116,15 +116,32 @@ def energy_integral(
 
 
 def _frequency(twice_potential: list[Scalar], amplitude: str, told: Progress) -> list[Scalar]:
-    """omega0 in powers of the amplitude, from 2 V(u) / u^2."""
+    """omega0 in powers of the amplitude X, from 2 V(u) / u^2: found in powers of e = 2E, and e put in.
+
+    Where e is a series in X^2, as in an even potential, everything is: half as many terms.
+    """
+    length, even = len(twice_potential), all(c == 0 for c in twice_potential[1::2])
     told(1 / 10, "reversion of the potential")
-    root = truncated.square_root(twice_potential)  # s(u) / u
-    u_of_s = truncated.revert([fmpq(0), *root])
-    period = _period(u_of_s, len(twice_potential))
+    period = _period(_even_reversion(twice_potential) if even else _reversion(twice_potential))
     told(1 / 2, f"{amplitude} amplitude in the energy")
-    energy = _energy_of(amplitude, twice_potential, period)
+    frequency = truncated.reciprocal(period)  # omega0(e)
+    if amplitude == "energy":
+        return _spread(frequency, length)
+    if amplitude == "action":
+        return _spread(truncated.compose(frequency, _energy_of_action(period)), length)
     told(7 / 10, "frequency in the amplitude")
-    return truncated.reciprocal(truncated.compose(period, energy))
+    if even:
+        return _spread(truncated.compose(frequency, [fmpq(0), *twice_potential[::2]]), length)
+    sign = -1 if amplitude == "trough" else 1
+    energy = [fmpq(0), fmpq(0), *(sign**n * c for n, c in enumerate(twice_potential))]  # 2 V(A) or 2 V(-A)
+    return truncated.compose(frequency + [fmpq(0)] * (length - len(frequency)), energy)
+
+
+def _spread(in_squares: list[Scalar], length: int) -> list[Scalar]:
+    """A series in X^2 as one in X of so many terms."""
+    result: list[Scalar] = [fmpq(0)] * length
+    result[::2] = in_squares
+    return result
 
 
 def _twice_potential(force: sympy.Expr, names: tuple[str, ...], length: int) -> list[Scalar]:
@@ -138,29 +155,21 @@ def _twice_potential(force: sympy.Expr, names: tuple[str, ...], length: int) -> 
     return [(value[0] if value else fmpq(0)) * fmpq(2, n + 2) for n, value in enumerate(taylor)]
 
 
-def _period(u_of_s: list[Scalar], length: int) -> list[Scalar]:
-    """T / 2 pi in powers of e = 2E; only whole powers of E occur, so half as many terms as powers of s."""
-    result: list[Scalar] = [fmpq(0)] * length
-    for n in range((length - 1) // 2 + 1):
-        if 2 * n + 1 < len(u_of_s):
-            result[n] = u_of_s[2 * n + 1] * ((2 * n + 1) * fmpq(math.comb(2 * n, n), 4**n))
-    return result
+def _reversion(twice_potential: list[Scalar]) -> list[Scalar]:
+    """Coefficients of s, s^3, ... in U(s), from s(u) = u sqrt(2 V(u) / u^2)."""
+    return truncated.revert([fmpq(0), *truncated.square_root(twice_potential)])[1::2]
 
 
-def _energy_of(amplitude: str, twice_potential: list[Scalar], period: list[Scalar]) -> list[Scalar]:
-    """2E as a series in the amplitude, by definition of the amplitude."""
-    length = len(period)
-    if amplitude == "peak":
-        return [fmpq(0), fmpq(0), *twice_potential][:length]
-    if amplitude == "trough":
-        return [fmpq(0), fmpq(0), *((-1) ** n * c for n, c in enumerate(twice_potential))][:length]
-    if amplitude == "energy":
-        return ([fmpq(0), fmpq(0), fmpq(1)] + [fmpq(0)] * length)[:length]
-    # dJ/dE = T / 2 pi, so 2J = sum t_n e^(n+1) / (n+1) =: e j(e);  X = sqrt(2J) gives X^2 = e j(e), to be reverted.
-    twice_action = [fmpq(0), *(t * fmpq(1, n + 1) for n, t in enumerate(period))][: length + 1]
-    energy = truncated.revert(twice_action)
-    squared: list[Scalar] = [fmpq(0)] * length
-    for n, value in enumerate(energy):
-        if 2 * n < length:
-            squared[2 * n] = value
-    return squared
+def _even_reversion(twice_potential: list[Scalar]) -> list[Scalar]:
+    """The same for an even potential: s^2 = 2 V is a series in u^2, its reversion U^2 one in s^2."""
+    return truncated.square_root(truncated.revert([fmpq(0), *twice_potential[::2]])[1:])
+
+
+def _period(of_u: list[Scalar]) -> list[Scalar]:
+    """T / 2 pi in powers of e = 2E."""
+    return [c * ((2 * n + 1) * fmpq(math.comb(2 * n, n), 4**n)) for n, c in enumerate(of_u)]
+
+
+def _energy_of_action(period: list[Scalar]) -> list[Scalar]:
+    """2E in powers of X^2 = 2J: dJ/dE = T / 2 pi, so 2J = sum t_n e^(n+1) / (n+1), to be reverted."""
+    return truncated.revert([fmpq(0), *(t * fmpq(1, n + 1) for n, t in enumerate(period))])[: len(period)]
