@@ -1,24 +1,25 @@
 """Build the source archive and from it the wheel, look into both, and use the wheel beside names that could collide.
 
-    python -m tests.packaging        (needs the package ``build``; in an environment of its own it installs the wheel)
+    python -m tests.packaging [PYTHON...]        (needs the package ``build``)
 
 The archive holds plain files and builds without links; the wheel holds the one top-level package ``ridgeback``.
 Installed beside the registry's package ``symbolic``, in a folder with a user's ``compare.py`` and ``reports/``, every
-verb works.
+verb works.  The wheel is installed in an environment of its own by each PYTHON named, by this one where none is.  At
+the end the steps of the conda recipe are gone through, with the index's packages under the recipe's names.
 """
 
 from __future__ import annotations
 
-import subprocess
 import sys
 import tarfile
 import tempfile
-import venv
 import zipfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from tests.packaging import recipe
+from tests.packaging.processes import ROOT, run
+
 ROOMS = ("symbolic", "numeric", "compare", "reports")
 VERBS: Sequence[tuple[str, ...]] = (
     ("systems",),
@@ -36,14 +37,6 @@ THEIRS = {
     "reports/__init__.py": "",
     "reports/mine.py": "M = 1\n",
 }
-
-
-def run(*command: str | Path, cwd: Path) -> str:
-    """Standard output of a command that must succeed."""
-    done = subprocess.run([str(part) for part in command], cwd=cwd, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise SystemExit(f"{' '.join(map(str, command))}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
-    return done.stdout
 
 
 def modules() -> set[str]:
@@ -85,9 +78,10 @@ def wrong_in_wheel(path: Path) -> Iterator[str]:
     yield from (f"{name} is in the wheel" for name in sorted(names - modules()) if ".dist-info/" not in name)
 
 
-def used_beside_others(wheel: Path, folder: Path) -> None:
+def used_beside_others(wheel: Path, folder: Path, interpreter: str) -> str:
     """Install the wheel beside ``symbolic`` and run every verb where a user's files have the rooms' names."""
-    venv.create(folder / "venv", with_pip=True)
+    folder.mkdir()
+    run(interpreter, "-m", "venv", folder / "venv", cwd=folder)
     python = folder / "venv" / "bin" / "python"
     run(python, "-m", "pip", "install", "--quiet", wheel, "symbolic", cwd=folder)
     work = folder / "work"
@@ -98,9 +92,10 @@ def used_beside_others(wheel: Path, folder: Path) -> None:
         run(python, "-m", "ridgeback", *verb, cwd=work)  # the working folder comes first on Python's path
         run(folder / "venv" / "bin" / "ridgeback", *verb, cwd=work)
     run(python, "-c", "import symbolic, compare, reports.mine, ridgeback; assert compare.MINE", cwd=work)
+    return run(python, "--version", cwd=work).strip()
 
 
-def main() -> int:
+def main(interpreters: Sequence[str]) -> int:
     """Build, look, use."""
     with tempfile.TemporaryDirectory(prefix="ridgeback-package-") as name:
         folder = Path(name)
@@ -111,10 +106,12 @@ def main() -> int:
         if wrong:
             print(*wrong, sep="\n", file=sys.stderr)
             return 1
-        used_beside_others(wheel, folder)
-    print(f"{len(VERBS)} verbs, by name and by module, beside symbolic, compare.py, numeric.py and reports/: all done")
+        for count, interpreter in enumerate(interpreters):
+            version = used_beside_others(wheel, folder / str(count), interpreter)
+            print(f"{version}: {len(VERBS)} verbs, by name and by module, beside names that could collide: all done")
+        print(f"conda recipe: {recipe.followed(folder)} steps done")
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(sys.argv[1:] or [sys.executable]))
