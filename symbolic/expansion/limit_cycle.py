@@ -160,21 +160,28 @@ def _first_amplitude(averaged: fmpq_poly, oscillator: Oscillator) -> fmpq:
     roots = [-f[0] / f[1] for f, times in factors if f.degree() == 1 and times == 1]
     positive = sorted(r for r in roots if r > 0)
     if not positive:
-        raise InputError(f"{oscillator.name}: {_no_amplitude(averaged)}")
+        raise _no_amplitude(averaged, oscillator.name)
     return positive[0]
 
 
-def _no_amplitude(averaged: fmpq_poly) -> str:
+class NoFirstAmplitude(InputError):
+    """No power series of a limit cycle begins at eps = 0."""
+
+    def __init__(self, name: str, why: str, instead: str = "") -> None:
+        super().__init__(f"{name}: {why}{instead}")
+        self.why = why
+
+
+def _no_amplitude(averaged: fmpq_poly, name: str) -> NoFirstAmplitude:
     """Why the averaged equation gives no amplitude to start from, and what there is to do."""
     equation = f"the averaged equation is {averaged} = 0 in a"
     found: Any = averaged.complex_roots() if averaged.degree() > 0 else []  # pairs, which its annotation does not say
     real = [(root.real, count) for root, count in found if root.imag.is_zero() and root.real > 0]
     if not real:
-        return f"{equation} and has no positive zero, so that no limit cycle begins at eps = 0"
+        return NoFirstAmplitude(name, f"{equation} and has no positive zero, so that no limit cycle begins at eps = 0")
     if all(count > 1 for _, count in real):
-        return f"{equation}, whose positive zeros are double: limit cycles meet there, and no power series begins"
+        why = f"{equation}, whose positive zeros are double: limit cycles meet there, and no power series begins"
+        return NoFirstAmplitude(name, why)
     simple = min(float(root.mid()) for root, count in real if count == 1)
-    return (
-        f"{equation}, with the irrational zero a = {simple:.6g}; rescale u so that it is rational (measure u in units "
-        f"of {simple:.6g}), or use --method multiple-scales"
-    )
+    instead = f"; rescale u so that it is rational (measure u in units of {simple:.6g}), or use --method multiple-scales"
+    return NoFirstAmplitude(name, f"{equation}, with the irrational zero a = {simple:.6g}", instead)
