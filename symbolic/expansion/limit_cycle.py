@@ -164,7 +164,7 @@ def _first_amplitude(averaged: fmpq_poly, oscillator: Oscillator) -> fmpq:
     return positive[0]
 
 
-class NoFirstAmplitude(InputError):
+class FirstAmplitudeError(InputError):
     """No power series of a limit cycle begins at eps = 0."""
 
     def __init__(self, name: str, why: str, instead: str = "") -> None:
@@ -172,16 +172,19 @@ class NoFirstAmplitude(InputError):
         self.why = why
 
 
-def _no_amplitude(averaged: fmpq_poly, name: str) -> NoFirstAmplitude:
+def _no_amplitude(averaged: fmpq_poly, name: str) -> FirstAmplitudeError:
     """Why the averaged equation gives no amplitude to start from, and what there is to do."""
     equation = f"the averaged equation is {averaged} = 0 in a"
     found: Any = averaged.complex_roots() if averaged.degree() > 0 else []  # pairs, which its annotation does not say
     real = [(root.real, count) for root, count in found if root.imag.is_zero() and root.real > 0]
     if not real:
-        return NoFirstAmplitude(name, f"{equation} and has no positive zero, so that no limit cycle begins at eps = 0")
+        return FirstAmplitudeError(
+            name, f"{equation} and has no positive zero, so that no limit cycle begins at eps = 0"
+        )
     if all(count > 1 for _, count in real):
         why = f"{equation}, whose positive zeros are double: limit cycles meet there, and no power series begins"
-        return NoFirstAmplitude(name, why)
+        return FirstAmplitudeError(name, why)
     simple = min(float(root.mid()) for root, count in real if count == 1)
-    instead = f"; rescale u so that it is rational (measure u in units of {simple:.6g}), or use --method multiple-scales"
-    return NoFirstAmplitude(name, f"{equation}, with the irrational zero a = {simple:.6g}", instead)
+    scaled = f"rescale u so that it is rational (measure u in units of {simple:.6g})"
+    instead = f"; {scaled}, or use --method multiple-scales"
+    return FirstAmplitudeError(name, f"{equation}, with the irrational zero a = {simple:.6g}", instead)

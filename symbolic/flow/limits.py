@@ -12,7 +12,7 @@ from functools import lru_cache
 from typing import Final
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.expansion.limit_cycle import NoFirstAmplitude
+from ridgeback.symbolic.expansion.limit_cycle import FirstAmplitudeError
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.singularities.limits import Limits, limits
@@ -76,7 +76,7 @@ def flow_limits(oscillator: Oscillator, flow: SlowFlow) -> FlowLimits:
         if not undamped.closes:
             return FlowLimits(of, None, f"{flow.system} still loses or gains energy there")
         return FlowLimits(of, replace(_settled(undamped, flow.order, flow.amplitude), variable="a"), "")
-    except NoFirstAmplitude as refusal:
+    except FirstAmplitudeError as refusal:
         return FlowLimits(of, None, refusal.why)
     except InputError as refusal:
         return FlowLimits(of, None, str(refusal))
