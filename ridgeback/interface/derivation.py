@@ -65,6 +65,10 @@ def method_for(oscillator: Oscillator, method: str | None) -> str:
         return chosen(method, METHODS, "method")
     if oscillator.kind == "damped":
         return "multiple-scales"
+    if oscillator.kind == "limit-cycle":
+        from ridgeback.symbolic.expansion.limit_cycle import has_series
+
+        return "lindstedt" if has_series(oscillator) else "multiple-scales"
     return "energy-integral" if oscillator.by_sides and oscillator.is_conservative else "lindstedt"
 
 

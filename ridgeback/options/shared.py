@@ -107,7 +107,8 @@ def expansion_options(command: Decorated) -> Decorated:
             "--method",
             type=click.Choice(METHODS),
             default=None,
-            help="Derivation.  Default: multiple-scales for a damped system, else lindstedt.",
+            help="Derivation.  Default: multiple-scales for a damped system and where no series in eps describes a "
+            "limit cycle, else lindstedt.",
         ),
     ):
         command = option(command)

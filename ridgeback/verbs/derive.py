@@ -93,12 +93,19 @@ def command(*, choice: Choice, request: Request, demand: Demand, output: str) ->
 
 def derived_as(oscillator: Oscillator, request: Request, demand: Demand) -> Result | BallExpansion:
     """The expansion, by the arithmetic asked for."""
-    by_sides = oscillator.by_sides and demand.at is not None  # then the digits are those of the enclosures
-    if demand.digits is not None and not by_sides:
+    enclosed = demand.at is not None and (oscillator.by_sides or in_no_series(oscillator))
+    if demand.digits is not None and not enclosed:  # else the digits are those of the enclosures
         return in_balls(oscillator, request, demand.digits, demand.checkpoint)
     if demand.transient is not None and request.method is None:
         request = replace(request, method="multiple-scales")
     return derived(oscillator, request)
+
+
+def in_no_series(oscillator: Oscillator) -> bool:
+    """Whether an oscillator has limit cycles that no series in its small parameter describes."""
+    from ridgeback.interface.derivation import method_for
+
+    return oscillator.kind == "limit-cycle" and method_for(oscillator, None) == "multiple-scales"
 
 
 def formula_of(oscillator: Oscillator, result: Any, demand: Demand) -> Any:

@@ -93,6 +93,33 @@ def cycle_recursion(
     return recursion
 
 
+def in_one_parameter(oscillator: Oscillator) -> bool:
+    """Whether an equation is u'' + k^2 u plus terms that carry its small parameter, without other symbols.
+
+    >>> in_one_parameter(Oscillator.from_equation("u'' - eps*(1 - b*u**2)*u' + u = 0"))
+    False
+    """
+    try:
+        _rest(oscillator)
+    except InputError:
+        return False
+    return True
+
+
+def has_series(oscillator: Oscillator) -> bool:
+    """Whether a limit cycle is a power series in eps: its equation has the form, and a rational first amplitude.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> has_series(find("van-der-pol")), has_series(Oscillator.from_equation("u'' - eps*(1 - 3*u**2)*u' + u = 0"))
+    (True, False)
+    """
+    try:
+        _first_amplitude(_averaged_sine(_rest(oscillator), oscillator), oscillator)
+    except InputError:
+        return False
+    return True
+
+
 def _rest(oscillator: Oscillator) -> sympy.Expr:
     """The force without its linear part u: all of it must carry eps."""
     rest = sympy.expand(oscillator.normalised.force - U)

@@ -12,7 +12,7 @@ from functools import lru_cache
 from typing import Final
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.expansion.limit_cycle import FirstAmplitudeError
+from ridgeback.symbolic.expansion.limit_cycle import FirstAmplitudeError, in_one_parameter
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.singularities.limits import Limits, limits
@@ -46,7 +46,8 @@ class FlowLimits:
 def flow_limits(oscillator: Oscillator, flow: SlowFlow) -> FlowLimits:
     """Return how far the frequency of a slow flow is of use.
 
-    It is that of phi' on the limit cycle, where the powers of the small parameter end; else that of phi' undamped.
+    It is that of phi' on the limit cycle, where all but u'' + k^2 u carries the small parameter, and its powers end;
+    else that of phi' undamped.
 
     Parameters
     ----------
@@ -67,7 +68,7 @@ def flow_limits(oscillator: Oscillator, flow: SlowFlow) -> FlowLimits:
     >>> flow_limits(find("damped-pendulum"), multiple_scales(find("damped-pendulum"), 4)).sentence()
     'Of the frequency with mu = 0: the series converges for |a| < ... up to a = ... or further.'
     """
-    on_cycle = oscillator.kind == "limit-cycle" and flow.complete is not None
+    on_cycle = oscillator.kind == "limit-cycle" and flow.complete is not None and in_one_parameter(oscillator)
     of = "the frequency of the limit cycle" if on_cycle else f"the frequency{_none_small(flow)}"
     try:
         if on_cycle:

@@ -125,6 +125,23 @@ def test_a_repelling_limit_cycle_is_enclosed_beside_its_slow_flow(ridgeback: Rid
     assert "--at belongs to a series in the amplitude" in refused.err
 
 
+def test_nested_limit_cycles_that_no_series_describes_are_told_apart(ridgeback: Ridgeback) -> None:
+    """Their peaks come back in an integration; likewise an irrational first amplitude and a second parameter."""
+    equation = "u'' - eps*(1 - 3*u**2 + u**4)*u' + u + u**2/8 = 0"
+    words = ("derive", "--equation", equation, "--at", "1/4", "--order", "2", "--digits", "12", "--format", "json")
+    done = ridgeback(*words)
+    inner, outer = json.loads(done.out)["at"]
+    assert (done.code, inner["stable"], outer["stable"]) == (0, True, False)
+    assert inner["amplitude"].startswith("1.33645589600")
+    assert outer["amplitude"].startswith("1.78391502139")
+    refused = ridgeback("derive", "--equation", equation, "--method", "lindstedt")
+    assert (refused.code, "one small parameter" in refused.err) == (2, True)
+    for other in ("u'' - eps*(1 - 3*u**2)*u' + u = 0", "u'' - eps*(1 - b*u**2)*u' + u = 0"):
+        found = json.loads(ridgeback("derive", "--equation", other, "--order", "2", "--format", "json").out)
+        assert found["method"] == "multiple-scales"
+        assert "multiple-scales" not in found["limits"]["sentence"]
+
+
 def test_a_limit_cycle_that_cannot_be_proved_leaves_the_series_standing(ridgeback: Ridgeback) -> None:
     words = ("--equation", "u'' - eps*(1 - u**2)*u' + u - u**3/3 = 0", "--order", "4", "--method", "multiple-scales")
     done = ridgeback("derive", *words, "--at", "1", "--format", "json")
