@@ -15,6 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.stats import beta
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.recording.measurement import measure
@@ -23,6 +24,8 @@ from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.signal.samples import TWO_PI
 
 NORMAL_95 = 1.96
+LIMITS = 92.0, 98.0
+"""Where the share that holds is to lie, in per cent."""
 OVER = 16
 """Steps of the integration of the phase per sample."""
 RATE, FREQUENCY = 400.0, 20.0
@@ -290,20 +293,43 @@ def within(values: Array, deviations: Array, truth: Array) -> Mask:
     return np.asarray(np.abs(values - truth) <= NORMAL_95 * deviations)
 
 
+def hold(masks: list[Mask]) -> tuple[float, float, float]:
+    """The share that holds, and between which shares the true one lies at 95 %.
+
+    Neighbouring samples of a trial share their error, so that the trials are the independent draws: n is taken as
+    p (1 - p) / s^2, with s the standard error of the share over trials, in the exact interval of Clopper and Pearson
+    (Korn and Graubard 1998, Survey Methodology 24, 193).
+    """
+    counts = np.array([one.size for one in masks], dtype=float)
+    held = np.array([one.sum() for one in masks], dtype=float)
+    p = float(held.sum() / counts.sum())
+    trials = counts.size
+    spread = np.sqrt(trials / max(trials - 1, 1) * np.sum((held - p * counts) ** 2)) / counts.sum()
+    n = min(p * (1 - p) / spread**2, counts.sum()) if spread > 0.0 else float(trials)
+    low = beta.ppf(0.025, p * n, n - p * n + 1) if p > 0.0 else 0.0
+    high = beta.ppf(0.975, p * n + 1, n - p * n) if p < 1.0 else 1.0
+    return p, float(low), float(high)
+
+
+def cell(masks: list[Mask]) -> str:
+    """A share with its interval, in bold where the interval does not meet 92 to 98 %."""
+    masks = [one for one in masks if one.size]
+    if not masks:
+        return "none"
+    share, low, high = (100 * value for value in hold(masks))
+    text = f"{share:.0f} ({low:.0f} to {high:.0f})"
+    return text if low <= LIMITS[1] and high >= LIMITS[0] else f"**{text}**"
+
+
 def row(name: str, kind: Kind, trials: int, seed: int) -> str:
     """A row of the table."""
     found = [trial(kind, seed + k) for k in range(trials)]
     claiming = [one for one in found if not one.reason]
-
-    def share(of: Callable[[Outcome], Mask]) -> str:
-        every = np.concatenate([of(one) for one in claiming]) if claiming else NOTHING
-        return f"{100 * float(every.mean()):.0f}" if every.size else "none"
-
     claimed = f"{100 * np.mean([one.claimed for one in found]):.0f}"
     reasons = Counter(one.reason[:90] for one in found if one.reason)
     why = "; ".join(f"{text} ({count})" for text, count in reasons.most_common(1))
-    cells = (share(lambda o: o.growth), share(lambda o: o.amplitude), share(lambda o: o.omega), claimed)
-    return f"| {name} | {' | '.join(cells)} | {len(found) - len(claiming)} | {why} |"
+    cells = (cell([getattr(one, of) for one in claiming]) for of in ("growth", "amplitude", "omega"))
+    return f"| {name} | {trials} | {' | '.join(cells)} | {claimed} | {len(found) - len(claiming)} | {why} |"
 
 
 def main() -> None:
@@ -313,9 +339,8 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="", help="kinds with this in their name")
     given = parser.parse_args()
-    sys.stdout.write(
-        "| record | a'/a, % | a, % | omega, % | claimed, % | without | reason |\n|---|---|---|---|---|---|---|\n"
-    )
+    sys.stdout.write("| record | trials | a'/a, % | a, % | omega, % | claimed, % | without | reason |\n")
+    sys.stdout.write(f"{'|---' * 8}|\n")
     for name, kind in KINDS.items():
         if given.only in name:
             sys.stdout.write(row(name, kind, given.trials, given.seed) + "\n")

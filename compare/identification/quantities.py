@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
-from ridgeback.compare.identification.candidates import BACKBONE, LAWS, VAN_DER_POL
-from ridgeback.compare.identification.fits import Ranked, rank
-from ridgeback.compare.identification.fitting import Data, Fit, prepare
-from ridgeback.compare.identification.preparation import ARTICLES, Prepared, local_track
-from ridgeback.numeric.recording.quantity import GIVEN, as_displacement
+from ridgeback.compare.identification.candidates import BACKBONE, VAN_DER_POL, Model
+from ridgeback.compare.identification.fits import Ranked
+from ridgeback.compare.identification.fitting import Data, Fit, fit, prepare
+from ridgeback.compare.identification.preparation import ARTICLES, Prepared
+from ridgeback.numeric.recording.quantity import GIVEN, displaced
 
 CONTRADICTED = 60.0
 """Twice the fall of the log likelihood below that of the noise alone, from which on an equation is out."""
@@ -44,8 +46,8 @@ def refuse_another_quantity(ready: Prepared, data: Data, ranked: Ranked, progres
     lost = min(fall(found, ready.noise / data.length) for found in equations)
     if lost < CONTRADICTED:
         return
-    names = tuple(found.model.name for found in near_best(equations) if found.model.name in AS_OTHER)
-    for quantity, left in described_as(ready, names, ready.noise / data.length, progress):
+    others = [found.model for found in near_best(equations) if found.model.name in AS_OTHER]
+    for quantity, left in described_as(ready, others, ready.noise / data.length, progress):
         if left < AGREES * lost + CONTRADICTED / 3.0:
             raise InputError(
                 f"{ready.recording.label}: the waveform contradicts a displacement, and is that of {ARTICLES[quantity]}"
@@ -60,19 +62,28 @@ def near_best(fits: list[Fit]) -> list[Fit]:
     return [found for found in fits if found.sum_of_squares <= NEAR_BEST * least]
 
 
-def described_as(
-    ready: Prepared, names: tuple[str, ...], noise: float, progress: Progress
-) -> Iterator[tuple[str, float]]:
-    """The fall of the best equation for the samples taken for each other quantity; ``noise`` over the amplitude."""
-    for quantity in ARTICLES if names else ():
+def described_as(ready: Prepared, others: list[Model], noise: float, progress: Progress) -> Iterator[tuple[str, float]]:
+    """The fall of the best model for the samples taken for each other quantity; ``noise`` over the amplitude.
+
+    A law of damping makes amplitudes fall, which are nearly in proportion: each model keeps its own.
+    """
+    for quantity in ARTICLES if others and ready.models is not None else ():
         progress(0.9, f"the waveform as that of {ARTICLES[quantity]}")
-        try:
-            turned = as_displacement(ready.recording, quantity)
-            data = prepare(turned, local_track(turned), kept=ready.kept)
-            found = rank(data, names, LAWS, "bic", silent).fits[0]
-        except InputError:
-            continue
-        yield quantity, fall(found, noise)
+        falls = [fall(found, noise) for found in fits_as(ready, quantity, others)]
+        if falls:
+            yield quantity, min(falls)
+
+
+def fits_as(ready: Prepared, quantity: str, others: list[Model]) -> Iterator[Fit]:
+    """The models fitted to the displacement behind the samples, taken for this quantity; not those that cannot be."""
+    assert ready.models is not None  # noqa: S101 - it is only asked for where there are
+    x = ready.recording.values - ready.recording.values.mean()
+    turned = replace(ready.recording, values=displaced(x, ready.models.best, quantity))
+    with suppress(InputError):
+        data = prepare(turned, ready.track, kept=ready.kept)
+        for model in others:
+            with suppress(InputError):
+                yield fit(model, data)
 
 
 # -2 ln L = n ln(RSS / n) + const

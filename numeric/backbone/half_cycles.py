@@ -29,7 +29,8 @@ from ridgeback.numeric.backbone.curve import Backbone, Crowding, Points, assembl
 from ridgeback.numeric.backbone.damping import growth_columns
 from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.estimators.zero_crossing import crossing_samples, dead_zone, interpolate
-from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
+from ridgeback.numeric.harmonics.local_fit import choose_multiples, harmonic_fit
+from ridgeback.numeric.harmonics.window_steps import Shape
 from ridgeback.numeric.signal.decimation import checked
 from ridgeback.numeric.signal.presence import Presence
 from ridgeback.numeric.signal.samples import TWO_PI

@@ -23,7 +23,8 @@ from numpy.typing import NDArray
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.backbone.curve import MeanDeviation
 from ridgeback.numeric.backbone.windows import half_widths, spacing
-from ridgeback.numeric.harmonics.local_fit import HarmonicFit, Shape, harmonic_fit, powers, slopes
+from ridgeback.numeric.harmonics.local_fit import HarmonicFit, harmonic_fit
+from ridgeback.numeric.harmonics.window_steps import Shape, powers, slopes
 from ridgeback.numeric.signal.samples import TWO_PI
 
 FINE, COARSE = (5, 4), (3, 2)

@@ -10,9 +10,10 @@ from scipy.fft import rfft, rfftfreq
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.components.lines import LEAST, clearest_line
-from ridgeback.numeric.harmonics.local_fit import Shape, harmonic_fit
+from ridgeback.numeric.harmonics.local_fit import harmonic_fit
 from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.harmonics.spline_model import SplineModel
+from ridgeback.numeric.harmonics.window_steps import Shape
 from ridgeback.numeric.signal.samples import TWO_PI
 
 FEWEST, THREE_SIGMA = 16, 3.0

@@ -11,9 +11,9 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.estimators.global_harmonics import spline_error
 from ridgeback.numeric.estimators.window_choice import Window, best_window, expected_error, lengths
-from ridgeback.numeric.harmonics.local_fit import Shape
 from ridgeback.numeric.harmonics.noise import Level, peak_deviation
 from ridgeback.numeric.harmonics.spline_model import SplineModel
+from ridgeback.numeric.harmonics.window_steps import Shape
 from ridgeback.numeric.signal.windows import window
 from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.curvature_bias import curvature_bias

@@ -10,7 +10,8 @@ from scipy.interpolate import make_interp_spline
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.hilbert import band_frequency
 from ridgeback.numeric.estimators.zero_crossing import dead_zone, full_cycles
-from ridgeback.numeric.harmonics.local_fit import PHASE_DEGREE, HarmonicFit, Shape, choose_multiples, harmonic_fit
+from ridgeback.numeric.harmonics.local_fit import HarmonicFit, choose_multiples, harmonic_fit
+from ridgeback.numeric.harmonics.window_steps import PHASE_DEGREE, Shape
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.request import Request, check_valid

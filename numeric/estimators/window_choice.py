@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import savgol_coeffs, savgol_filter
 
-from ridgeback.numeric.harmonics.local_fit import Shape
 from ridgeback.numeric.harmonics.spline_model import SplineModel
+from ridgeback.numeric.harmonics.window_steps import Shape
 
 LENGTHS = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 24.0, 32.0, 48.0, 64.0)
 """Windows tried, in cycles."""

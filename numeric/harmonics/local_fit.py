@@ -24,38 +24,24 @@ from scipy.integrate import cumulative_trapezoid
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask, freeze
+from ridgeback.numeric.harmonics.window_steps import (
+    ITERATIONS,
+    NEAR_REST,
+    Shape,
+    Solution,
+    gauss_newton,
+    powers,
+    slopes,
+)
 from ridgeback.numeric.signal.samples import checked_work
 
-PHASE_DEGREE = 3
-AMPLITUDE_DEGREE = 2
-ITERATIONS, SETTLED = 8, 1e-3
-AT_REST, NEAR_REST = 1e-10, 1e-5
-"""Last steps, in radians, at which a fit ends, and at which it is near enough for its residual to be compared."""
 MOST_HARMONICS = 12
 ONE_WINDOW = 12.0
 """Gain of the criterion in a single window that shows a harmonic: chance reaches it in one of a million windows."""
-MOST_GROWTH = 2.0
-"""Bound of g: from one end of a window to the other the exponential changes by a factor of e^4 at most."""
+
+
 BLOCK_VALUES = 2_000_000
 """Jacobian entries that one block of windows may hold (16 MB)."""
-
-
-@dataclass(frozen=True)
-class Shape:
-    """What the local model holds: the multiples beside the fundamental, and the degrees of phase and amplitudes.
-
-    >>> Shape((3, 5)).size
-    21
-    """
-
-    multiples: tuple[int, ...] = ()
-    phase_degree: int = PHASE_DEGREE
-    amplitude_degree: int = AMPLITUDE_DEGREE
-
-    @property
-    def size(self) -> int:
-        """The number of parameters."""
-        return self.phase_degree + 1 + (self.amplitude_degree + 1) * (1 + 2 * len(self.multiples)) + 2
 
 
 @dataclass(frozen=True)
@@ -83,122 +69,6 @@ class HarmonicFit:
 
     def __post_init__(self) -> None:
         freeze(self)
-
-
-def powers(s: Array, degree: int) -> Array:
-    """Columns s^0 .. s^degree."""
-    return s[..., None] ** np.arange(degree + 1)
-
-
-def slopes(s: Array, degree: int) -> Array:
-    """Columns of the derivatives of s^0 .. s^degree."""
-    orders = np.arange(degree + 1)
-    return np.asarray(orders * s[..., None] ** np.maximum(orders - 1, 0), dtype=np.float64)
-
-
-def linear_columns(s: Array, phase: Array, shape: Shape, growth: Array) -> Array:
-    """Model columns that enter linearly, for all windows: amplitude, harmonics, offset; ``(windows, n, columns)``."""
-    slow = np.exp(np.multiply.outer(growth, s))[..., None] * powers(s, shape.amplitude_degree)
-    parts = [slow * np.cos(phase)[..., None]]
-    for h in shape.multiples:
-        parts += [slow * np.cos(h * phase)[..., None], slow * np.sin(h * phase)[..., None]]
-    parts.append(np.broadcast_to(powers(s, 1), (*phase.shape, 2)))
-    return np.concatenate(parts, axis=2)
-
-
-def solve(jacobian: Array, target: Array) -> tuple[Array, Array]:
-    """Least squares of every window by normal equations: coefficients and the inverse of J^T J."""
-    normal = np.swapaxes(jacobian, 1, 2) @ jacobian
-    scale = np.sqrt(np.einsum("wii->wi", normal))
-    scale = np.where(scale > 0.0, scale, 1.0)
-    equilibrated = normal / (scale[:, :, None] * scale[:, None, :])
-    # A floor far below any resolved direction keeps a column that the data leave empty from being singular.
-    inverse = np.linalg.inv(equilibrated + 1e-13 * np.eye(scale.shape[1]))
-    inverse /= scale[:, :, None] * scale[:, None, :]
-    moment = np.einsum("wnp,wn->wp", jacobian, target)
-    return np.einsum("wpq,wq->wp", inverse, moment), inverse
-
-
-def start(s: Array, x: Array, guide: Array, shape: Shape) -> tuple[Array, Array]:
-    """Phase and amplitude polynomials from a guide phase, its constant set so that the sine part vanishes."""
-    p = guide @ np.linalg.pinv(powers(s, shape.phase_degree)).T
-    phase = p @ powers(s, shape.phase_degree).T
-    columns = np.stack([np.cos(phase), np.sin(phase), np.ones_like(phase)], axis=2)
-    even, odd, _ = solve(columns, x)[0].T
-    p[:, 0] += np.arctan2(-odd, even)
-    amplitude = np.zeros((x.shape[0], shape.amplitude_degree + 1))
-    amplitude[:, 0] = np.hypot(even, odd)
-    return p, amplitude
-
-
-@dataclass(frozen=True)
-class Solution:
-    """Coefficients of all windows: phase ``p``, amplitude ``a`` times e^(``growth`` s), offset ``d``; covariances.
-
-    The covariances are per unit ``variance``, that of the residual.
-    """
-
-    p: Array
-    a: Array
-    growth: Array
-    d: Array
-    p_covariance: Array
-    a_covariance: Array
-    variance: Array
-    settled: Mask
-
-
-def gauss_newton(s: Array, x: Array, guide: Array, shape: Shape, *, rest: float = AT_REST) -> Solution:
-    """Fit every window ``x[window, n]`` from its guide phase; at most ITERATIONS steps, each half a radian at most.
-
-    The steps end when the last one is below ``rest`` everywhere; the residual then errs by its square.
-
-    It has settled when the last step moved the phase by less than SETTLED radians, weighted with the amplitude: where a
-    decay has sunk into the noise its phase goes on wandering.
-    """
-    p, a = start(s, x, guide, shape)
-    phase_powers, amplitude_powers = powers(s, shape.phase_degree), powers(s, shape.amplitude_degree)
-    last, growth, steeper = np.full(x.shape[0], np.inf), np.zeros(x.shape[0]), np.zeros(x.shape[0])
-    for _ in range(ITERATIONS):
-        growth = np.clip(growth + steeper, -MOST_GROWTH, MOST_GROWTH)
-        phase, grown = p @ phase_powers.T, np.exp(np.multiply.outer(growth, s))
-        linear = linear_columns(s, phase, shape, growth)
-        turning = -((a @ amplitude_powers.T) * grown * np.sin(phase))[..., None] * phase_powers
-        jacobian = np.concatenate([linear, turning], axis=2)
-        coefficients, inverse = solve(jacobian, x)
-        step = coefficients[:, linear.shape[2] :]
-        moved = np.abs(step @ phase_powers.T)
-        p = p + step * np.minimum(1.0, 0.5 / np.maximum(moved.max(axis=1), 1e-300))[:, None]
-        a = coefficients[:, : shape.amplitude_degree + 1]
-        size = np.abs(a @ amplitude_powers.T) * grown
-        last = (moved * size).max(axis=1) / np.maximum(size.max(axis=1), np.finfo(float).tiny)
-        steeper = steepening(a)
-        if max(last.max(), np.abs(steeper).max()) < rest:
-            break
-    residual = x - np.einsum("wnp,wp->wn", jacobian, coefficients)
-    freedom = max(1, x.shape[1] - shape.size)
-    begin, width = linear.shape[2], shape.amplitude_degree + 1
-    return Solution(
-        p,
-        a,
-        growth,
-        coefficients[:, begin - 2 : begin],
-        inverse[:, begin:, begin:],
-        inverse[:, :width, :width],
-        (residual**2).sum(axis=1) / freedom,
-        last < SETTLED,
-    )
-
-
-def steepening(a: Array) -> Array:
-    """What g lacks, a_1 / a_0, half at most in a step.
-
-    >>> steepening(np.array([[2.0, 0.2, 0.0], [0.1, -3.0, 0.0]])).tolist()
-    [0.1, -0.5]
-    """
-    if a.shape[1] < 2:
-        return np.zeros(a.shape[0])
-    return np.clip(a[:, 1] / np.where(a[:, 0] == 0.0, np.inf, a[:, 0]), -0.5, 0.5)
 
 
 def quadratic_form(vector: Array, matrix: Array) -> Array:

@@ -8,7 +8,8 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
+from ridgeback.numeric.harmonics.local_fit import choose_multiples, harmonic_fit
+from ridgeback.numeric.harmonics.window_steps import Shape
 
 
 @dataclass(frozen=True)

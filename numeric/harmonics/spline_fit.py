@@ -42,7 +42,8 @@ SETTLED = 1e-4
 end of a decay, it goes on wandering."""
 FINEST_CYCLES = 2.0
 """Closer knots would let the amplitude's spline imitate harmonics."""
-
+AT_REST, UNSEEN = 1e-10, 1e-3
+"""Last steps of the phase at which a fit ends: in radians, and relative to what the noise leaves open."""
 
 ENOUGH = 100
 """Ordinates of a spectrum from which on they suffice to judge a model by."""
@@ -110,8 +111,10 @@ def fit_on(
         c = equations.solve(left)
         residual, size = left - equations.model(c), np.exp(basis.values(level))
         moved = np.maximum(np.abs(basis.values(c[:, 0])), np.abs(basis.values(c[:, -1])))
-        before, step = step, float((moved * size).max() / max(float(size.max()), np.finfo(float).tiny))
-        if step < 1e-10 or (step < SETTLED and step > 0.5 * before):
+        largest = max(float(size.max()), np.finfo(float).tiny)
+        before, step = step, float((moved * size).max()) / largest
+        open_by_noise = math.sqrt(float(np.mean(residual**2)) * basis.count / x.size) / largest
+        if step < max(AT_REST, UNSEEN * open_by_noise) or (step < SETTLED and step > 0.5 * before):
             break
         part = min(1.0, 0.5 / float(moved.max()))
         p, level = p + part * c[:, -1], level + part * c[:, 0]

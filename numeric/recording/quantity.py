@@ -17,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import ComplexArray
+from ridgeback.numeric.arrays import Array, ComplexArray
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.signal.decimation import checked
@@ -121,17 +121,31 @@ def as_displacement(recording: Recording, quantity: str) -> Recording:
         model = request.models.best
     except InputError as error:
         raise InputError(f"{recording.label}: the {quantity} cannot be converted to a displacement: {error}") from None
-    wave = sum((converted(model, h, order) for h in (1, *model.multiples)), np.zeros(x.size, dtype=np.complex128))
-    omega = float(np.average(model.omega, weights=model.size**2))
-    rest = (request.signal.x - model.samples(keep=lambda h: h > 0)) / (omega if order == 1 else -(omega**2))
+    values = displaced(request.signal.x, model, quantity)
     unit = integrated_unit(recording.units, order)
     note = (
         f"The {quantity} was converted to a displacement{f' ({unit})' if unit else ''}, harmonic by harmonic along a "
         "model of the signal; its mean is not known."
     )
-    return replace(
-        recording, values=wave.real + rest - rest.mean(), units=unit, notes=(note, *recording.notes), facts=facts
-    )
+    return replace(recording, values=values, units=unit, notes=(note, *recording.notes), facts=facts)
+
+
+def displaced(x: Array, model: SplineModel, quantity: str) -> Array:
+    """The displacement of samples of a velocity or an acceleration, less their mean, along a model of them.
+
+    >>> from ridgeback.numeric.harmonics.signal_model import signal_models
+    >>> t = np.arange(640) / 32.0
+    >>> u = np.exp((-0.05 + 7j) * t)
+    >>> x = ((-0.05 + 7j) * u).real
+    >>> model = signal_models(x, 32.0, np.full(640, 7.0), half=40).best
+    >>> bool(np.abs(displaced(x, model, "velocity") - u.real).max() < 1e-4)
+    True
+    """
+    order = ORDERS[quantity]
+    wave = sum((converted(model, h, order) for h in (1, *model.multiples)), np.zeros(x.size, dtype=np.complex128))
+    omega = float(np.average(model.omega, weights=model.size**2))
+    rest = (x - model.samples(keep=lambda h: h > 0)) / (omega if order == 1 else -(omega**2))
+    return np.asarray(wave.real + rest - rest.mean(), dtype=np.float64)
 
 
 def integrated_unit(unit: str, order: int) -> str:

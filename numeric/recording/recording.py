@@ -24,6 +24,7 @@ from ridgeback.numeric.files.column_choice import (
 )
 from ridgeback.numeric.files.in_memory import Samples, columns_of
 from ridgeback.numeric.recording.file_signals import Signal, Wanted, stamps
+from ridgeback.numeric.recording.levels import refuse_level
 from ridgeback.numeric.recording.shown import ShownRecording
 from ridgeback.numeric.recording.stretches import Stamped, stamped, within
 from ridgeback.numeric.recording.treatment import FEWEST_SAMPLES, Treatment, treated
@@ -254,6 +255,8 @@ def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> l
     header = columns.names[signal.index]
     name, units = name_and_units(header)
     units = treatment.unit or units or columns.units
+    if not treatment.unit:
+        refuse_level(name, units, f"{columns.source}, column {header}")
     values, units, turned = in_radians(columns.values(signal.index), units)
     time, note = stamps(signal, values.size, rate)
     names = (header if signal.clock is None else columns.names[signal.clock], header)

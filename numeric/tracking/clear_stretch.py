@@ -13,7 +13,8 @@ from functools import lru_cache
 import numpy as np
 
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.harmonics.local_fit import Shape, choose_multiples, harmonic_fit
+from ridgeback.numeric.harmonics.local_fit import choose_multiples, harmonic_fit
+from ridgeback.numeric.harmonics.window_steps import Shape
 from ridgeback.numeric.signal.analytic import analytic_of
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.request import LAG_CYCLES, Request

@@ -14,8 +14,9 @@ from ridgeback.numeric.backbone.damping import damping
 from ridgeback.numeric.backbone.local_rates import rows
 from ridgeback.numeric.backbone.windows import furthest, half_widths
 from ridgeback.numeric.estimators.estimate import estimate
-from ridgeback.numeric.harmonics.local_fit import Shape, harmonic_fit
+from ridgeback.numeric.harmonics.local_fit import harmonic_fit
 from ridgeback.numeric.harmonics.spline_fit import harmonic_splines
+from ridgeback.numeric.harmonics.window_steps import Shape
 
 RATE, OMEGA, NOISE = 400.0, 40 * np.pi, 0.01
 

@@ -10,7 +10,8 @@ import pytest
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.estimators.estimate import METHODS, estimate, estimation
-from ridgeback.numeric.harmonics.local_fit import Shape, harmonic_fit
+from ridgeback.numeric.harmonics.local_fit import harmonic_fit
+from ridgeback.numeric.harmonics.window_steps import Shape
 from ridgeback.numeric.tracking.choices import Scope
 
 PEAKS = (

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.harmonics.cramer_rao import Order, deviation, local_bound
 from ridgeback.numeric.harmonics.harmonic_signal import HarmonicSignal, decompose
-from ridgeback.numeric.harmonics.local_fit import Shape, harmonic_fit
+from ridgeback.numeric.harmonics.local_fit import harmonic_fit
+from ridgeback.numeric.harmonics.window_steps import Shape
 
 NOISE = 0.1
 

@@ -4,14 +4,8 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.harmonics.local_fit import (
-    Shape,
-    choose_multiples,
-    gauss_newton,
-    harmonic_fit,
-    linear_columns,
-    powers,
-)
+from ridgeback.numeric.harmonics.local_fit import choose_multiples, harmonic_fit
+from ridgeback.numeric.harmonics.window_steps import Shape, gauss_newton, linear_columns, powers
 
 RATE = 32.0
 T = np.arange(321) / RATE

@@ -210,3 +210,11 @@ def test_a_truncated_wav_file_is_bad_input(tmp_path: Path) -> None:
     file.write_bytes(b"RIFFxx")
     with pytest.raises(InputError, match="not a readable WAV"):
         read_recording(file)
+
+
+@pytest.mark.parametrize("header", ["t_s,P [dBm]", "t_s,envelope_dB", "t_s;Pegel [dB(A)]"])
+def test_a_level_in_decibels_is_refused_unless_its_unit_is_said_to_be_another(tmp_path: Path, header: str) -> None:
+    path = two_columns(tmp_path / "ringdown.csv", header, ";" if ";" in header else ",")
+    with pytest.raises(InputError, match=r"a level in dB is an envelope, .* over 8\.686 is the growth rate"):
+        read_recording(path)
+    assert read_recording(path, unit="mV").units == "mV"

@@ -1,0 +1,202 @@
+"""Gauss and Newton's steps of local harmonic least squares, in many windows of one length at once.
+
+The model and its source stand in ``harmonics.local_fit``.  A window takes steps until its noise would not show another.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ridgeback.numeric.arrays import Array, Mask
+
+ITERATIONS, SETTLED = 8, 1e-3
+AT_REST, NEAR_REST = 1e-10, 1e-5
+"""Last steps, in radians, at which a fit ends, and at which it is near enough for its residual to be compared."""
+PHASE_DEGREE, AMPLITUDE_DEGREE = 3, 2
+UNSEEN = 1e-3
+"""Of what the noise leaves open of the phase: a step that is smaller changes nothing."""
+MOST_GROWTH = 2.0
+"""Bound of g: from one end of a window to the other the exponential changes by a factor of e^4 at most."""
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What the local model holds: the multiples beside the fundamental, and the degrees of phase and amplitudes.
+
+    >>> Shape((3, 5)).size
+    21
+    """
+
+    multiples: tuple[int, ...] = ()
+    phase_degree: int = PHASE_DEGREE
+    amplitude_degree: int = AMPLITUDE_DEGREE
+
+    @property
+    def size(self) -> int:
+        """The number of parameters."""
+        return self.phase_degree + 1 + (self.amplitude_degree + 1) * (1 + 2 * len(self.multiples)) + 2
+
+
+def powers(s: Array, degree: int) -> Array:
+    """Columns s^0 .. s^degree."""
+    return s[..., None] ** np.arange(degree + 1)
+
+
+def slopes(s: Array, degree: int) -> Array:
+    """Columns of the derivatives of s^0 .. s^degree."""
+    orders = np.arange(degree + 1)
+    return np.asarray(orders * s[..., None] ** np.maximum(orders - 1, 0), dtype=np.float64)
+
+
+def linear_columns(s: Array, phase: Array, shape: Shape, growth: Array) -> Array:
+    """Model columns that enter linearly, for all windows: amplitude, harmonics, offset; ``(windows, n, columns)``."""
+    slow = np.exp(np.multiply.outer(growth, s))[..., None] * powers(s, shape.amplitude_degree)
+    parts = [slow * np.cos(phase)[..., None]]
+    for h in shape.multiples:
+        parts += [slow * np.cos(h * phase)[..., None], slow * np.sin(h * phase)[..., None]]
+    parts.append(np.broadcast_to(powers(s, 1), (*phase.shape, 2)))
+    return np.concatenate(parts, axis=2)
+
+
+def solve(jacobian: Array, target: Array) -> tuple[Array, Array]:
+    """Least squares of every window by normal equations: coefficients and the inverse of J^T J."""
+    normal = np.swapaxes(jacobian, 1, 2) @ jacobian
+    scale = np.sqrt(np.einsum("wii->wi", normal))
+    scale = np.where(scale > 0.0, scale, 1.0)
+    equilibrated = normal / (scale[:, :, None] * scale[:, None, :])
+    # A floor far below any resolved direction keeps a column that the data leave empty from being singular.
+    inverse = np.linalg.inv(equilibrated + 1e-13 * np.eye(scale.shape[1]))
+    inverse /= scale[:, :, None] * scale[:, None, :]
+    moment = np.einsum("wnp,wn->wp", jacobian, target)
+    return np.einsum("wpq,wq->wp", inverse, moment), inverse
+
+
+def start(s: Array, x: Array, guide: Array, shape: Shape) -> tuple[Array, Array]:
+    """Phase and amplitude polynomials from a guide phase, its constant set so that the sine part vanishes."""
+    p = guide @ np.linalg.pinv(powers(s, shape.phase_degree)).T
+    phase = p @ powers(s, shape.phase_degree).T
+    columns = np.stack([np.cos(phase), np.sin(phase), np.ones_like(phase)], axis=2)
+    even, odd, _ = solve(columns, x)[0].T
+    p[:, 0] += np.arctan2(-odd, even)
+    amplitude = np.zeros((x.shape[0], shape.amplitude_degree + 1))
+    amplitude[:, 0] = np.hypot(even, odd)
+    return p, amplitude
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Coefficients of all windows: phase ``p``, amplitude ``a`` times e^(``growth`` s), offset ``d``; covariances.
+
+    The covariances are per unit ``variance``, that of the residual.
+    """
+
+    p: Array
+    a: Array
+    growth: Array
+    d: Array
+    p_covariance: Array
+    a_covariance: Array
+    variance: Array
+    settled: Mask
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Where the fits of some windows stand after a step: one row a window."""
+
+    p: Array
+    a: Array
+    growth: Array
+    steeper: Array
+    """What the growth still lacks."""
+    last: Array
+    """Radians that the step moved the phase by, weighted with the amplitude."""
+    coefficients: Array
+    inverse: Array
+    variance: Array
+    moving: Mask
+    """Whether another step would change anything."""
+
+    def some(self, rows: NDArray[np.intp]) -> Steps:
+        """Those of some windows."""
+        return Steps(*(getattr(self, name.name)[rows] for name in fields(self)))
+
+    def changed(self, rows: NDArray[np.intp], to: Steps) -> Steps:
+        """The same with those of some windows replaced."""
+        values = [getattr(self, name.name).copy() for name in fields(self)]
+        for name, value in zip(fields(self), values, strict=True):
+            value[rows] = getattr(to, name.name)
+        return Steps(*values)
+
+
+def gauss_newton(s: Array, x: Array, guide: Array, shape: Shape, *, rest: float = AT_REST) -> Solution:
+    """Fit every window ``x[window, n]`` from its guide phase; at most ITERATIONS steps, each half a radian at most.
+
+    The steps of a window end when its last one is below ``rest``, or below UNSEEN of what its noise leaves open; the
+    residual then errs by its square.
+
+    It has settled when the last step moved the phase by less than SETTLED radians, weighted with the amplitude: where a
+    decay has sunk into the noise its phase goes on wandering.
+    """
+    at = first_steps(s, x, guide, shape)
+    for _ in range(ITERATIONS):
+        live = np.flatnonzero(at.moving)
+        if live.size == x.shape[0]:
+            at = one_step(s, x, shape, at, rest)
+        elif live.size:
+            at = at.changed(live, one_step(s, x[live], shape, at.some(live), rest))
+    begin, width = shape.size - shape.phase_degree - 1, shape.amplitude_degree + 1
+    return Solution(
+        at.p,
+        at.a,
+        at.growth,
+        at.coefficients[:, begin - 2 : begin],
+        at.inverse[:, begin:, begin:],
+        at.inverse[:, :width, :width],
+        at.variance,
+        at.last < SETTLED,
+    )
+
+
+def first_steps(s: Array, x: Array, guide: Array, shape: Shape) -> Steps:
+    """Where the fits start."""
+    p, a = start(s, x, guide, shape)
+    count, size, nothing = x.shape[0], shape.size, np.zeros(x.shape[0])
+    everywhere = np.ones(count, dtype=np.bool_)
+    none, inverse = np.zeros((count, size)), np.zeros((count, size, size))
+    return Steps(p, a, nothing, nothing, nothing, none, inverse, nothing, everywhere)
+
+
+def one_step(s: Array, x: Array, shape: Shape, at: Steps, rest: float) -> Steps:
+    """One step of Gauss and Newton in every window."""
+    phase_powers, amplitude_powers = powers(s, shape.phase_degree), powers(s, shape.amplitude_degree)
+    growth = np.clip(at.growth + at.steeper, -MOST_GROWTH, MOST_GROWTH)
+    phase, grown = at.p @ phase_powers.T, np.exp(np.multiply.outer(growth, s))
+    linear = linear_columns(s, phase, shape, growth)
+    turning = -((at.a @ amplitude_powers.T) * grown * np.sin(phase))[..., None] * phase_powers
+    jacobian = np.concatenate([linear, turning], axis=2)
+    coefficients, inverse = solve(jacobian, x)
+    step, a = coefficients[:, linear.shape[2] :], coefficients[:, : shape.amplitude_degree + 1]
+    moved, size = np.abs(step @ phase_powers.T), np.abs(a @ amplitude_powers.T) * grown
+    largest = np.maximum(size.max(axis=1), np.finfo(float).tiny)
+    last, steeper = (moved * size).max(axis=1) / largest, steepening(a)
+    p = at.p + step * np.minimum(1.0, 0.5 / np.maximum(moved.max(axis=1), 1e-300))[:, None]
+    squares = ((x - (jacobian @ coefficients[..., None])[..., 0]) ** 2).sum(axis=1)
+    variance = squares / max(1, x.shape[1] - shape.size)
+    seen = np.maximum(rest, UNSEEN * np.sqrt(variance / x.shape[1]) / largest)
+    moving = np.maximum(last, np.abs(steeper)) >= seen
+    return Steps(p, a, growth, steeper, last, coefficients, inverse, variance, moving)
+
+
+def steepening(a: Array) -> Array:
+    """What g lacks, a_1 / a_0, half at most in a step.
+
+    >>> steepening(np.array([[2.0, 0.2, 0.0], [0.1, -3.0, 0.0]])).tolist()
+    [0.1, -0.5]
+    """
+    if a.shape[1] < 2:
+        return np.zeros(a.shape[0])
+    return np.clip(a[:, 1] / np.where(a[:, 0] == 0.0, np.inf, a[:, 0]), -0.5, 0.5)
