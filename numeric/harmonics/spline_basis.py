@@ -13,6 +13,7 @@ from functools import cached_property
 from itertools import combinations_with_replacement, pairwise
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 from scipy.linalg import cho_solve_banded, cholesky_banded
@@ -95,6 +96,11 @@ class SplineBasis:
     def slopes(self, coefficients: Array) -> Array:
         """Its derivative by time."""
         return self.along(lambda part: part.read(coefficients, slopes=True))
+
+    @cached_property
+    def squares(self) -> Array:
+        """Sums over all times of B_k^2, ``(K,)``."""
+        return overlap_sums(self, alone, [(0, 0)])[0][:, 0]
 
     def rows_at(self, index: NDArray[np.intp], *, slopes: bool) -> csr_array:
         """Values or slopes of the splines at some of the times, ``(index, K)``."""
@@ -264,21 +270,20 @@ def normal_equations(
     >>> bool(np.abs(equations.model(equations.solve(x)) - x).max() < 1e-9)
     True
     """
-    size = basis.count * families
-    bands = np.zeros(((basis.degree + 1) * families, size))
+    order, size = basis.degree + 1, basis.count * families
+    bands = np.zeros((order * families, basis.count, families))
     pairs = list(combinations_with_replacement(range(families), 2))
+    left, right = np.array(pairs).T
+    above = right > left
     for j, sums in enumerate(overlap_sums(basis, weights, pairs)):
-        for column, (f, g) in enumerate(pairs):
-            bands[j * families + g - f, f::families] = sums[:, column]
-            if j and g > f:  # the sums of w_f w_g are symmetric; below the diagonal of a block there is the same again
-                bands[j * families + f - g, g::families] = sums[:, column]
+        bands[j * families + right - left, :, left] = sums.T
+        if j:  # the sums of w_f w_g are symmetric; below the diagonal of a block there is the same again
+            bands[j * families + (left - right)[above], :, right[above]] = sums.T[above]
     if ridge is not None:
-        squares = overlap_sums(basis, alone, [(0, 0)])[0]
-        bands[0] += np.outer(squares, ridge).ravel()
+        bands[0] += np.outer(basis.squares, ridge)
+    bands = bands.reshape(-1, size)
     scale = np.sqrt(np.where(bands[0] > 0.0, bands[0], 1.0))
     bands /= scale
-    for r in range(bands.shape[0]):
-        bands[r, : size - r] /= scale[r:]
-        bands[r, size - r :] = 0.0
+    bands /= sliding_window_view(np.concatenate([scale, np.full(len(bands) - 1, np.inf)]), size)
     bands[0] += FLOOR
     return NormalEquations(basis, weights, cholesky_banded(bands, lower=True, check_finite=False), scale)

@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
+from scipy.sparse import csc_array, csr_array
 
 from ridgeback.numeric.arrays import Array
 
@@ -51,6 +51,13 @@ def slopes_at(time: Array, knots: Array, first: NDArray[np.integer], degree: int
     rise = degree / (knots[degree + 1 : -1] - knots[1 : -degree - 1])
     steps = lower * rise[first[:, None] + np.arange(degree)]
     return np.asarray(np.diff(np.pad(-steps, ((0, 0), (1, 1))), axis=1))
+
+
+def by_samples(entries: Array, places: NDArray[np.int32], rows: int) -> csc_array:
+    """Entries ``(R, width)`` that stand in these rows of a matrix ``(rows, R)``."""
+    size, width = entries.shape
+    ends = np.arange(0, (size + 1) * width, width, dtype=np.int32)
+    return csc_array((entries.ravel(), places.ravel(), ends), shape=(rows, size))
 
 
 @dataclass(frozen=True)
@@ -94,10 +101,18 @@ class Part:
         return self.sparse(self.slope_entries)
 
     @cached_property
-    def overlaps(self) -> tuple[csr_array, ...]:
-        """The products B_k(t_n) B_(k+j)(t_n) as ``(R, K)``, j = 0 .. degree."""
+    def summing(self) -> csc_array:
+        """The same the other way, ``(K, R)``: it sums over the samples."""
+        places = self.first[:, None] + np.arange(self.degree + 1, dtype=np.int32)
+        return by_samples(self.entries, places, self.count)
+
+    @cached_property
+    def overlaps(self) -> csc_array:
+        """The products B_k(t_n) B_(k+j)(t_n) as ``(K, R)``, one below the other for j = 0 .. degree."""
         value, order = self.entries, self.degree + 1
-        return tuple(self.sparse(value[:, : order - j] * value[:, j:]) for j in range(order))
+        products = [value[:, : order - j] * value[:, j:] for j in range(order)]
+        places = np.concatenate([j * self.count + np.arange(order - j) for j in range(order)]).astype(np.int32)
+        return by_samples(np.concatenate(products, axis=1), self.first[:, None] + places, order * self.count)
 
     def sparse(self, entries: Array) -> csr_array:
         """Entries ``(R, width)`` that stand from ``first`` on, as ``(R, K)``."""
@@ -116,12 +131,14 @@ class Part:
 
     def add_moments(self, total: Array, x: Array) -> None:
         """Add the sums over the samples of B_k x to ``(K, ...)``."""
-        total += self.values.T @ x
+        total += self.summing @ x
 
     def add_overlaps(self, sums: list[Array], products: Array, some: slice) -> None:
         """Add those of B_k B_(k+j) times products at some of the samples to ``sums[j]``."""
-        for j, overlap in enumerate(self.overlaps):
-            sums[j] += (overlap if len(products) == self.time.size else overlap[some]).T @ products
+        overlaps = self.overlaps if len(products) == self.time.size else self.overlaps[:, some]
+        found = (overlaps @ products).reshape(self.degree + 1, self.count, -1)
+        for j, total in enumerate(sums):
+            total += found[j]
 
 
 @dataclass(frozen=True)
