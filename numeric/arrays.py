@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import fields
 from types import MappingProxyType
 from typing import Any
@@ -67,3 +67,12 @@ def freeze(value: Any) -> None:
             object.__setattr__(value, item.name, frozen_mask(held) if held.dtype == np.bool_ else frozen(held))
         elif isinstance(held, Mapping):
             object.__setattr__(value, item.name, MappingProxyType(dict(held)))
+
+
+def floats(values: Collection[float]) -> NDArray[np.float64]:
+    """Any collection of numbers as an array.
+
+    >>> floats([1, 2.5]).tolist()
+    [1.0, 2.5]
+    """
+    return np.fromiter(values, np.float64, len(values))

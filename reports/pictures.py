@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
 from typing import Any
 
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.axes import Axes
-from numpy.typing import NDArray
 
 from ridgeback.common.show.picture import Picture, Plane, Stroke
+from ridgeback.numeric.arrays import floats
 from ridgeback.reports.drawing.theme import SERIES, TOKENS
 
 FLOOR_DB = -60.0
@@ -39,15 +38,6 @@ def draw(picture: Picture, ax: Axes | None = None) -> Axes:
     if sum(bool(stroke.label) for stroke in picture.strokes) > 1:
         axes.legend()
     return axes
-
-
-def floats(values: Collection[float]) -> NDArray[np.float64]:
-    """Any collection of numbers as an array.
-
-    >>> floats([1, 2.5]).tolist()
-    [1.0, 2.5]
-    """
-    return np.fromiter(values, np.float64, len(values))
 
 
 def curve(axes: Axes, stroke: Stroke, colour: str) -> None:

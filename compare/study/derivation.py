@@ -14,7 +14,7 @@ import sympy
 from ridgeback.compare.study.derived import Derived
 from ridgeback.compare.study.results import Checked, Derivation, Formula, HarmonicRow, HarmonicTable
 from ridgeback.symbolic.certificates.certificate import Check, certify
-from ridgeback.symbolic.codegen import generate
+from ridgeback.symbolic.codegen import form_of, written
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.flow.term import Term
@@ -211,7 +211,8 @@ def described(oscillator: Oscillator) -> str:
 def _code(derived: Derived) -> dict[str, str]:
     rest = derived.undamped
     equation = described(rest.oscillator)
+    form = form_of(derived.expansion, equation=equation, limit=rest.limit)
     return {
-        title: generate(derived.expansion, language, equation=equation, limit=rest.limit)
+        title: written(form, language)
         for title, language in (("C", "c"), ("Python", "python"), ("JavaScript", "javascript"))
     }

@@ -271,17 +271,17 @@ def normal_equations(
     True
     """
     order, size = basis.degree + 1, basis.count * families
-    bands = np.zeros((order * families, basis.count, families))
+    blocks = np.zeros((order * families, basis.count, families))
     pairs = list(combinations_with_replacement(range(families), 2))
     left, right = np.array(pairs).T
     above = right > left
     for j, sums in enumerate(overlap_sums(basis, weights, pairs)):
-        bands[j * families + right - left, :, left] = sums.T
+        blocks[j * families + right - left, :, left] = sums.T
         if j:  # the sums of w_f w_g are symmetric; below the diagonal of a block there is the same again
-            bands[j * families + (left - right)[above], :, right[above]] = sums.T[above]
+            blocks[j * families + (left - right)[above], :, right[above]] = sums.T[above]
     if ridge is not None:
-        bands[0] += np.outer(basis.squares, ridge)
-    bands = bands.reshape(-1, size)
+        blocks[0] += np.outer(basis.squares, ridge)
+    bands = blocks.reshape(-1, size)
     scale = np.sqrt(np.where(bands[0] > 0.0, bands[0], 1.0))
     bands /= scale
     bands /= sliding_window_view(np.concatenate([scale, np.full(len(bands) - 1, np.inf)]), size)

@@ -103,21 +103,25 @@ class Part:
     @cached_property
     def summing(self) -> csc_array:
         """The same the other way, ``(K, R)``: it sums over the samples."""
-        places = self.first[:, None] + np.arange(self.degree + 1, dtype=np.int32)
-        return by_samples(self.entries, places, self.count)
+        return by_samples(self.entries, self.places(self.degree + 1), self.count)
 
     @cached_property
     def overlaps(self) -> csc_array:
         """The products B_k(t_n) B_(k+j)(t_n) as ``(K, R)``, one below the other for j = 0 .. degree."""
         value, order = self.entries, self.degree + 1
         products = [value[:, : order - j] * value[:, j:] for j in range(order)]
-        places = np.concatenate([j * self.count + np.arange(order - j) for j in range(order)]).astype(np.int32)
-        return by_samples(np.concatenate(products, axis=1), self.first[:, None] + places, order * self.count)
+        below = [np.arange(j * self.count, j * self.count + order - j, dtype=np.int32) for j in range(order)]
+        places = (self.first[:, None] + np.concatenate(below)).astype(np.int32)
+        return by_samples(np.concatenate(products, axis=1), places, order * self.count)
+
+    def places(self, width: int) -> NDArray[np.int32]:
+        """The numbers of so many splines from ``first`` on, ``(R, width)``."""
+        return np.asarray(self.first[:, None] + np.arange(width, dtype=np.int32), dtype=np.int32)
 
     def sparse(self, entries: Array) -> csr_array:
         """Entries ``(R, width)`` that stand from ``first`` on, as ``(R, K)``."""
         size, width = entries.shape
-        columns = self.first[:, None] + np.arange(width, dtype=np.int32)
+        columns = self.places(width)
         ends = np.arange(0, (size + 1) * width, width, dtype=np.int32)
         return csr_array((entries.ravel(), columns.ravel(), ends), shape=(size, self.count))
 
@@ -136,9 +140,9 @@ class Part:
     def add_overlaps(self, sums: list[Array], products: Array, some: slice) -> None:
         """Add those of B_k B_(k+j) times products at some of the samples to ``sums[j]``."""
         overlaps = self.overlaps if len(products) == self.time.size else self.overlaps[:, some]
-        found = (overlaps @ products).reshape(self.degree + 1, self.count, -1)
-        for j, total in enumerate(sums):
-            total += found[j]
+        found = np.asarray(overlaps @ products).reshape(self.degree + 1, self.count, -1)
+        for total, new in zip(sums, found, strict=True):
+            np.add(total, new, out=total)
 
 
 @dataclass(frozen=True)

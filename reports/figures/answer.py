@@ -9,13 +9,12 @@ import numpy as np
 
 from ridgeback.common.numbers import number, power_of_ten
 from ridgeback.common.show.picture import Picture, Stroke
-from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.arrays import Array, floats
 from ridgeback.reports.drawing.apart import apart, text_width
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout
 from ridgeback.reports.drawing.marks import area, dot, drawing, group, line, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded, tick_labels
-from ridgeback.reports.pictures import floats
 
 STYLES = tuple(f"{way}l {dash} nf".replace("  ", " ") for dash in ("", "d1", "d2", "d3") for way in "est")
 """Curves in the order in which they are told apart: three colours, then dashes."""

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.ways.contender import Contender, amplitudes, refused
-from ridgeback.compare.benchmark.ways.formulas import arguments, fits, resummations, series
+from ridgeback.compare.benchmark.ways.formulas import arguments, evaluated, fits, resummations, series
 from ridgeback.compare.benchmark.ways.slow_flows import slow_flows
 from ridgeback.compare.benchmark.ways.yardsticks import yardsticks
 from ridgeback.compare.motion.motion import Motion
@@ -30,12 +30,11 @@ def theory(
         yield refused("lindstedt", "perturbation expansion", "expansion", str(error))
     else:
         at = arguments(motion, expansion, sources)
-        yield from series(expansion, wanted, at)
+        tried = list(series(expansion, wanted))
         step("resummations and fits")
-        if expansion.variable != "eps":
-            yield from resummations(rest, expansion, at)
-        if motion.has_backbone:
-            yield from fits(motion, rest, at)
+        tried += resummations(rest, expansion, at) if expansion.variable != "eps" else ()
+        tried += fits(motion, rest, at) if motion.has_backbone else ()
+        yield from evaluated(tried, at)
     step("slow flow by order")
     yield from slow_flows(motion)
     yield from yardsticks(motion, sources)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TypeAlias
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -16,8 +17,9 @@ from numpy.polynomial import chebyshev
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.contenders import Kind, Row, Source
 from ridgeback.compare.benchmark.ways.contender import Contender, refused
-from ridgeback.compare.benchmark.ways.timing import in_languages, nanoseconds
-from ridgeback.compare.binding.compiled_code import OfAmplitude
+from ridgeback.compare.benchmark.ways.timing import nanoseconds
+from ridgeback.compare.binding.compiled_code import NotCompiled, OfAmplitude, Vectorised, compiled_together
+from ridgeback.compare.binding.generated_code import python_module
 from ridgeback.compare.motion.motion import Motion, exact_omega
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics
@@ -51,13 +53,42 @@ class Named:
     coefficients: int | None = None
 
 
-def evaluated(formula: OfAmplitude, named: Named, at: At) -> Iterator[Contender]:
-    """A formula as generated code: one contender for each language and amplitude."""
-    with in_languages(formula) as ways:
-        for language, function in ways.items():
-            cost = nanoseconds(function, next(iter(at.values())))
-            for source, x in at.items():
-                yield Contender(_row(named, source, language, cost), np.asarray(function(x), dtype=float))
+@dataclass(frozen=True)
+class Generated:
+    """A formula with the Python that is generated for it."""
+
+    formula: OfAmplitude
+    named: Named
+    python: Vectorised
+
+
+Tried: TypeAlias = "Generated | Contender"
+"""What there is of a formula: it, or why it is refused."""
+
+
+def generated(formula: OfAmplitude, named: Named) -> Generated:
+    """A formula with its Python."""
+    return Generated(formula, named, python_module(formula).omega0)
+
+
+def evaluated(tried: Iterable[Tried], at: At) -> Iterator[Contender]:
+    """Formulas as generated code: one contender for each, its language and amplitude; what was refused as it is."""
+    found = list(tried)
+    with compiled_together([one.formula for one in found if isinstance(one, Generated)]) as compiled:
+        in_c = iter(compiled)
+        for one in found:
+            if isinstance(one, Generated):
+                yield from _by_language(one, next(in_c), at)
+            else:
+                yield one
+
+
+def _by_language(one: Generated, native: Vectorised | NotCompiled, at: At) -> Iterator[Contender]:
+    ways = {"python": one.python} | ({} if isinstance(native, NotCompiled) else {"c": native})
+    for language, function in ways.items():
+        cost = nanoseconds(function, next(iter(at.values())))
+        for source, x in at.items():
+            yield Contender(_row(one.named, source, language, cost), np.asarray(function(x), dtype=float))
 
 
 def _row(named: Named, source: Source | None, language: str, cost: float) -> Row:
@@ -83,35 +114,34 @@ def arguments(motion: Motion, expansion: Expansion, sources: Mapping[Source, Arr
     return {None: np.full(motion.time.size, float(eps))}
 
 
-def series(expansion: Expansion, orders: Iterable[int], at: At) -> Iterator[Contender]:
+def series(expansion: Expansion, orders: Iterable[int]) -> Iterator[Tried]:
     """The truncated series by order."""
     for order in orders:
         part = expansion.truncated(order)
         count = sum(1 for c in part.coefficients if c != 0)
-        yield from evaluated(
-            part, Named(f"{expansion.method}-{order}", f"expansion, order {order}", "expansion", order, count), at
-        )
+        named = Named(f"{expansion.method}-{order}", f"expansion, order {order}", "expansion", order, count)
+        yield generated(part, named)
 
 
-def resummations(rest: Oscillator, expansion: Expansion, at: At) -> Iterator[Contender]:
+def resummations(rest: Oscillator, expansion: Expansion, at: At) -> Iterator[Tried]:
     """Other formulas from the same coefficients, where they exist; of an oscillator without its damping."""
     part = expansion.truncated(min(expansion.order, RESUMMED))
     for name in RESUMMATIONS:
         try:
             formula = resum(rest, part, name, up_to=_largest(at))
-            yield from evaluated(formula, Named(f"{name}-{part.order}", formula.method, "resummation", part.order), at)
+            yield generated(formula, Named(f"{name}-{part.order}", formula.method, "resummation", part.order))
         except (InputError, ValueError, ZeroDivisionError) as error:
             label = f"{name}, order {part.order}"
             yield refused(f"{name}-{part.order}", label, "resummation", str(error), order=part.order)
 
 
-def fits(motion: Motion, rest: Oscillator, at: At) -> Iterator[Contender]:
+def fits(motion: Motion, rest: Oscillator, at: At) -> Iterator[Tried]:
     """Minimax polynomials in A^2, fitted to the exact omega0 over the amplitudes of this motion."""
     for degree in DEGREES:
         label = f"minimax fit of degree {degree} in A^2"
         try:
             fit = fitted(rest, motion.dynamics, _largest(at), degree)
-            yield from evaluated(fit, Named(f"minimax-{2 * degree}", label, "minimax", 2 * degree, degree + 1), at)
+            yield generated(fit, Named(f"minimax-{2 * degree}", label, "minimax", 2 * degree, degree + 1))
         except InputError as error:
             yield refused(f"minimax-{2 * degree}", label, "minimax", str(error), order=2 * degree)
 

@@ -1,15 +1,12 @@
-"""What a value of a formula costs: wall time of this machine in this run, and the code that is timed."""
+"""What a value of a formula costs: wall time of this machine in this run."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable
 
 import numpy as np
 
-from ridgeback.compare.binding.compiled_code import NotCompiled, OfAmplitude, Vectorised, compiled
-from ridgeback.compare.binding.generated_code import python_module
 from ridgeback.numeric.arrays import Array
 
 REPEATS = 7
@@ -27,13 +24,3 @@ def nanoseconds(function: Callable[[Array], object], x: Array, *, values: int = 
         function(x)
         laps.append(time.perf_counter_ns() - began)
     return float(np.median(laps)) / x.size
-
-
-@contextmanager
-def in_languages(formula: OfAmplitude) -> Iterator[Mapping[str, Vectorised]]:
-    """The generated code of a formula over arrays, by language: Python over NumPy, and C where this machine has it."""
-    ways: dict[str, Vectorised] = {"python": python_module(formula).omega0}
-    with compiled(formula) as native:
-        if not isinstance(native, NotCompiled):
-            ways["c"] = native
-        yield ways
