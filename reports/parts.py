@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
@@ -143,8 +144,10 @@ def download(name: str, text: str) -> dict[str, str]:
     >>> download("a.csv", "x,y")["size"]
     '0 kB'
     """
-    uri = "data:text/csv;charset=utf-8," + quote(text, safe=" ,.:;=+-_()/*")
-    return {"name": name, "uri": uri.replace(" ", "%20"), "size": f"{len(text.encode()) / 1000:.0f} kB"}
+    uri = "data:text/csv;charset=utf-8," + re.sub(
+        r"[^\w,.:;=+\-()/*]+", lambda found: quote(found[0]), text, flags=re.ASCII
+    )
+    return {"name": name, "uri": uri, "size": f"{len(text.encode()) / 1000:.0f} kB"}
 
 
 def downloads(files: Mapping[str, str]) -> Part:

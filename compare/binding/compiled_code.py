@@ -10,14 +10,14 @@ import ctypes
 import shutil
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TypeAlias
 
 import numpy as np
 
-from ridgeback.compare.binding.generated_code import OWN
+from ridgeback.compare.binding.generated_code import OWN, omega0_alone
 from ridgeback.compare.binding.programs import finished
 from ridgeback.numeric.arrays import Array
 from ridgeback.symbolic.codegen import form_of, written
@@ -88,8 +88,7 @@ def _compiled(formulas: Sequence[OfAmplitude], stack: ExitStack) -> tuple[Vector
 
 def source_of(formula: OfAmplitude, name: str) -> str:
     """The generated C of omega0 alone, without its slope."""
-    form = form_of(formula, name=name)
-    return written(replace(form, functions=tuple(f for f in form.functions if f.name == "omega0")), "c")
+    return written(omega0_alone(form_of(formula, name=name)), "c")
 
 
 def _loaded(library: Path, name: str, k: float) -> Vectorised:

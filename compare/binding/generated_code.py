@@ -18,7 +18,7 @@ from types import ModuleType
 from typing import Literal
 
 from ridgeback.compare.binding.programs import Finished, finished
-from ridgeback.symbolic.codegen import Formula, generate
+from ridgeback.symbolic.codegen import Formula, form_of, written
 from ridgeback.symbolic.codegen.languages.registry import find_language
 from ridgeback.symbolic.codegen.program import Form
 
@@ -125,15 +125,20 @@ class _Generated(InspectLoader):
         return self.text
 
 
+def omega0_alone(form: Form) -> Form:
+    """A form without its slope and its motion."""
+    return replace(form, functions=tuple(f for f in form.functions if f.name == "omega0"))
+
+
 def python_module(formula: Formula) -> ModuleType:
-    """The generated Python as a module.
+    """The generated Python of omega0 as a module.
 
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> python_module(lindstedt(find("duffing"), 2)).omega0(0.0)
     1.0
     """
-    loader = _Generated(generate(formula, "python"))
+    loader = _Generated(written(omega0_alone(form_of(formula)), "python"))
     module = ModuleType("ridgeback_generated")
     loader.exec_module(module)
     return module

@@ -69,8 +69,8 @@ def _columns_table(columns: Mapping[str, Sequence[object]]) -> str:
 
 def contenders_table(found: Benchmark) -> str:
     """One row per contender, refused ones included."""
-    header = list(found.contenders[0].to_dict())
-    return csv_text(header, [[row.to_dict()[name] for name in header] for row in found.contenders])
+    rows = [row.to_dict() for row in found.contenders]
+    return csv_text(list(rows[0]), [list(row.values()) for row in rows])
 
 
 def budget_table(rows: Sequence[BudgetRow]) -> str:
