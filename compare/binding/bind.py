@@ -21,6 +21,7 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics, Switches, duffing_frequency, pendulum_frequency
 from ridgeback.symbolic.arithmetic.closures import evaluator
 from ridgeback.symbolic.enclosure.enclosure import enclose
+from ridgeback.symbolic.enclosure.separatrix import ends_of
 from ridgeback.symbolic.flow.averaged_losses import undamped
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.elliptic import cubic_force, sine_force
@@ -86,12 +87,22 @@ def _in_doubles(bound: Oscillator) -> Dynamics:
         natural_frequency=_time_scale(bound),
         damping=_linear_damping(force),
         potential=None if potential is None else _vectorised(potential),
-        restoring=None if potential is None else _vectorised(_slope(potential, force)),
+        restoring=None if potential is None else _vectorised(without_velocity(force)),
         closed_form=None if potential is None else closed_form(without_velocity(force)),
         precise_force=lambda u, v: precise((u, v)),
         jet=None if switches else force_jet(force),
         switches=switches,
+        ends=None if potential is None or switches else lru_cache(lambda: _ends(bound)),
     )
+
+
+def _ends(oscillator: Oscillator) -> tuple[float, float, float] | None:
+    """Where the undamped oscillation ends, left, right and by its peak; None where balls cannot decide."""
+    try:
+        found = ends_of(undamped(oscillator, dissipative_names(oscillator.force)))
+    except InputError:
+        return None
+    return found.left, found.right, found.peak
 
 
 def _time_scale(oscillator: Oscillator) -> float:
@@ -100,11 +111,6 @@ def _time_scale(oscillator: Oscillator) -> float:
         return float(oscillator.natural_frequency.evalf(30))
     rest = undamped(oscillator, dissipative_names(oscillator.force))
     return float(enclose(rest, abs(oscillator.initial[0]) or 1.0, bits=64).middle)
-
-
-def _slope(potential: sympy.Expr, force: sympy.Expr) -> sympy.Expr:
-    """V', or the force itself where V has a kink."""
-    return without_velocity(force) if is_kinked(force, U) else sympy.diff(potential, U)
 
 
 def switches_of(force: sympy.Expr) -> Switches:

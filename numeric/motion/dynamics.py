@@ -69,6 +69,9 @@ class Dynamics:
         force with kinks.
     switches : Switches, optional
         The sides of a force with kinks.
+    ends : callable, optional
+        Takes nothing and returns where the undamped oscillation ends: the first other equilibria or the edges of V',
+        left and right, and the largest peak; None where that could not be decided.  Without it V' is scanned.
 
     Examples
     --------
@@ -86,6 +89,11 @@ class Dynamics:
     precise_force: Callable[[Precise, Precise], Precise] | None = None
     jet: Jet | None = None
     switches: Switches | None = None
+    ends: Callable[[], tuple[float, float, float] | None] | None = None
+
+    def known_ends(self) -> tuple[float, float, float] | None:
+        """What ``ends`` returns, None without it."""
+        return None if self.ends is None else self.ends()
 
     def __repr__(self) -> str:
         return f"<Dynamics: {self.name}, k = {self.natural_frequency:.6g}, mu = {self.damping:.6g}>"
@@ -330,14 +338,16 @@ _UNDERFLOW = 1e-290  # V' vanishing from below this is a tail (Morse's potential
 def well(dynamics: Dynamics) -> tuple[float, float]:
     """Return the ends of the potential well of u = 0: the first other equilibria, left and right.
 
-    Infinite where V' restores at every scanned u up to 1e6; without ``restoring`` both are infinite.
+    As whoever bound the oscillator to its numbers knows them.  Else they are infinite where V' restores at every
+    scanned u up to 1e6, and without ``restoring``.
 
     >>> well(pendulum())
     (-3.14159265358979..., 3.14159265358979...)
     >>> well(duffing(eps=1.0))
     (-inf, inf)
     """
-    return -_well_end(dynamics, -1.0), _well_end(dynamics, 1.0)
+    known = dynamics.known_ends()
+    return (-_well_end(dynamics, -1.0), _well_end(dynamics, 1.0)) if known is None else known[:2]
 
 
 def _well_end(dynamics: Dynamics, side: float) -> float:

@@ -38,7 +38,9 @@ def bracketed_newton(
     if rising is None:
         rising = function(high)[0] >= function(low)[0]
     sign = np.where(rising, 1.0, -1.0)
-    x = 0.5 * (low + high) if guess is None else np.clip(guess, low, high)
+    x = 0.5 * (low + high)
+    if guess is not None:  # one outside is no better than the end, which may be a pole, where Newton's steps are tiny
+        x = np.where((guess > low) & (guess < high), guess, x)
     for _ in range(120):
         value, slope = function(x)
         below = sign * value <= 0

@@ -51,17 +51,21 @@ def potential_at(dynamics: Dynamics, u: ArrayLike) -> Array:
     inner = 32
     while inner <= 512:
         previous, value = value, points * mean_restoring(restoring, np.zeros_like(points), points, inner)
-        if np.all(np.abs(value - previous) <= 1e-12 * np.abs(value)):  # the next change would be its square
-            break
+        settled = np.abs(value - previous) <= 1e-12 * np.abs(value)  # the next change would be its square
+        if np.all(settled):
+            return np.asarray(value)
         inner *= 2
+    if dynamics.potential is not None:  # next to a wall V is large and does not cancel
+        with np.errstate(all="ignore"):
+            value[~settled] = dynamics.potential(points[~settled])
     return np.asarray(value)
 
 
 def peak_limit(dynamics: Dynamics) -> float:
     """Return the peak amplitude at which the oscillation ends: the first other equilibrium on either side.
 
-    One on the left is translated to the peak of equal potential; so is the level at which V saturates on the left
-    (Morse's potential, mirrored).
+    As whoever bound the oscillator to its numbers knows it, else by a scan of V'.  An end on the left is translated to
+    the peak of equal potential; so is the level at which V saturates on the left (Morse's potential, mirrored).
 
     Parameters
     ----------
@@ -82,6 +86,9 @@ def peak_limit(dynamics: Dynamics) -> float:
     0.5
     """
     restoring = restoring_of(dynamics)
+    known = dynamics.known_ends()
+    if known is not None:
+        return known[2]
     left, right = well(dynamics)
     depth = float(potential_at(dynamics, left)[0]) if math.isfinite(left) else _saturation(restoring)
     if math.isinf(depth):

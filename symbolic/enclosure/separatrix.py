@@ -1,14 +1,20 @@
-"""Where oscillation about the origin ends: the lower of the two barriers, and the amplitude whose energy it has."""
+"""Where oscillation about the origin ends: the lower of the two barriers, and the amplitude whose energy it has.
+
+A barrier is an equilibrium (a saddle), the edge of where the force is defined, or the height at which V levels off far
+away.  Saddles are proved; where V ends at an edge or far away its height is extrapolated, to doubles.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
 from flint import arb
 
 from ridgeback.symbolic.enclosure.turning_points import REACH, equilibria, reflected
-from ridgeback.symbolic.enclosure.walk import UndecidedError, decided, level, walk
+from ridgeback.symbolic.enclosure.walk import UndecidedError, Walk, decided, level, root, walk
 from ridgeback.symbolic.enclosure.well import Curves, Well, curves, well_of
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -64,6 +70,122 @@ def _limits(well: Well, bits: int) -> Separatrix:
     if left is not None:
         return Separatrix(_at_level(forward, forward.value(left)), left, left, reach)
     return Separatrix(None, None, None, reach)
+
+
+@dataclass(frozen=True)
+class Ends:
+    """Where oscillation about u = 0 ends, to doubles; infinite where nothing ends it as far as it is followed.
+
+    ``left`` and ``right`` are the first other equilibria or the edges of the force, ``peak`` the largest turning point.
+    """
+
+    left: float
+    right: float
+    peak: float
+
+
+def ends_of(oscillator: Oscillator) -> Ends:
+    """Return where the oscillation about u = 0 ends, by saddles, edges of the force, and levels far away.
+
+    Parameters
+    ----------
+    oscillator : Oscillator
+        Conservative, with numbers for its parameters.
+
+    Returns
+    -------
+    Ends
+        In the unit of u; the force is followed to |u| = 2**20.
+
+    Raises
+    ------
+    InputError
+        As ``separatrix`` does.
+
+    Examples
+    --------
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> ends_of(find("pendulum")).peak, ends_of(find("duffing")).right
+    (3.141592653589793, inf)
+    >>> morse = Oscillator.from_equation("u'' + exp(2*u) - exp(u) = 0")  # V = 1/2 far on the left
+    >>> ends_of(morse).left, round(ends_of(morse).peak - math.log(2), 12)
+    (-inf, 0.0)
+    """
+    well = well_of(oscillator)
+    return decided(lambda working: _ends(well, working), well.name, 64)
+
+
+def _ends(well: Well, bits: int) -> Ends:
+    forward = curves(well, bits)
+    if well.polynomial is not None:
+        ends = equilibria(well, bits)
+        return Ends(-_place(ends[0]), _place(ends[1]), _place(_limits(well, bits).peak))
+    right, height = _end(forward, exact=well.potential is not None)
+    left, depth = (right, height) if well.even else _end(reflected(forward), exact=well.potential is not None)
+    if not depth < height:
+        return Ends(-left, right, right)
+    place = _at_level(forward, arb(depth))
+    return Ends(-left, right, right if place is None else float(place))
+
+
+def _place(end: arb | None) -> float:
+    """Its distance from rest."""
+    return math.inf if end is None else abs(float(end))
+
+
+def _end(side: Curves, *, exact: bool) -> tuple[float, float]:
+    """Where the force on one side ends, and the height of the potential there; either may be infinite."""
+    found = _followed(side)
+    match found.end:
+        case "zero":
+            return float(found.place), float(side.value(found.place))
+        case "singular":
+            edge = found.place.lower()
+            return float(edge), _height([side.value(edge * (1 - arb(2) ** -n)) for n in (32, 40, 48)])
+        case "stopped":
+            far = arb(REACH if exact else SEARCHED)  # of a potential in closed form
+            return math.inf, _height([side.value(far / n) for n in (4, 2, 1)])
+    raise UndecidedError
+
+
+ENOUGH: Final = 64
+"""How far a walk has to have gone before it may go on from point to point, without proof between them."""
+STRIDE: Final = arb(101) / 100
+
+
+def _followed(side: Curves) -> Walk:
+    """A walk as far as balls of intervals can go, then by points 1 % apart."""
+    found = walk(side.force, side.slope, step=arb(1), stop=_never, last=arb(REACH))
+    place = found.place.upper()
+    if found.end != "exhausted" or place < ENOUGH:
+        return found
+    while place < REACH:
+        here, place = place, (place * STRIDE).mid()
+        pull = side.force(place)
+        if not pull.is_finite():
+            return Walk("singular", here)
+        if not pull > 0:
+            return Walk("zero", root(side.force, side.slope, here, place))
+    return Walk("stopped", place)
+
+
+LEVELLING: Final = 0.9
+"""Potentials whose rise falls by less from one place to the next are taken to rise for ever, as a logarithm does."""
+
+
+def _height(values: Sequence[arb]) -> float:
+    """The limit of a rising potential by the ratio of its last two rises, infinite where they do not fall.
+
+    >>> _height([arb(1), arb(3) / 2, arb(7) / 4]), _height([arb(1), arb(2), arb(3)])
+    (2.0, inf)
+    """
+    if not all(value.is_finite() for value in values):
+        return math.inf
+    first, second, last = (float(value) for value in values)
+    rise, before = last - second, second - first
+    if not rise < LEVELLING * before:
+        return last if rise == before == 0 else math.inf
+    return last + rise * rise / (before - rise)
 
 
 def _barriers(well: Well, forward: Curves, bits: int) -> tuple[arb | None, arb | None]:

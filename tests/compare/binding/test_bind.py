@@ -8,7 +8,8 @@ import sympy
 from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind, closed_form
 from ridgeback.numeric.motion import dynamics as twins
-from ridgeback.numeric.orbits.period import exact_frequency
+from ridgeback.numeric.orbits.period import exact_frequency, peak_limit
+from ridgeback.symbolic.enclosure.enclosure import enclose
 from ridgeback.symbolic.systems.catalogue import catalogue, find
 from ridgeback.symbolic.systems.oscillator import Oscillator, U
 
@@ -85,3 +86,35 @@ def test_an_unbound_parameter_is_named():
         bind(Oscillator.from_equation("u'' + u + g*u**3"))
     with pytest.raises(InputError):
         bind(find("pendulum"), values={"q": 1})
+
+
+@pytest.mark.parametrize(
+    ("force", "left", "right", "peak"),
+    [
+        ("tanh(u)", -np.inf, np.inf, np.inf),  # sinh/cosh is not a number from 710 on
+        ("sinh(u)/cosh(u)**3", -np.inf, np.inf, np.inf),  # and vanishes as a double from 238 on
+        ("u + 1 - 1/(1 + u)**3", -1, np.inf, np.inf),  # a pole that V climbs
+        ("1 - 1/(1 + u)**2", -1, np.inf, np.inf),  # of even order, with an equilibrium beyond, at -2
+        ("u/(1 - u**2)**2", -1, 1, 1),
+        ("1 - 1/sqrt(1 + u)", -1, np.inf, 3),  # V is finite at the edge
+        ("exp(2*u) - exp(u)", -np.inf, np.inf, np.log(2)),  # V levels off
+        ("sin(u/1000)", -1000 * np.pi, 1000 * np.pi, 1000 * np.pi),
+        ("u*(1 - u/3)*(1 + u/4)", -4, 3, 3),
+    ],
+)
+def test_the_oscillation_ends_at_saddles_edges_and_levels(force, left, right, peak):
+    dynamics = bind(f"u'' + {force} = 0")
+    assert twins.well(dynamics) == pytest.approx((left, right), rel=1e-14)
+    assert peak_limit(dynamics) == pytest.approx(peak, rel=1e-10)
+
+
+@pytest.mark.parametrize("system", ["isotonic", "kepler", "modified-poschl-teller", "u'' + u/(1 - u**2)**2 = 0"])
+def test_orbits_next_to_a_wall_have_their_frequency(system):
+    peak = 0.9375
+    found = exact_frequency(bind(system), [peak])
+    exact = enclose(system, sympy.Rational(15, 16), bits=64)
+    assert abs(found.omega[0] - float(exact.middle)) <= 4 * found.error[0]
+    if system == "isotonic":  # of one frequency: u + 1 goes from 1/(1 + A) to 1 + A
+        far = exact_frequency(bind(system), [1.0, 30.0])
+        assert far.trough == pytest.approx([-1 / 2, -30 / 31], rel=1e-14)
+        assert far.omega == pytest.approx(1, rel=1e-12)
