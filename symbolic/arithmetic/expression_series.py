@@ -146,8 +146,6 @@ class Program:
         return self.ring.product(self._compile(head), self._compile(sympy.Mul(*tail, evaluate=False)))
 
     def _build_power(self, base: sympy.Expr, exponent: sympy.Expr) -> Node:
-        if base is sympy.E:
-            return Function(self.ring, "exp", self._compile(exponent))
         if not exponent.is_Rational:
             return self._compile(sympy.exp(exponent * sympy.log(base), evaluate=False))
         if exponent.is_Integer and exponent < 0:

@@ -41,9 +41,10 @@ def accurate(form: Form, function: Function) -> Function:
 
     Raises InputError for a function that is not Horner's rule in one variable, times powers and k.
     """
+    function = _with_horner(function)
     place = _place(function)
     length = len(function.body[place].coefficients)  # type: ignore[union-attr]
-    count = 1
+    count = min(1, length - 1)
     while True:
         made = _compensated(function, place, count, form.real)
         if count == length - 1:
@@ -53,6 +54,22 @@ def accurate(form: Form, function: Function) -> Function:
             break
         count = min(2 * count, length - 1) if found is not None and found.ulps is not None else length - 1
     return made
+
+
+def _with_horner(function: Function) -> Function:
+    """A single term c x as Horner's rule for the polynomial c, times x."""
+    if function.polynomial is None or len(function.polynomial.variables) != 1 or len(function.polynomial.terms) > 1:
+        return function
+    body: list[Statement] = []
+    for statement in function.body:
+        operands = () if isinstance(statement, Horner) else statement.operands
+        number = next((o for o in operands if isinstance(o, Number)), None)
+        if number is None:
+            body.append(statement)
+        else:
+            name, at = statement.name, next(o for o in operands if isinstance(o, str))
+            body += [Horner(name, at, (number,)), Step(name, Operation.MULTIPLY, (at, name))]
+    return replace(function, body=tuple(body))
 
 
 def _place(function: Function) -> int:
@@ -93,9 +110,14 @@ class _Pair:
         high = steps.number(fmpq(nearest.numerator, nearest.denominator))
         self.high = steps.assign("sum", Operation.TWO_SUM, self.high, high, rest="sum_low")
         self.low = steps.add("sum_low", "sum_low", self.low or steps.number(0))
-        rest = fraction(c.exact) - nearest if isinstance(c.exact, fmpq) else Fraction(0)
-        if rest:
-            steps.add("sum_low", self.low, steps.number(fmpq(rest.numerator, rest.denominator)))
+        if rest := _rest(c):
+            steps.add("sum_low", self.low, steps.number(rest))
+
+
+def _rest(c: Number) -> fmpq:
+    """What an exact coefficient has beyond the nearest number; 0 for an irrational one."""
+    rest = fraction(c.exact) - Fraction(c.nearest) if isinstance(c.exact, fmpq) else Fraction(0)
+    return fmpq(rest.numerator, rest.denominator)
 
 
 def _compensated(function: Function, place: int, count: int, real: Real) -> Function:
@@ -109,6 +131,8 @@ def _compensated(function: Function, place: int, count: int, real: Real) -> Func
     else:
         steps.multiply(horner.name, kept[0] or steps.number(0), steps.number(1))
     pair = _Pair(steps, horner.name)
+    if not last and kept[0] is not None:
+        pair.low = steps.number(_rest(kept[0]))
     for coefficient in reversed(last):
         pair.times(horner.at, x_low)
         if coefficient is not None:

@@ -11,7 +11,6 @@ from typing import TypeAlias
 import sympy
 from flint import fmpq
 
-from ridgeback.common.errors import InputError
 from ridgeback.common.recurrences import Element
 from ridgeback.symbolic.arithmetic.expression_series import Program
 from ridgeback.symbolic.expansion.expansion import Expansion
@@ -96,8 +95,7 @@ def residual(expansion: Expansion, force: sympy.Expr, fixed: dict[sympy.Symbol, 
 
     The force is evaluated with complete coefficients from the start, not the provisional ones of the recursion.
     """
-    if expansion.waveform is None:
-        raise InputError("this expansion carries no waveform to substitute")
+    assert expansion.waveform is not None  # noqa: S101 - only what has one is given this residual
     u, omega = list(expansion.waveform), list(expansion.coefficients)
     last = len(u) - 1
     omega += [fmpq(0)] * (last + 1 - len(omega))  # omega_last multiplies u_0 only, which is zero then

@@ -24,7 +24,7 @@ from flint import arb, ctx, fmpq, fmpq_poly
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
-from ridgeback.symbolic.arithmetic.balls import polynomial_at, rational, whole_power
+from ridgeback.symbolic.arithmetic.balls import number_ball, polynomial_at, rational, whole_power
 from ridgeback.symbolic.enclosure.turning_points import real_roots
 from ridgeback.symbolic.expansion.ball_expansion import ball_row
 from ridgeback.symbolic.flow.reach import Reach, reach_of
@@ -144,7 +144,7 @@ def _point(
     s: arb, delta: fmpq_poly, omega: list[sympy.Expr], branches: tuple[tuple[arb, Series], ...], reach: Reach
 ) -> FixedPoint:
     slope = 2 * s * polynomial_at(delta.derivative().coeffs(), s)
-    frequency = sum((_ball(c) * whole_power(s, n) for n, c in enumerate(omega)), arb(0))
+    frequency = sum((number_ball(c) * whole_power(s, n) for n, c in enumerate(omega)), arb(0))
     stable = None if slope.contains(0) or reach.beyond else bool(slope < 0)
     series = [found for place, found in branches if place.overlaps(s)]
     return FixedPoint(s.sqrt(), frequency, slope, stable, series[0] if series else None, reach)
@@ -174,17 +174,6 @@ def _polynomial(coefficients: list[sympy.Expr], flow: SlowFlow) -> fmpq_poly:
             "parameter one, so that the zeros can be isolated with proof"
         )
     return fmpq_poly([rational(c) for c in coefficients])
-
-
-def _ball(value: sympy.Expr) -> arb:
-    """Rational numbers, and rational multiples of a square root (odd powers of an irrational k)."""
-    if value.is_Rational:
-        return arb(rational(value))
-    square = sympy.expand(value**2)
-    if not square.is_Rational:
-        raise InputError(f"the coefficient {value} of phi' has no number; set its parameters")
-    root = arb(rational(square)).sqrt()
-    return root if value.is_positive else -root
 
 
 def _branches(flow: SlowFlow, m: fmpq) -> Iterator[tuple[arb, Series]]:

@@ -145,8 +145,7 @@ def to_text(node: Node, *, unknown: str = "u") -> str:
         case Power(base=base, exponent=exponent):
             compound = (Sum, Negate, Product, Quotient, Power)
             return inside(base, *compound) + "**" + inside(exponent, *compound)
-        case Call(function=function, argument=argument):
-            return f"{function}({write(argument)})"
+    return f"{node.function}({write(node.argument)})"
 
 
 def _decimal(value: Fraction) -> str:

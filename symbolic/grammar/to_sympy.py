@@ -10,7 +10,6 @@ from ridgeback.common.errors import InputError
 from ridgeback.symbolic.grammar.at_origin import value_at_origin
 from ridgeback.symbolic.grammar.kinks import U, V, W, absolute, real_power, sign
 from ridgeback.symbolic.grammar.nodes import (
-    Call,
     Name,
     Negate,
     Node,
@@ -78,8 +77,7 @@ def _convert(node: Node) -> sympy.Expr:
             return _finite(below[0] / _bounded(below[1], node), node)
         case Power():
             return _finite(real_power(_bounded(below[0], node), below[1]), node)
-        case Call(function=function):
-            return _finite(_called(function, _bounded(below[0], node), node), node)
+    return _finite(_called(node.function, _bounded(below[0], node), node), node)
 
 
 def _called(function: str, argument: sympy.Expr, node: Node) -> sympy.Expr:

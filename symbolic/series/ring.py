@@ -107,9 +107,14 @@ class TrigRing:
         """Return a rational power of a rational constant; InputError where it is irrational."""
         exponent = sympy.Rational(numerator, denominator)
         value = self._constant(element)
+        if value is None:
+            raise InputError(
+                f"the power {exponent} is taken of a parameter, or of what oscillates from order 0 on, as u and u' of "
+                "a limit cycle do, and has no rational series there; give the parameter a number, or start it with 1"
+            )
         if isinstance(value, arb) and value.is_exact():
             value = value.fmpq()
-        root = None if not isinstance(value, fmpq) else sympy.Rational(int(value.p), int(value.q)) ** exponent
+        root = None if isinstance(value, arb) else sympy.Rational(int(value.p), int(value.q)) ** exponent
         if root is None or not root.is_Rational:
             raise InputError(f"the power {exponent} of {value} is not rational; scale the argument to start from 1")
         return self.number(root)

@@ -263,8 +263,7 @@ def stripped(expansion: Series) -> tuple[int, list[Any]]:
 
 def _decimal(expansion: Series, coefficient: Any) -> fmpq:
     """An irrational coefficient to so many digits that what is estimated from it does not feel the rest."""
-    if isinstance(expansion, BallExpansion):
-        raise AssertionError("the coefficients of balls are balls")
+    assert not isinstance(expansion, BallExpansion)  # noqa: S101 - their coefficients are balls
     value = expansion.exact(coefficient)
     near = value if value.is_Rational else sympy.Rational(str(value.evalf(DIGITS)))
     return fmpq(int(near.p), int(near.q))

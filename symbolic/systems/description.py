@@ -32,10 +32,8 @@ from ridgeback.common.files import read_regular
 from ridgeback.symbolic.arithmetic.roots import Root
 from ridgeback.symbolic.grammar.nodes import (
     Call,
-    Name,
     Negate,
     Node,
-    Number,
     Power,
     Product,
     Quotient,
@@ -144,8 +142,7 @@ def _moved(node: Node, place: Node) -> Node:
             return Power(_moved(base, place), exponent)
         case Call(function=function, argument=argument):
             return Call(function, _moved(argument, place))
-        case Unknown() | Number() | Name():
-            return node
+    return node
 
 
 def read_description(path: str | Path) -> Oscillator:

@@ -119,7 +119,7 @@ def test_a_trial_without_an_estimate_has_its_reason(paper: Truth) -> None:
     assert judged(paper, unnamed).reason.startswith("model-fit needs an oscillator; name it and its free parameters")
     short = attempt(paper, paper.x[:9], "hilbert", {})
     assert isinstance(short, InputError)
-    assert judged(paper, short) == Trial(reason=str(short))
+    assert judged(paper, short).reason == str(short)
     track = attempt(paper, paper.x, "hilbert", {})
     assert isinstance(track, Track)
     nowhere = replace(track, valid=np.zeros(track.time.size, dtype=np.bool_))

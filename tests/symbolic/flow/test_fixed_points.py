@@ -1,0 +1,43 @@
+"""Amplitude equations beside those of the catalogue: symbols, irrational stiffness, boxes that cannot shrink."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+import sympy
+from flint import arb, fmpq
+
+from ridgeback.symbolic.flow.fixed_points import _tightened, cycle_series, fixed_points
+from ridgeback.symbolic.flow.multiple_scales import multiple_scales
+from ridgeback.symbolic.flow.ordering import HIGHEST_POWER, _dimension
+from ridgeback.symbolic.systems.oscillator import Oscillator, V
+
+
+def test_an_irrational_stiffness_only_scales_time() -> None:
+    """With tau = sqrt(2) t, u'' - m (1 - u^2) u' + 2u = 0 is the equation of stiffness 1 with m/sqrt(2)."""
+    own, plain = (
+        multiple_scales(Oscillator.from_equation(f"u'' - m*(1 - u**2)*u' + {k}*u = 0", parameters={"m": None}), 6)
+        for k in (2, 1)
+    )
+    here, there = fixed_points(own, {"m": "1/10"})[0], fixed_points(plain, {"m": math.sqrt(2) / 20})[0]
+    assert float(here.amplitude) == pytest.approx(float(there.amplitude), abs=1e-13)
+    assert float(here.frequency) == pytest.approx(math.sqrt(2) * float(there.frequency), abs=1e-13)
+    assert here.stable is there.stable is True
+
+
+def test_a_symbol_in_the_amplitude_equation_leaves_it_without_an_exact_series() -> None:
+    flow = multiple_scales(
+        Oscillator.from_equation("u'' - m*(1 - u**2)*u' + u + c*u**3 = 0", parameters={"m": None, "c": None}), 4
+    )
+    assert cycle_series(flow) == ()
+
+
+def test_a_box_round_a_double_zero_stays_as_it_is() -> None:
+    box = arb(0, 1)
+    assert _tightened({(2, 0): fmpq(1)}, box, fmpq(0)) is box
+
+
+def test_a_loss_beyond_every_power_counts_as_a_force() -> None:
+    c = sympy.Symbol("c", real=True)
+    assert [_dimension(c * V**n, c) for n in (0, 1, 3, HIGHEST_POWER + 1)] == [2, 1, -1, 2]
