@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.fft import rfft, rfftfreq
+from scipy.fft import irfft, rfft, rfftfreq
+from scipy.special import chdtri
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.components.lines import LEAST, clearest_line
 from ridgeback.numeric.harmonics.local_fit import harmonic_fit
 from ridgeback.numeric.harmonics.signal_model import SignalModels
@@ -28,13 +29,78 @@ NEAR = 1.45
 """Factor from the oscillation within which a line is in its band."""
 WINDOW_CYCLES, FEWEST_WINDOWS, MOST_WINDOWS = 4.0, 5, 200
 """Of short stretches whose noise is held against that of the whole: their length, and how many of them."""
+STRETCH_CYCLES, AROUND, CHANCE = 3.0, (0.5, 1.5), 1e-4
+"""Cycles of a stretch that is held against the others, the band about the oscillation in which it is, and the
+probability in white noise of one that leaves so much."""
 ROUGH = 3.0
 """Times the noise of short stretches, that a model of the whole leaves which is not that of one smooth oscillation."""
 
 
-def doubt(models: SignalModels, x: Array, left: Array, rate: float, guide: Array) -> str:
-    """Why models cannot be trusted that leave ``left`` of samples ``x``, tones in them; empty where they can."""
-    return in_the_way(left, rate, models.best) or unfinished(models, left) or uneven(models.best, x, rate, guide)
+def doubt(models: SignalModels, x: Array, left: Array, rate: float, guide: Array, sound: Mask) -> str:
+    """Why models cannot be trusted that leave ``left`` of samples ``x``, tones in them; empty where they can.
+
+    ``sound`` are the samples that count.
+    """
+    return (
+        in_the_way(left, rate, models.best)
+        or unfinished(models, left)
+        or uneven(models.best, x, rate, guide)
+        or somewhere(models.best, left, rate, sound)
+    )
+
+
+# In white noise the energy of a window of L samples in a band of width B, rad per sample, over the noise's variance is
+# distributed as chi^2 with L B / pi degrees of freedom.
+def somewhere(model: SplineModel, left: Array, rate: float, sound: Mask) -> str:
+    """Why a model cannot be trusted that leaves far more in one stretch than elsewhere: the motion jumps there.
+
+    >>> from ridgeback.numeric.harmonics.signal_model import signal_models
+    >>> t, noise = np.arange(480) / 16.0, 0.01 * np.random.default_rng(1).normal(size=480)
+    >>> sound = np.ones(480, dtype=bool)
+    >>> for second in (6.0, 6.3):
+    ...     guide = np.where(t < 15.0, 6.0, second)
+    ...     x = np.cos(6.0 * t + (guide - 6.0) * (t - 15.0)) + noise
+    ...     best = signal_models(x, 16.0, guide, half=30, multiples=()).best
+    ...     print(somewhere(best, x - best.samples(), 16.0, sound)[:31])
+    <BLANKLINE>
+    a model of the whole leaves 4.1
+    """
+    clear = model.size > LEAST * float(model.size.max())
+    low, high = AROUND[0] * float(model.omega[clear].min()), AROUND[1] * float(model.omega[clear].max())
+    width = min(high, math.pi * rate) - low
+    length = round(STRETCH_CYCLES * TWO_PI * rate / float(np.average(model.omega, weights=model.size**2)))
+    power, there = in_windows(within(left * sound, low / rate, high / rate) ** 2, length), in_windows(sound, length)
+    known = there > 0.5
+    if known.sum() < FEWEST_WINDOWS:
+        return ""
+    power = np.where(known, power / np.maximum(there, 0.5), 0.0)
+    usual, freedom, at = float(np.median(power[known])), length * width / rate / math.pi, int(power.argmax())
+    rare = chdtri(freedom, CHANCE / power.size) / chdtri(freedom, 0.5)
+    if power[at] <= max(rare * usual, (LEAST * float(model.size.max())) ** 2):
+        return ""
+    begin = float(model.time[at * (length // 2)])
+    return (
+        f"a model of the whole leaves {math.sqrt(power[at] / usual) if usual else math.inf:.2g} times as much from "
+        f"{begin:.4g} to {begin + length / rate:.4g} after the first sample as elsewhere, as it does where the motion "
+        "jumps; give a --span in which it goes on smoothly"
+    )
+
+
+def within(x: Array, low: float, high: float) -> Array:
+    """The part of samples in a band, rad per sample."""
+    spectrum, w = rfft(x), TWO_PI * rfftfreq(x.size)
+    return np.asarray(irfft(np.where((w > low) & (w < high), spectrum, 0.0), x.size), dtype=np.float64)
+
+
+def in_windows(values: Array, length: int) -> Array:
+    """Means over windows of so many samples, half overlapping.
+
+    >>> in_windows(np.arange(8.0), 4).tolist()
+    [1.5, 3.5, 5.5]
+    """
+    total, half = np.concatenate([[0.0], np.cumsum(values, dtype=float)]), max(1, length // 2)
+    first = np.arange(0, values.size - length + 1, half)
+    return np.asarray((total[first + length] - total[first]) / length, dtype=np.float64)
 
 
 def uneven(model: SplineModel, x: Array, rate: float, guide: Array) -> str:

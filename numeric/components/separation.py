@@ -128,7 +128,7 @@ def separated(
     omega = float(np.average(models.best.omega, weights=models.best.size**2))
     known = models.coloured(colour(left, rate, omega, models.best.basis.count))
     single = np.where(given.sound, given.x - total(tones, given.time), models.best.samples())
-    reason = off_the_band(models.best, band) or doubt(known, given.x, left, rate, guide)
+    reason = off_the_band(models.best, band) or doubt(known, given.x, left, rate, guide, given.sound)
     return Separated(single, known, given.sound, tones, count, reason)
 
 

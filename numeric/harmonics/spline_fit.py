@@ -42,8 +42,10 @@ SETTLED = 1e-4
 end of a decay, it goes on wandering."""
 FINEST_CYCLES = 2.0
 """Closer knots would let the amplitude's spline imitate harmonics."""
-AT_REST, UNSEEN = 1e-10, 1e-3
+AT_REST, UNSEEN = 1e-10, 1e-2
 """Last steps of the phase at which a fit ends: in radians, and relative to what the noise leaves open."""
+HOPEFUL, NEAR = 6, 0.1
+"""Steps after which a fit is given up that, once they are below NEAR, shrink too slowly for it to settle."""
 
 ENOUGH = 100
 """Ordinates of a spectrum from which on they suffice to judge a model by."""
@@ -104,7 +106,7 @@ def fit_on(
     families = 3 + 2 * len(multiples)
     itself = np.zeros((basis.count, families))
     itself[:, 0] = 1.0
-    for _ in range(ITERATIONS):
+    for done in range(1, ITERATIONS + 1):
         weights = Linearised(p, level, multiples, known.sound, {})
         equations = normal_equations(basis, weights, families, firmness(families, residual))
         left = x * sound - equations.model(itself)
@@ -113,8 +115,10 @@ def fit_on(
         moved = np.maximum(np.abs(basis.values(c[:, 0])), np.abs(basis.values(c[:, -1])))
         largest = max(float(size.max()), np.finfo(float).tiny)
         before, step = step, float((moved * size).max()) / largest
-        open_by_noise = math.sqrt(float(np.mean(residual**2)) * basis.count / x.size) / largest
-        if step < max(AT_REST, UNSEEN * open_by_noise) or (step < SETTLED and step > 0.5 * before):
+        unseen = UNSEEN * math.sqrt(float(np.mean(residual**2)) * basis.count / x.size) / largest
+        if step < max(AT_REST, min(SETTLED, unseen)) or (step < SETTLED and step > 0.5 * before):
+            break
+        if done >= HOPEFUL and step < NEAR and step * min(1.0, step / before) ** (ITERATIONS - done) > SETTLED:
             break
         part = min(1.0, 0.5 / float(moved.max()))
         p, level = p + part * c[:, -1], level + part * c[:, 0]

@@ -115,13 +115,14 @@ def continuous_path(level: Floats, reach: int) -> NDArray[np.intp]:
     [0, 1, 2]
     """
     rows, columns = level.shape
-    best, came = level[:, 0].astype(np.float64), np.zeros((rows, columns), dtype=np.int16)
+    came, every = np.zeros((rows, columns), dtype=np.int16), np.arange(rows)
+    padded = np.full(rows + 2 * reach, -np.inf)
+    best, choices = padded[reach : reach + rows], np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1)
+    best[:] = level[:, 0]
     for column in range(1, columns):
-        padded = np.pad(best, reach, constant_values=-np.inf)
-        choices = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1)
         pick = choices.argmax(axis=1)
         came[:, column] = pick - reach
-        best = choices[np.arange(rows), pick] + level[:, column]
+        best[:] = choices[every, pick] + level[:, column]
     path = np.empty(columns, dtype=np.intp)
     path[-1] = best.argmax()
     for column in range(columns - 1, 0, -1):

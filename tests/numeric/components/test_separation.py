@@ -150,3 +150,13 @@ def test_a_band_isolates_the_weaker_of_two_modes_up_to_the_ends() -> None:
     assert np.mean(held) > 0.8
     assert np.abs(track.omega / (2 * np.pi * 31.0) - 1.0).max() < 0.01
     assert any(abs(tone.omega / (2 * np.pi) - 20.0) < 0.1 for tone in track.used.tones)
+
+
+def test_a_frequency_that_jumps_by_a_few_per_cent_gets_no_interval_and_one_that_swings_does() -> None:
+    t = np.arange(800) / 40.0
+    noise = 0.01 * np.random.default_rng(53).normal(size=800)
+    jumping = np.cos(6 * np.pi * (t + 0.035 * np.maximum(t - 11.75, 0.0)))
+    swinging = np.cos(6 * np.pi * t + 0.3 * np.sin(0.5 * t))
+    reasons = [estimate(x + noise, 40.0).no_interval for x in (jumping, swinging)]
+    assert reasons[0] is not None and "as it does where the motion jumps" in reasons[0]
+    assert reasons[1] is None
