@@ -69,7 +69,10 @@ def somewhere(model: SplineModel, left: Array, rate: float, sound: Mask) -> str:
     low, high = AROUND[0] * float(model.omega[clear].min()), AROUND[1] * float(model.omega[clear].max())
     width = min(high, math.pi * rate) - low
     length = round(STRETCH_CYCLES * TWO_PI * rate / float(np.average(model.omega, weights=model.size**2)))
-    power, there = in_windows(within(left * sound, low / rate, high / rate) ** 2, length), in_windows(sound, length)
+    power, there = (
+        in_windows(within(left * sound, low / rate, high / rate) ** 2, length),
+        in_windows(sound.astype(float), length),
+    )
     known = there > 0.5
     if known.sum() < FEWEST_WINDOWS:
         return ""
