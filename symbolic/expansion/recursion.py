@@ -17,7 +17,7 @@ from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.grammar.parse import U, V
 from ridgeback.symbolic.series.online_sums import weighted_sums
 from ridgeback.symbolic.series.ring import TrigRing
-from ridgeback.symbolic.series.spaces import Scalar, Space
+from ridgeback.symbolic.series.spaces import Scalar, Space, is_zero
 from ridgeback.symbolic.series.trigonometric import Trig, at_zero, cosine, harmonic, sine
 
 
@@ -49,7 +49,8 @@ class Recursion:
     def extend_omega(self, w: Scalar) -> None:
         """Append omega^2's next coefficient and omega's: 2 omega_n = w_n - sum of omega_j omega_(n-j)."""
         n = len(self.squared)
-        half: Scalar = sum((self.omega[j] * self.omega[n - j] for j in range(1, (n + 1) // 2)), fmpq(0))
+        low = ((j, c) for j, c in enumerate(self.omega[1 : (n + 1) // 2], 1) if not is_zero(c))
+        half: Scalar = sum((c * self.omega[n - j] for j, c in low), fmpq(0))
         inner = 2 * half if n % 2 else 2 * half + self.omega[n // 2] * self.omega[n // 2]
         self.squared.append(w)
         self.later.append(w)

@@ -16,6 +16,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import reduce
+from operator import itemgetter
 from typing import Final, TypeAlias
 
 from flint import fmpq, fmpq_poly, fmpz, fmpz_poly
@@ -24,8 +25,8 @@ from ridgeback.symbolic.series.spaces import Parts
 
 Integral: TypeAlias = tuple[fmpz_poly, fmpz]
 """Numerator and denominator of a part."""
-Row: TypeAlias = tuple[Integral | None, Integral | None, Integral | None, Integral | None]
-"""The four parts of one order."""
+Row: TypeAlias = tuple[tuple[int, fmpz_poly, fmpz], ...]
+"""The parts of one order that are not zero: index, numerator and denominator of each."""
 Terms: TypeAlias = dict[tuple[int, int], list[Integral]]
 """What is to be added up, by the part it belongs to and the factors (y: 1, 1 - y: 2) that its two parts share."""
 
@@ -33,34 +34,29 @@ ONE: Final = fmpz(1)
 
 
 def integral(parts: Parts) -> Row:
-    """Return the parts as integers over denominators, None for a zero.
+    """Return the parts as integers over denominators.
 
     >>> integral((fmpq_poly([fmpq(1, 2), 1]), fmpq_poly([]), None, None))
-    ((2*x + 1, 2), None, None, None)
+    ((0, 2*x + 1, 2),)
     """
-    a, b, c, d = (None if p is None or p.is_zero() else (p.numer(), p.denom()) for p in parts)
-    return a, b, c, d
+    return tuple((i, p.numer(), p.denom()) for i, p in enumerate(parts) if p is not None and not p.is_zero())
 
 
 def integral_scalar(value: fmpq) -> Row:
     """Return a rational number as a row.
 
-    >>> integral_scalar(fmpq(2, 3))
-    ((2, 3), None, None, None)
+    >>> integral_scalar(fmpq(2, 3)), integral_scalar(fmpq(0))
+    (((0, 2, 3),), ())
     """
-    return (None if value == 0 else (fmpz_poly([value.p]), fmpz(value.q))), None, None, None
+    return () if value == 0 else ((0, fmpz_poly([value.p]), value.q),)
 
 
 def add_product(terms: Terms, x: Row, y: Row, times: int = 1) -> None:
     """Add a multiple of the product of two rows to the terms."""
-    for i, p in enumerate(x):
-        if p is not None:
-            for j, q in enumerate(y):
-                if q is not None:
-                    product = p[0] * q[0]
-                    terms.setdefault((i ^ j, i & j), []).append(
-                        (product * times if times > 1 else product, p[1] * q[1])
-                    )
+    for i, p, d in x:
+        for j, q, e in y:
+            product = p * q
+            terms.setdefault((i ^ j, i & j), []).append((product * times if times > 1 else product, d * e))
 
 
 def total(terms: Terms) -> Parts:
@@ -83,8 +79,10 @@ def added(those: Sequence[Integral]) -> Integral:
 
     From the shortest denominator to the longest, each of which the next nearly holds, so that factors stay short.
     """
+    if len(those) == 1:
+        return those[0]
     total, common = fmpz_poly([]), ONE
-    for numerator, d in sorted(those, key=lambda term: term[1]):
+    for numerator, d in sorted(those, key=itemgetter(1)):
         if d != common:
             before, common = common, common.lcm(d)
             total = total * (common // before)
@@ -132,25 +130,27 @@ class Rows:
 def rows(block: Sequence[Row]) -> list[Rows]:
     """Collect the parts of a block of orders, those that no order has left out.
 
-    >>> one = (fmpz_poly([1]), fmpz(1))
-    >>> rows([(one, None, None, None), (None,) * 4, (one, None, None, None)])
+    >>> one = ((0, fmpz_poly([1]), fmpz(1)),)
+    >>> rows([one, (), one])
     [Rows(part=0, first=0, step=2, values=((1, 1), (1, 1)))]
     """
+    parts: dict[int, dict[int, Integral]] = {}
+    for n, row in enumerate(block):
+        for part, numerator, denominator in row:
+            parts.setdefault(part, {})[n] = numerator, denominator
     found = []
-    for part in range(4):
-        present = [n for n, row in enumerate(block) if row[part] is not None]
-        if present:
-            step = math.gcd(*(b - a for a, b in itertools.pairwise(present))) or 1
-            values = tuple(block[n][part] for n in range(present[0], present[-1] + 1, step))
-            found.append(Rows(part, present[0], step, values))
+    for part, present in parts.items():
+        first, last = next(iter(present)), next(reversed(present))
+        step = math.gcd(*(n - first for n in present)) or 1
+        found.append(Rows(part, first, step, tuple(present.get(n) for n in range(first, last + 1, step))))
     return found
 
 
 def products(left: Sequence[Row], right: Sequence[Row]) -> Iterator[tuple[int, tuple[int, int], Integral]]:
     """Multiply two blocks of orders: order, key as in ``Terms`` and value of everything that their product holds.
 
-    >>> one = (fmpz_poly([1]), fmpz(1))
-    >>> list(products([(None, one, None, None)], [(None, one, None, None)]))
+    >>> one = ((1, fmpz_poly([1]), fmpz(1)),)
+    >>> list(products([one], [one]))
     [(0, (0, 1), (1, 1))]
     """
     for x, y in itertools.product(rows(left), rows(right)):

@@ -39,9 +39,11 @@ class Factor:
 
     def row(self, j: int) -> Row:
         """Coefficient j."""
-        if j < len(self.rows) and self.rows[j][0] is self.known[j]:
-            return self.rows[j][1]
-        del self.rows[j:]
+        if j < len(self.rows):
+            value, row = self.rows[j]
+            if value is self.known[j]:
+                return row
+            del self.rows[j:]
         for value in self.known[len(self.rows) : j + 1]:
             self.rows.append((value, self.convert(value)))
         return self.rows[j][1]
@@ -53,7 +55,7 @@ class Factor:
     def leading_zeros(self) -> int | None:
         """How many coefficients vanish before the first that does not, ``BASE`` at most; None while none is known."""
         for j in range(min(BASE, len(self.known))):
-            if self.row(j) != NOTHING:
+            if self.row(j):
                 return j
         return BASE if len(self.known) >= BASE else None
 
@@ -86,7 +88,8 @@ class OnlineSums:
             top = min(last, n - t)
             low = range(max(first, s), min(top, s + BASE - 1) + 1)
             for j in (*low, *range(max(n - t - BASE + 1, low.stop), top + 1)):
-                add_product(terms, self.x.row(j), self.y.row(n - j))
+                if x := self.x.row(j):
+                    add_product(terms, x, self.y.row(n - j))
         return Trig(self.space, total(terms))
 
     def _skips(self) -> tuple[int, int]:
@@ -100,7 +103,8 @@ class OnlineSums:
     def _add_squares(self, terms: Terms, n: int, s: int) -> None:
         """The pairs of a square with one of the lowest orders, each multiplied once."""
         for j in range(s, min(s + BASE, n // 2 + 1)):
-            add_product(terms, self.x.row(j), self.x.row(n - j), 1 if 2 * j == n else 2)
+            if x := self.x.row(j):
+                add_product(terms, x, self.x.row(n - j), 1 if 2 * j == n else 2)
 
     def _multiply_blocks(self, m: int, s: int, t: int) -> None:
         """Multiply the blocks due at order m; what they hold of orders beyond the last is left out."""

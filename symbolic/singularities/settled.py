@@ -6,14 +6,16 @@ from typing import Final
 
 from ridgeback.common.progress import Wanted
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
+from ridgeback.symbolic.expansion.energy_integral import ALLOWED, energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.singularities.limits import ONE_POWER, Limits, limits, nowhere
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
+from ridgeback.symbolic.systems.oscillator import Oscillator, V
 
 _SETTLING: Final = 48
-"""The same for any amplitude definition and for limit cycles, by Lindstedt-Poincaré."""
+"""The same for any amplitude definition and for limit cycles."""
 
 
 def settled_limits(
@@ -53,7 +55,14 @@ def settled_limits(
         found = limits(expansion)
         if found.radius is not None or isinstance(expansion, Expansion):
             return found
-    return limits(expansion, longer=lindstedt(oscillator, _SETTLING, amplitude=expansion.amplitude, progress=progress))
+    return limits(expansion, longer=_longer(oscillator, expansion.amplitude, progress))
+
+
+def _longer(oscillator: Oscillator, amplitude: str, progress: Wanted) -> Expansion:
+    """The frequency alone is enough: by the energy integral where there is one, which takes the least."""
+    conserved = oscillator.is_conservative and not oscillator.by_sides and not oscillator.normalised.rational.has(V)
+    derive = energy_integral if conserved and amplitude in ALLOWED else lindstedt
+    return derive(oscillator, _SETTLING, amplitude=amplitude, progress=progress)
 
 
 def _of_powers(expansion: PowerExpansion) -> Limits:
