@@ -1,4 +1,4 @@
-r"""The decay by losses c(u) |u'|^r sign(u'), such as quadratic damping and dry friction, to first order in them.
+r"""The decay by losses c(u) |u'|^r sign(u'), such as quadratic damping and dry friction, averaged along the orbit.
 
 Along an undamped orbit of peak A the energy E = u'^2/2 + V(u) loses on the average
 
@@ -12,7 +12,7 @@ Non-linear Oscillations, 1961, section 3).  On the side u > 0, where 2V = k^2 y^
 
 both ways, and on the other side with Y' = rho Y; the loop takes twice their sum.  For k = 1 the leading terms are
 -(4/(3 pi)) c a of c |u'| u' and -2F/(pi a) of F sign(u') (A. H. Nayfeh and D. T. Mook, Nonlinear Oscillations, 1979,
-section 3.2).
+section 3.2).  What the losses change of phi' is of second order in them; see ``second_order``.
 """
 
 from __future__ import annotations
@@ -30,7 +30,8 @@ from ridgeback.symbolic.expansion.amplitude import check_definition, check_name
 from ridgeback.symbolic.expansion.expansion import check_order
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.expansion.quarter_cycles import Travel, TwoSides
-from ridgeback.symbolic.flow.loss_flow import LossFlow, LossTerm, Power
+from ridgeback.symbolic.flow.loss_flow import LossFlow, LossTerm, Power, SecondOrder
+from ridgeback.symbolic.flow.second_order import parts_of, phase_terms
 from ridgeback.symbolic.series.spaces import Scalar
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.natural_units import Natural, over_leading
@@ -67,7 +68,7 @@ def averaged_losses(oscillator: OscillatorLike, order: int, *, amplitude: str | 
     Returns
     -------
     LossFlow
-        phi' and a'/a to first order in the losses.
+        phi' and a'/a, with what phi' has of the second order in the losses.
 
     Raises
     ------
@@ -88,18 +89,21 @@ def averaged_losses(oscillator: OscillatorLike, order: int, *, amplitude: str | 
     rest = undamped(oscillator, names)
     if not rest.is_linear_at_rest:
         raise InputError(f"{oscillator.name}: averaging needs a linear restoring force; simulate shows the motion")
-    frequency, growth = _Average(rest, losses, names, order).rates()
+    average = _Average(rest, losses, names, order)
+    frequency, growth = average.rates()
     definition = _definition(rest, amplitude)
     if definition == "fundamental":
         frequency, growth = _in_first_harmonic(rest, order, growth)
     none = tuple(0 for _ in names)
+    second, more = average.second_order()
     return LossFlow(
         system=oscillator.name,
         order=order,
         amplitude=definition,
         losses=names,
-        phase_terms=tuple(LossTerm((n, *none), c) for n, c in enumerate(frequency) if c != 0),
+        phase_terms=_sorted([*(LossTerm((n, *none), c) for n, c in enumerate(frequency) if c != 0), *more]),
         growth_terms=_sorted(growth),
+        second=second,
     )
 
 
@@ -176,6 +180,19 @@ class _Average:
             for j, value in enumerate(series[: max(0, self.order - LEADING + 1)]):
                 growth += self._terms(value, loss.exponent - 1 + j, unit)
         return tuple(mean * self._exact(value) for value in omega), growth
+
+    def second_order(self) -> tuple[SecondOrder, list[LossTerm]]:
+        """What phi' has of it, and its terms; each loss counts like a^2, as mu does in multiple scales."""
+        if self.order < 2 * LEADING:
+            return SecondOrder.BELOW, []
+        if self.both.exact_ratio != 1 or not all(loss.exponent.is_Integer for loss in self.losses):
+            return SecondOrder.UNKNOWN, []
+        sides = zip(*(travel.force[1:] for travel in self.both.travels(self.order)), strict=True)
+        linear = next((n for n, pair in enumerate(sides) if any(value != 0 for value in pair)), self.order)
+        above = min(self.order - 2 * LEADING, linear)
+        parts = [p for loss in self.losses for p in parts_of(loss.right, loss.left, int(loss.exponent), above)]
+        terms = phase_terms(parts, self.names, positive_root(self.both.near.coefficient), above)
+        return SecondOrder.WHOLE if above == self.order - 2 * LEADING else SecondOrder.LINEAR, terms
 
     def _lost(self, i: int, here: Travel, there: Travel) -> list[Scalar]:
         """The integrals over both sides in powers of A, over k^r Y^(r+1) pi."""

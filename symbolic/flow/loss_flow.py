@@ -1,4 +1,4 @@
-"""The frozen result of averaging: phi' and a'/a to first order in losses that need not be analytic at rest.
+"""The frozen result of averaging: phi' and a'/a in losses that need not be analytic at rest.
 
 Terms may hold any power of the amplitude: Coulomb friction brings F/a, quadratic damping c a.  ``amplitude`` says which
 amplitude it is; in a damped motion it is that of the undamped orbit with the same averaged energy.
@@ -7,6 +7,7 @@ amplitude it is; in a damped motion it is that of the undamped orbit with the sa
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from functools import cached_property
 from typing import Any, TypeAlias
 
@@ -19,6 +20,19 @@ from ridgeback.symbolic.flow.shown import ShownSlowFlow
 Power: TypeAlias = int | sympy.Rational
 
 
+class SecondOrder(Enum):
+    """What phi' has of the second order in the losses; a'/a has none, since they change sign with time."""
+
+    WHOLE = "whole"
+    """All of it, through the order of the amplitude."""
+    LINEAR = "linear"
+    """The terms in which the restoring force is linear."""
+    BELOW = "below"
+    """None: it counts like a^4, which is above the order asked for."""
+    UNKNOWN = "unknown"
+    """None: of broken powers of u', and with another stiffness on each side of rest, no exact sum is known."""
+
+
 @dataclass(frozen=True)
 class LossTerm:
     """One term ``coefficient * a^powers[0] * m_1^powers[1] ...``; a power that is no whole number is a Rational."""
@@ -29,7 +43,9 @@ class LossTerm:
 
 @dataclass(frozen=True, repr=False)
 class LossFlow(ShownSlowFlow):
-    """phi' and a'/a to first order in the losses, exact in everything else through an order of the amplitude.
+    """phi' and a'/a along the undamped orbit, through an order of the amplitude.
+
+    In the losses a'/a is of first order, and right to the second; ``second`` says what phi' has of that.
 
     Made by ``averaged_losses``.
 
@@ -46,6 +62,8 @@ class LossFlow(ShownSlowFlow):
         Parameters that the losses vanish with.
     phase_terms, growth_terms : tuple of LossTerm
         Terms of phi' (rad per time unit) and of a'/a (per time unit), in the oscillator's own units.
+    second : SecondOrder
+        What phi', the rate of the first harmonic's phase, has of the second order in the losses.
 
     Examples
     --------
@@ -61,6 +79,7 @@ class LossFlow(ShownSlowFlow):
     losses: tuple[str, ...]
     phase_terms: tuple[LossTerm, ...]
     growth_terms: tuple[LossTerm, ...]
+    second: SecondOrder
     method: str = "multiple-scales"
 
     @property
@@ -135,13 +154,17 @@ class LossFlow(ShownSlowFlow):
         return mathml(first), mathml(second)
 
     def to_dict(self) -> dict[str, object]:
-        """The public JSON form of a slow flow; ``loss_order`` 1 says that higher powers of the losses are left out."""
+        """The public JSON form of a slow flow; ``loss_order`` is that in the losses.
+
+        2 where phi' has terms of it; ``second_order`` says which.
+        """
         return {
             "system": self.system,
             "method": self.method,
             "amplitude": self.amplitude,
             "order": self.order,
-            "loss_order": 1,
+            "loss_order": 2 if self._has_second else 1,
+            "second_order": self.second.value,
             "variables": list(self.variables),
             "frequency": self._rows(self.frequency),
             "growth_rate": self._rows(self.growth_rate),
@@ -168,12 +191,31 @@ class LossFlow(ShownSlowFlow):
         """Raise InputError: averaging gives the rates only."""
         raise InputError(self.refusal())
 
+    def losses_to(self) -> str:
+        """The order in the losses, in a few words."""
+        return "to first order in the losses" + (", phi' to second" if self._has_second else "")
+
+    @property
+    def _has_second(self) -> bool:
+        return self.second in (SecondOrder.WHOLE, SecondOrder.LINEAR)
+
     def sentence(self) -> str:
         """What is left out, in one line."""
-        return (
-            "To first order in the losses, along the undamped orbit exactly through this order of the amplitude; the "
-            "losses' second order, and with it what they change of phi', is left out."
-        )
+        return f"{_SENTENCES[self.second]}."
+
+
+_ALONG = "along the undamped orbit exactly through this order of the amplitude"
+_HIGHER = "a'/a to first order in the losses, whose second order vanishes there, phi' to second"
+_FIRST = (
+    f"To first order in the losses, {_ALONG}; the losses' second order, and with it what they change of phi', is left "
+    "out: it "
+)
+_SENTENCES = {
+    SecondOrder.WHOLE: f"{_HIGHER}, {_ALONG}; the losses' third order is left out",
+    SecondOrder.LINEAR: f"{_HIGHER}, of which it has the terms with a linear restoring force; {_ALONG} otherwise",
+    SecondOrder.BELOW: f"{_FIRST}counts like a^4",
+    SecondOrder.UNKNOWN: f"{_FIRST}has no exact sum for broken powers of u', nor for another stiffness on each side",
+}
 
 
 def _public(power: Power) -> int | str:

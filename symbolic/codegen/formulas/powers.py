@@ -94,7 +94,7 @@ def loss_form(flow: LossFlow, request: CodeRequest) -> Form:
         phase, change, made.domain, request.real, stops=bool(min(p for (p, *_), _ in rate) <= 0)
     )
     facts = (
-        *common_facts(f"{flow.method}, to first order in the losses", request.equation, rational=False),
+        *common_facts(f"{flow.method}, {flow.losses_to()}", request.equation, rational=False),
         f"Amplitude a: {MEANINGS[flow.amplitude]}.",
         f"Order: powers of a up to {flow.order}.",
         *limit_fact("a", request.limit),
