@@ -92,7 +92,7 @@ def _model(
 def _linear(motion: Motion) -> Curve:
     k, mu = motion.dynamics.natural_frequency, motion.dynamics.damping
     omega = np.full(motion.time.size, np.sqrt(max(k * k - mu * mu, 0.0)))
-    return _model(motion, LINEAR, "linear, eq. (3)", omega)
+    return _model(motion, LINEAR, "linear oscillator", omega)
 
 
 def _expansion(motion: Motion, derived: Derived, order: int, x: Array) -> Curve:

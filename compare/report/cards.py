@@ -125,13 +125,17 @@ def _series(known: Known) -> Card:
         row = best_of_way(found, "series model")
         if row is None:
             return _card("series model", None, refusal(found, "series model"), ())
-        floor = () if exact is None else (("at best", f"{per_cent(exact.relative_rms_error)}, all terms, by (21)"),)
+        floor = (
+            ()
+            if exact is None
+            else (("at best", f"{per_cent(exact.relative_rms_error)}, all terms, A(t) from the energy"),)
+        )
         holds = _series_reach(known, row)
         needs = f"the equation, and {SOURCES[row.amplitude_from]}" if row.amplitude_from else "the equation"
         rows = (("cost", cost(row)), ("holds", holds), ("needs", needs), *floor)
         return _card("series model", row, "", rows)
     if exact is None:
-        why = "no potential, so neither a series (14) nor an amplitude (21)"
+        why = "no potential, so neither the paper’s series nor an amplitude from the energy"
         return Card("The paper’s model", NONE, "does not apply", (("why", why),), "series model")
     rows = (
         ("cost", cost(exact)),
@@ -139,7 +143,11 @@ def _series(known: Known) -> Card:
         ("needs", "the equation and the trajectory’s energy"),
     )
     return Card(
-        "The paper’s model", per_cent(exact.relative_rms_error), "exact ω₀(A) at A(t) of (20)", rows, "series model"
+        "The paper’s model",
+        per_cent(exact.relative_rms_error),
+        "exact ω₀ at A(t) from the energy",
+        rows,
+        "series model",
     )
 
 

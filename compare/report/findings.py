@@ -55,7 +55,7 @@ def title_of(verdict: Verdict, reference: Reference) -> str:
     rival = short_name(verdict.rival)
     if verdict.decided and float(verdict.best.relative_rms_error or 0.0) <= reference.floor:
         within = f"as closely as it is defined ({per_cent(reference.floor)})"
-        return f"{followed} {within}, {two_digits(verdict.ratio)} times closer than {rival}"
+        return f"{followed} {within}, at least {two_digits(verdict.ratio)} times closer than {rival}"
     if verdict.decided:
         return f"{followed} within {error}, {two_digits(verdict.ratio)} times closer than {rival}"
     return f"{capital(named)} and {rival} both follow ω₀(t) as closely as it is defined, to {per_cent(reference.floor)}"
@@ -160,7 +160,7 @@ def _ripple(found: Benchmark) -> Iterator[Finding]:
     error, smooth = float(exact.relative_rms_error or 0.0), float(averaged.relative_rms_error or 0.0)
     if error > SHARE * max(smooth, floor):
         text = (
-            f"With A(t) from the energy (21) even the exact backbone stops at {per_cent(error)}: that amplitude "
+            f"With A(t) from the energy of each instant even the exact backbone stops at {per_cent(error)}: that amplitude "
             f"ripples twice a cycle. The averaged action leaves {per_cent(smooth)}."
         )
         yield Finding(2, text)

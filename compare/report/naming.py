@@ -62,7 +62,7 @@ def short_name(row: Row) -> str:
         case "averaged":
             return "exact ω₀ less μ²" if row.method == "averaged-damped" else "exact ω₀"
         case "linear":
-            return "linear oscillator (3)"
+            return "linear oscillator"
     name = row.label.partition(", A(t)")[0].replace(", order", " of order").replace("Pade", "Padé")
     name = name.replace("A^2", "A²")
     return f"{name[0].lower() if name[1:2].islower() and not name.startswith('Pad') else name[0]}{name[1:]}"

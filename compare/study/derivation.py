@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import sympy
 
+from ridgeback.common.numbers import number
 from ridgeback.compare.study.derived import Derived
 from ridgeback.compare.study.results import Checked, Derivation, Formula, HarmonicRow, HarmonicTable
 from ridgeback.symbolic.certificates.certificate import Check, certify
@@ -24,6 +25,7 @@ SHOWN = 8
 """Order to which formulas are printed; the code holds them all."""
 COLUMNS = 5
 """Powers of the variable in the table of harmonics."""
+SAID = {r"\varepsilon": "ε"}
 _LATEX = {sympy.Symbol("eps", real=True): r"\varepsilon", sympy.Symbol("mu", real=True): r"\mu"}
 
 
@@ -85,9 +87,15 @@ def frequency_formula(expansion: Expansion) -> Formula:
         title=f"Fundamental frequency, {_meaning(expansion)}",
         left=rf"\frac{{\omega_0({name})}}{{k}}" if expansion.scale != 1 else rf"\omega_0({name})",
         terms=power_series(expansion, expansion.coefficients),
-        note=f"Order {expansion.order}: powers of the variable kept.",
+        note=f"Through the power {expansion.order} of {SAID.get(name, name)}.{_natural(expansion)}",
         python=f"omega0 = {float(expansion.scale)!r} * ({sympy.Add(*_powers(expansion, expansion.coefficients))})",
     )
+
+
+def _natural(expansion: Expansion) -> str:
+    """What k is, where it is not 1."""
+    k = number(float(expansion.scale), 6)
+    return "" if expansion.scale == 1 else f" k = {k}, the natural frequency."
 
 
 def _meaning(expansion: Expansion) -> str:

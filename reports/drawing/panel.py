@@ -55,15 +55,18 @@ class Panel:
         values = self.x.ticks(most) if ticks is None else ticks
         names = tick_labels(values) if label is None else [label(v) for v in values]
         base = line(self.left, self.bottom, self.right, self.bottom, "ax")
+        title = text((self.left + self.right) / 2, self.bottom + 36, unit, "m", "middle") if unit else ""
+        return base + self.named_columns(values, names) + title
+
+    def named_columns(self, ticks: Sequence[float], names: Sequence[str]) -> str:
+        """Ticks below with their names, which the page's script writes anew where the axis is stretched."""
         marks = (
             line(self.x(v), self.bottom, self.x(v), self.bottom + 5, "ax")
             + text(self.x(v), self.bottom + 19, name, "m", "middle")
-            for v, name in zip(values, names, strict=True)
+            for v, name in zip(ticks, names, strict=True)
         )
         edges = " ".join(places(v) for v in (self.left, self.right, self.bottom))
-        named = f'<g class="xt" data-x="{edges}">{"".join(marks)}</g>'
-        title = text((self.left + self.right) / 2, self.bottom + 36, unit, "m", "middle") if unit else ""
-        return base + named + title
+        return f'<g class="xt" data-x="{edges}">{"".join(marks)}</g>'
 
     def zooming(self, marks: Iterable[str]) -> str:
         """Marks without text whose x axis a pointer may stretch: a drawing of its own, which shows all at first."""

@@ -23,6 +23,8 @@ STYLE = {"E": "e", "S": "s", "T": "t"}
 HEIGHT = 430.0
 NUMBERED = (2, 4, 8, 12, 20, 30, 40)
 LEAST = 1e-17
+HEAD = 0.12
+"""Share of the panel that its heading takes."""
 RANKED = 26
 """Rows of the narrow drawing, at most."""
 
@@ -120,27 +122,30 @@ def _caption(which: Shown, *, timed: bool) -> str:
 
 
 def _wide(which: Shown, target: float, label: str) -> str:
-    panel = _panel(which)
+    panel = _panel(which, target)
     marks = [
         *_frame(which, panel, target),
-        *_families(which, panel),
-        *_estimates(which, panel, _line_of(panel, target)),
+        *_families(which, panel, _height_of(panel, target)),
+        *_estimates(which, panel, _height_of(panel, target)),
     ]
     return drawing(WIDE, HEIGHT, "wide", label, marks)
 
 
-def _line_of(panel: Panel, target: float) -> float | None:
+def _height_of(panel: Panel, target: float) -> float | None:
     """Where the target is drawn; None outside the panel."""
     return panel.y(target) if panel.y.low < target < panel.y.high else None
 
 
-def _panel(which: Shown) -> Panel:
+def _panel(which: Shown, target: float) -> Panel:
+    """Scales around all points; a target near the top gets room above it for the words that stand there."""
     rows = [row for row in which.all if math.isfinite(which.cost(row))]
     costs, errors = [which.cost(row) for row in rows], [error(row) for row in rows]
     floor = which.found.reference.floor
     low, high = min(*errors, max(floor, LEAST)), min(max(errors), 30.0)
     span = high / low
     low, high = low / max(span**0.08, 2.2), high * max(span**0.14, 2.2)
+    if low < target < high < target * (target / low) ** (HEAD / (1.0 - HEAD)):
+        high = target * (target / low) ** (HEAD / (1.0 - HEAD))
     x = Scale(0.4 * min(costs), 4.0 * max(costs), 70.0, 968.0, log=True)
     return Panel(x, Scale(low, high, 384.0, 48.0, log=True))
 
@@ -227,7 +232,7 @@ def _numbers(which: Shown, panel: Panel, rows: Sequence[Row], style: str, *, lef
     return "".join(parts)
 
 
-def _families(which: Shown, panel: Panel) -> Iterable[str]:
+def _families(which: Shown, panel: Panel, line_at: float | None) -> Iterable[str]:
     e = [_chain(which, panel, which.in_python, "e", dashed=True), _chain(which, panel, which.expansions, "e")]
     e += [_chain(which, panel, which.flows, "e", dashed=True)]
     words = [_numbers(which, panel, which.expansions, "e", left=True)]
@@ -235,7 +240,7 @@ def _families(which: Shown, panel: Panel) -> Iterable[str]:
     name = f"expansions{' in C' if native else ''}"
     words += _named(which, panel, which.expansions, "e b", name)
     words += _named(which, panel, which.in_python, "e sm", "in Python", last=True)
-    words += _named(which, panel, which.flows, "e sm", "multiple scales")
+    words += _named(which, panel, which.flows, "e sm", "multiple scales", line_at=line_at)
     yield group([*e, group(words, "halo")], "fE")
     s = [_chain(which, panel, which.terms, "s")]
     exact = [place for place in _places(which, panel, which.exact) if math.isfinite(place[0])]
@@ -246,13 +251,22 @@ def _families(which: Shown, panel: Panel) -> Iterable[str]:
     for x, y, _ in exact:
         aside = bool(own) and x > min(own) - 30
         words.append(
-            text(x + (9 if aside else -9), y + 4, "exact ω₀ at A(t) of (21)", "s", "start" if aside else "end")
+            text(x + (9 if aside else -9), y + 4, "exact ω₀ at A(t) by energy", "s", "start" if aside else "end")
         )
     yield group([*s, group(words, "halo")], "fS")
 
 
-def _named(which: Shown, panel: Panel, rows: Sequence[Row], style: str, name: str, *, last: bool = False) -> list[str]:
-    """The name of a family beside its first point, or below its last."""
+def _named(
+    which: Shown,
+    panel: Panel,
+    rows: Sequence[Row],
+    style: str,
+    name: str,
+    *,
+    last: bool = False,
+    line_at: float | None = None,
+) -> list[str]:
+    """The name of a family above its highest point, or below its last; clear of a line at this height."""
     at = [p for p in _places(which, panel, rows) if math.isfinite(p[0])]
     if not at:
         return []
@@ -265,6 +279,8 @@ def _named(which: Shown, panel: Panel, rows: Sequence[Row], style: str, name: st
     if y < panel.top + 20:
         x, y, _ = max(at, key=lambda p: p[1])
         return [text(max(x - 12, panel.left + 4), min(y + 20, panel.bottom - 22), name, style)]
+    if line_at is not None and abs(y - 15 - line_at) < 9:
+        return [text(x + 10, y + 4, name, style)]
     return [text(max(x - 12, panel.left + 4), y - 10, name, style)]
 
 

@@ -106,7 +106,8 @@ def _draw(
     narrow: bool,
 ) -> str:
     upper, lower = spots
-    marks = [text(0, 11, "ω₀ / k" if study.scale != 1 else "ω₀", "m"), upper.rows(most=4)]
+    natural = f"ω₀ / k, natural frequency k = {number(study.scale)}"
+    marks = [text(0, 11, natural if study.scale != 1 else "ω₀", "m"), upper.rows(most=4)]
     marks += [line(upper.left, upper.bottom, upper.right, upper.bottom, "ax")]
     marks += [upper.curve(grid.amplitudes, grid.exact / study.scale, "rf nf")]
     held = np.where(_inside(upper, grid.values[start[0]] / study.scale), grid.values[start[0]] / study.scale, np.nan)

@@ -22,6 +22,8 @@ from ridgeback.reports.figures.clock import Clock, shown
 SIZE = (500.0, 372.0)
 APART, CLEAR_DB = 0.35, 3.0
 """A multiple is a ridge where its level is so much above that this share of the fundamental away, on both sides."""
+SEEN = 0.5
+"""Pixels from which on a distance of ridge and reference is worth enlarging."""
 MOST = 7
 """Highest multiple of the fundamental that is marked."""
 
@@ -33,7 +35,7 @@ def planes(decay: MotionComparison) -> Figure:
     image = decay.spectrogram_velocity if decay.folding.folded else decay.spectrogram_u
     strong = _strong(decay, image)
     left = level_plane("spectrogram", image, clock, span, decay.reference, strong, decay.folding)
-    right = signed_plane("wigner", decay.wigner_u, clock, span)
+    right = signed_plane("wigner", decay.wigner_u, clock, span, decay.interior)
     return Figure(
         key="planes",
         wide=left + right,
@@ -132,11 +134,7 @@ def _axes(panel: Panel, clock: Clock, title: str) -> list[str]:
             line(panel.left - 4, panel.y(value), panel.left, panel.y(value), "ax"),
             text(panel.left - 7, panel.y(value) + 4, f"{value:g}", "m", "end"),
         ]
-    for value in panel.x.ticks(5):
-        marks += [
-            line(panel.x(value), panel.bottom, panel.x(value), panel.bottom + 4, "ax"),
-            text(panel.x(value), panel.bottom + 18, f"{value:g}", "m", "middle"),
-        ]
+    marks.append(panel.named_columns(panel.x.ticks(5), [f"{value:g}" for value in panel.x.ticks(5)]))
     marks.append(text(panel.right, panel.bottom + 33, clock.time_title, "m", "end"))
     return marks
 
@@ -182,11 +180,10 @@ def level_plane(
         f"<defs>{clip}</defs>" + rect(panel.left, panel.top, panel.right - panel.left, panel.bottom - panel.top, "hat")
     )
     plane = rect(*box, "bgf") + rect(*box, "b5 img", _masked(f"{key}-m"))
-    marks.append(f'<g clip-path="url(#{key}-c)">{plane}</g>')
+    moving, names = [f'<g clip-path="url(#{key}-c)">{plane}</g>'], []
     if reference is not None:
         x = panel.x.of(reference.time)
         inside = (reference.time >= image.time[0]) & (reference.time <= image.time[-1])
-        names = []
         lines = [(m * shown(reference), f"{m} ω₀" if m > 1 else "ω₀", "rd nf") for m in multiples]
         if folding is not None:
             lines += [
@@ -196,10 +193,10 @@ def level_plane(
             y = np.where(inside, panel.y.of(omega * clock.factor), np.nan)
             y = np.where(y >= panel.top, y, np.nan)
             if np.isfinite(y).any():
-                marks.append(curve(x, y, style))
+                moving.append(curve(x, y, style))
                 last = int(np.flatnonzero(np.isfinite(y))[-1])
                 names.append(_name_of(words, x, y, last))
-        marks.append(group(names, "halo"))
+    marks += [panel.zooming(moving), group(names, "halo nz")]
     marks += _axes(panel, clock, image.name) + _bar(
         f"{key}-g", [(v, decibels(v)) for v in np.linspace(image.floor_db, 0, 5)], image.floor_db, 0.0, "of the maximum"
     )
@@ -217,7 +214,9 @@ def _name_of(words: str, x: Array, y: Array, last: int) -> str:
     return text(*at, words, "e b sm", "start" if beside else "end")
 
 
-def signed_plane(key: str, plane: SignedPlane, clock: Clock, span: tuple[float, float]) -> str:
+def signed_plane(
+    key: str, plane: SignedPlane, clock: Clock, span: tuple[float, float], interior: tuple[float, float]
+) -> str:
     """One plane in two hues that meet in the background, its ridge and the reference over it, a part of it enlarged."""
     panel = _frame(span, plane.omega, clock)
     box = _box(panel, plane.time, plane.omega, clock)
@@ -228,7 +227,8 @@ def signed_plane(key: str, plane: SignedPlane, clock: Clock, span: tuple[float, 
     marks = [f"<defs>{defs}</defs>"]
     pair = rect(*box, "posf img", _masked(f"{key}-p")) + rect(*box, "negf img", _masked(f"{key}-n"))
     lines = _ridge(plane, panel, clock)
-    marks += [pair, lines, *_enlarged(plane, panel, clock, pair + lines), *_axes(panel, clock, plane.name)]
+    enlarged = _enlarged(plane, panel, clock, pair + lines, interior)
+    marks += [panel.zooming([pair, lines]), group(enlarged, "nz"), *_axes(panel, clock, plane.name)]
     marks += _bar(f"{key}-g", _signed_ticks(plane.knee), -1.0, 1.0, "of the maximum (arcsinh)")
     return drawing(*SIZE, "one", f"{plane.name}, signed, with its ridge and the reference", marks)
 
@@ -239,28 +239,34 @@ def _signed_ticks(knee: float) -> list[tuple[float, str]]:
 
 
 def _ridge(plane: SignedPlane, panel: Panel, clock: Clock) -> str:
-    parts = []
+    """Both casings below, then the ridge, then the dashes of the reference: neither hides the other."""
+    below, ridges, dashes = [], [], []
     for overlay in plane.overlays:
         x, y = panel.x.of(overlay.time), panel.y.of(shown(overlay) * clock.factor)
-        kinds = ("rfc nf", "rf2 nf") if overlay.kind == "reference" else ("rdTc nf", "rdT nf")
-        parts += [curve(x, y, kind) for kind in kinds]
-    ridges = [o for o in plane.overlays if o.kind != "reference"]
-    order = parts if not ridges else [*parts[2:], *parts[:2]]
-    return "".join(order)
+        if overlay.kind == "reference":
+            below.append(curve(x, y, "rfc nf"))
+            dashes.append(curve(x, y, "rf2 nf"))
+        else:
+            below.append(curve(x, y, "rdTc nf"))
+            ridges.append(curve(x, y, "rdT nf"))
+    return "".join([*below, *ridges, *dashes])
 
 
-def _enlarged(plane: SignedPlane, panel: Panel, clock: Clock, content: str) -> list[str]:
-    """The region where ridge and reference part most, twice and a half as large, where the plane leaves room."""
+def _enlarged(plane: SignedPlane, panel: Panel, clock: Clock, content: str, interior: tuple[float, float]) -> list[str]:
+    """The region of the interior where ridge and reference part most, enlarged, where that shows and there is room."""
     ridge = next((o for o in plane.overlays if o.kind != "reference"), None)
     reference = next((o for o in plane.overlays if o.kind == "reference"), None)
     if ridge is None or reference is None or not ridge.valid.any():
         return []
     known = reference.valid & np.isfinite(reference.omega)
     apart = shown(ridge) / np.interp(ridge.time, reference.time[known], reference.omega[known]) - 1
+    apart = np.where((ridge.time >= interior[0]) & (ridge.time <= interior[1]), apart, np.nan)
     if not np.isfinite(apart).any():
         return []
     at = int(np.nanargmax(np.abs(apart)))
     x, y = panel.x(float(ridge.time[at])), panel.y(float(ridge.omega[at]) * clock.factor)
+    if abs(float(apart[at])) * (panel.bottom - y) < SEEN:
+        return []
     width, height = 160.0, 52.0
     x0 = min(max(x - width / 2, panel.left), panel.right - width)
     y0 = min(max(y - height / 2, panel.top), panel.bottom - height)

@@ -51,8 +51,10 @@
   const readers = $$("figure.reads").map(figure => ({figure, d: data(figure)})).filter(r => r.d.at || r.d.planes);
   const drawings = figure => $$(".drawing > svg", figure).filter(s => s.getBoundingClientRect().width);
   // each drawing that is laid out with the boxes of its panels
-  const laid = r => drawings(r.figure).map((svg, i) =>
-    [svg, r.d.planes ? [r.d.planes[i].box] : r.d.boxes[svg.classList.contains("wide") ? 0 : 1]]);
+  const boxesOf = (r, svg, n) => r.d.planes ? [r.d.planes[n].box] : r.d.boxes[svg.classList.contains("wide") ? 0 : 1];
+  const laid = r => drawings(r.figure).map((svg, n) => [svg, boxesOf(r, svg, n)]);
+  // the whole of the axis that figures share
+  const ends = r => r.d.at ? [r.d.at[0], r.d.at[r.d.at.length - 1]] : r.d.planes[0].box.slice(4, 6);
   const span = (r, box) => r.range ?? [box[4], box[5]];
   const say = (r, text) => { $(".out", r.figure).textContent = text; };
   const show = (r, x) => {
@@ -89,8 +91,8 @@
     r.figure.classList.toggle("zoomed", range !== null);
     const whole = $(".whole", r.figure);
     if (whole) whole.hidden = range === null;
-    $$(".drawing > svg", r.figure).forEach(svg => {
-      const boxes = r.d.boxes[svg.classList.contains("wide") ? 0 : 1];
+    $$(".drawing > svg", r.figure).forEach((svg, n) => {
+      const boxes = boxesOf(r, svg, n);
       $$(".z", svg).forEach((z, i) => {
         const [x0, y0, x1, y1, low, high] = boxes[i], [a, b] = range ?? [low, high], scale = (x1 - x0) / (high - low);
         z.setAttribute("viewBox", [x0 + (a - low) * scale, y0, (b - a) * scale, y1 - y0].join(" "));
@@ -109,67 +111,74 @@
     });
     if (r.now !== null && r.now !== undefined) show(r, r.now);
   };
-  const zooms = r => r.d.at && $(".z", r.figure);
+  const zooms = r => $(".z", r.figure);
   const zoom = (r, range) => {
-    const [low, high] = [r.d.at[0], r.d.at[r.d.at.length - 1]], least = (high - low) / 50;
+    const [low, high] = ends(r), least = (high - low) / 50;
     let [a, b] = range ?? [low, high];
     if (b - a < least) { const middle = (a + b) / 2; a = middle - least / 2; b = middle + least / 2; }
     [a, b] = [Math.max(low, a), Math.min(high, b)];
     linked(r).filter(zooms).forEach(o => stretch(o, b - a > .999 * (high - low) ? null : [a, b]));
   };
   const by = (r, factor) => {
-    const [low, high] = r.range ?? [r.d.at[0], r.d.at[r.d.at.length - 1]], middle = r.now ?? (low + high) / 2;
+    const [low, high] = r.range ?? ends(r), middle = r.now ?? (low + high) / 2;
     zoom(r, [middle - (middle - low) * factor, middle + (high - middle) * factor]);
   };
-  readers.filter(r => r.d.at).forEach(r => {
+  // + and - stretch about the crosshair, 0 shows all; true where a key was one of them
+  const zoomed = (r, key) => {
+    if (!zooms(r) || !"+=-0".includes(key)) return false;
+    if (key === "0") zoom(r, null); else by(r, key === "-" ? 2 : .5);
+    return true;
+  };
+  const place = (r, e) => {
+    const all = laid(r), found = all.find(([svg]) => svg.contains(e.target)) ?? all[0];
+    if (!found) return [null];
+    const [svg, boxes] = found, b = boxes[0], p = inside(svg, e), [low, high] = span(r, b);
+    return [svg, boxes, p.x, low + (p.x - b[0]) / (b[2] - b[0]) * (high - low)];
+  };
+  // what a pointer is dragged across is stretched to the whole width
+  readers.filter(zooms).forEach(r => {
     const box = $(".drawing", r.figure);
     let from = null, mark = null;
-    const place = e => {
-      const found = laid(r)[0];
-      if (!found) return [null];
-      const [svg, [b]] = found, p = inside(svg, e), [low, high] = span(r, b);
-      return [svg, b, p.x, low + (p.x - b[0]) / (b[2] - b[0]) * (high - low)];
-    };
     const end = () => { mark?.remove(); from = mark = null; };
+    const across = e => Math.min(from.b[2], Math.max(from.b[0], inside(from.svg, e).x));
+    box.addEventListener("pointerdown", e => {
+      const [svg, boxes, p] = place(r, e);
+      if (!svg || e.button !== 0 || p < boxes[0][0] || p > boxes[0][2]) return;
+      from = {svg, p, b: boxes[0], bottom: boxes[boxes.length - 1][3]};
+      box.setPointerCapture(e.pointerId);
+    });
     box.addEventListener("pointermove", e => {
-      const [svg, b, p, x] = place(e);
-      if (!svg) return;
-      if (from !== null) {
-        const q = Math.min(b[2], Math.max(b[0], p)), [boxes] = [laid(r)[0][1]], last = boxes[boxes.length - 1];
-        if (!mark) svg.append(mark = make("rect", {class: "sel", y: b[1], height: last[3] - b[1]}));
-        mark.setAttribute("x", Math.min(from, q));
-        mark.setAttribute("width", Math.abs(q - from));
-      }
-      if (p < b[0] - 8 || p > b[2] + 8) { move(r, null); return; }
-      move(r, x);
+      if (from === null) return;
+      const q = across(e);
+      if (!mark) from.svg.append(mark = make("rect", {class: "sel", y: from.b[1], height: from.bottom - from.b[1]}));
+      mark.setAttribute("x", Math.min(from.p, q));
+      mark.setAttribute("width", Math.abs(q - from.p));
+    });
+    box.addEventListener("pointerup", e => {
+      if (from === null) return;
+      const {b, p} = from, q = across(e), [low, high] = span(r, b);
+      end();
+      if (Math.abs(q - p) < 8) return;
+      zoom(r, [p, q].map(x => low + (x - b[0]) / (b[2] - b[0]) * (high - low)).sort((a, c) => a - c));
+    });
+    box.addEventListener("pointercancel", end);
+    box.addEventListener("dblclick", () => zoom(r, null));
+    $(".whole", r.figure).addEventListener("click", () => zoom(r, null));
+  });
+  readers.filter(r => r.d.at).forEach(r => {
+    const box = $(".drawing", r.figure);
+    box.addEventListener("pointermove", e => {
+      const [svg, boxes, p, x] = place(r, e);
+      if (svg) move(r, p < boxes[0][0] - 8 || p > boxes[0][2] + 8 ? null : x);
     });
     box.addEventListener("pointerleave", () => move(r, null));
-    if (zooms(r)) {
-      box.addEventListener("pointerdown", e => {
-        const [svg, b, p] = place(e);
-        if (svg && e.button === 0 && p >= b[0] && p <= b[2]) { from = p; box.setPointerCapture(e.pointerId); }
-      });
-      box.addEventListener("pointerup", e => {
-        const [svg, b, p] = place(e), [low, high] = svg ? span(r, b) : [0, 1], start = from;
-        end();
-        if (!svg || start === null || Math.abs(p - start) < 8) return;
-        const at = q => low + (Math.min(b[2], Math.max(b[0], q)) - b[0]) / (b[2] - b[0]) * (high - low);
-        zoom(r, [at(start), at(p)].sort((a, c) => a - c));
-      });
-      box.addEventListener("pointercancel", end);
-      box.addEventListener("dblclick", () => zoom(r, null));
-      $(".whole", r.figure).addEventListener("click", () => zoom(r, null));
-    }
     box.addEventListener("keydown", e => {
       const grid = r.d.at, n = grid.length, step = grid[1] - grid[0], [low, high] = r.range ?? [grid[0], grid[n - 1]];
       const now = r.now === undefined ? null : r.now, middle = (low + high) / 2;
       const to = {ArrowLeft: (now ?? middle) - step, ArrowRight: (now ?? middle) + step, Home: low,
         End: high, PageDown: (now ?? low) + 16 * step, PageUp: (now ?? high) - 16 * step}[e.key];
       if (e.key === "Escape") { move(r, null); if (r.range) zoom(r, null); }
-      else if (zooms(r) && (e.key === "+" || e.key === "=")) by(r, .5);
-      else if (zooms(r) && e.key === "-") by(r, 2);
-      else if (zooms(r) && e.key === "0") zoom(r, null);
-      else if (to !== undefined) { e.preventDefault(); move(r, to); }
+      else if (!zoomed(r, e.key) && to !== undefined) { e.preventDefault(); move(r, to); }
     });
   });
 
@@ -220,16 +229,19 @@
     box.addEventListener("pointermove", e => {
       const all = drawings(r.figure), i = all.findIndex(svg => svg.contains(e.target));
       if (i < 0) return;
-      const p = inside(all[i], e), [x0, y0, x1, y1, a, b, low, high] = r.d.planes[i].box;
+      const p = inside(all[i], e), [x0, y0, x1, y1, , , low, high] = r.d.planes[i].box;
+      const [a, b] = span(r, r.d.planes[i].box);
       if (p.x < x0 || p.x > x1 || p.y < y0 || p.y > y1) { move(r, null); return; }
       read(i, a + (p.x - x0) / (x1 - x0) * (b - a), low + (y1 - p.y) / (y1 - y0) * (high - low));
     });
     box.addEventListener("pointerleave", () => move(r, null));
     box.addEventListener("keydown", e => {
-      const [i, t, f] = r.at ?? [0, null, null], [, , , , a, b, low, high] = r.d.planes[i].box;
+      const [i, t, f] = r.at ?? [0, null, null], [, , , , , , low, high] = r.d.planes[i].box;
+      const [a, b] = span(r, r.d.planes[i].box);
       const now = [t ?? (a + b) / 2, f ?? (low + high) / 4], dt = (b - a) / 100, df = (high - low) / 100;
       const to = {ArrowLeft: [-dt, 0], ArrowRight: [dt, 0], ArrowUp: [0, df], ArrowDown: [0, -df]}[e.key];
-      if (e.key === "Escape") move(r, null);
+      if (e.key === "Escape") { move(r, null); if (r.range) zoom(r, null); }
+      else if (zoomed(r, e.key)) return;
       else if (e.key === "Home" || e.key === "End") { e.preventDefault(); read(e.key === "Home" ? 0 : r.d.planes.length - 1, ...now); }
       else if (to) { e.preventDefault(); read(i, Math.min(b, Math.max(a, now[0] + to[0])), Math.min(high, Math.max(low, now[1] + to[1]))); }
     });

@@ -53,7 +53,7 @@ def contender_table(found: Benchmark) -> Table:
     refused = {name: rows for name, rows in groups.items() if name not in ranked}
     sources = [s for s in ("action", "energy", "fit") if any(r.amplitude_from == s for r in found.contenders)]
     both = len(sources) > 1
-    named = {"action": "averaged action", "energy": "energy (21)", "fit": "turning points"}
+    named = {"action": "averaged action", "energy": "energy", "fit": "turning points"}
     heads = [f"rms, A(t) by {named[s]}" for s in sources] if both else ["rms error"]
     timed = any(r.time_ns_per_value is not None for r in found.contenders)
     ordered = sorted(ranked.items(), key=lambda item: min(_error(r) for r in item[1]))
@@ -132,7 +132,7 @@ def range_table(ranges: Sequence[Range], letter: str, unit: str) -> Table:
     orders = sorted({r.order for r in ranges})
     return Table(
         "ranges",
-        f"Range of use: largest {letter} studied below which the target holds everywhere"
+        f"Range of use: up to this {letter} the target holds, interpolated between those studied"
         + (f", in {unit}." if unit else "."),
         ("order", *(f"within {threshold(target)}" for target in targets)),
         tuple(Row((str(order), *(_reach(reach, order, target) for target in targets))) for order in orders),

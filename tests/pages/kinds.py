@@ -122,7 +122,7 @@ def main() -> int:
     options.add_argument("--axe", type=Path, help="axe.min.js")
     options.add_argument("--no-pictures", action="store_true")
     options.add_argument("kinds", nargs="*", metavar="KIND", help=", ".join(KINDS))
-    given = options.parse_args()
+    given = options.parse_intermixed_args()
     path = binary()
     if path is None:
         sys.exit(f"no browser: none of {', '.join(NAMES)} is on the path")

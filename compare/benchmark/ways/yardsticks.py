@@ -31,7 +31,7 @@ def yardsticks(motion: Motion, sources: Mapping[Source, Array]) -> Iterator[Cont
     yield from averaged(motion)
     k, mu = motion.dynamics.natural_frequency, motion.dynamics.damping
     flat = np.full(motion.time.size, np.sqrt(max(k * k - mu * mu, 0.0)))
-    yield Contender(Row("linear", "linear oscillator, eq. (3)", "linear"), flat)
+    yield Contender(Row("linear", "linear oscillator", "linear"), flat)
 
 
 def series_model(motion: Motion, source: Source, x: Array) -> Iterator[Contender]:
