@@ -125,11 +125,8 @@ def _series(known: Known) -> Card:
         row = best_of_way(found, "series model")
         if row is None:
             return _card("series model", None, refusal(found, "series model"), ())
-        floor = (
-            ()
-            if exact is None
-            else (("at best", f"{per_cent(exact.relative_rms_error)}, all terms, A(t) from the energy"),)
-        )
+        best = "" if exact is None else f"{per_cent(exact.relative_rms_error)}, all terms, A(t) from the energy"
+        floor = (("at best", best),) if best else ()
         holds = _series_reach(known, row)
         needs = f"the equation, and {SOURCES[row.amplitude_from]}" if row.amplitude_from else "the equation"
         rows = (("cost", cost(row)), ("holds", holds), ("needs", needs), *floor)

@@ -160,8 +160,8 @@ def _ripple(found: Benchmark) -> Iterator[Finding]:
     error, smooth = float(exact.relative_rms_error or 0.0), float(averaged.relative_rms_error or 0.0)
     if error > SHARE * max(smooth, floor):
         text = (
-            f"With A(t) from the energy of each instant even the exact backbone stops at {per_cent(error)}: that amplitude "
-            f"ripples twice a cycle. The averaged action leaves {per_cent(smooth)}."
+            f"With A(t) from the energy of each instant even the exact backbone stops at {per_cent(error)}: that "
+            f"amplitude ripples twice a cycle. The averaged action leaves {per_cent(smooth)}."
         )
         yield Finding(2, text)
 
