@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-import numpy as np
-
 from ridgeback.common.numbers import number, offset, per_cent, two_digits
 from ridgeback.common.quantities import amplitude, duration, frequency
 from ridgeback.compare.benchmark.contenders import OrderCrossing, Reference, Row, Verdict
@@ -222,9 +220,3 @@ def _cured(found: Benchmark) -> str:
         f" {capital(name)} errs {per_cent(raw.relative_rms_error)}, and {per_cent(row.relative_rms_error)} with its "
         f"{REMOVED}."
     )
-
-
-def span_of(values: np.ndarray) -> tuple[float, float]:
-    """First and last finite value."""
-    kept = values[np.isfinite(values)]
-    return (float(kept[0]), float(kept[-1])) if kept.size else (float("nan"), float("nan"))

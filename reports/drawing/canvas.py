@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 
 from ridgeback.common.numbers import number, power_of_ten
 from ridgeback.numeric.arrays import Array
@@ -43,18 +43,11 @@ class Canvas:
     height: float | None = None
     figure: Figure = field(init=False)
     panels: list[Axes] = field(default_factory=list)
-    inserts: dict[str, str] = field(default_factory=dict)
-    """Raw SVG by the id of the artist that it replaces."""
 
     def __post_init__(self) -> None:
         size = (self.variant.width, self.height or self.variant.height)
         self.figure = Figure(figsize=size, dpi=72)
         self.figure.patch.set_visible(False)
-
-    @property
-    def narrow(self) -> bool:
-        """Whether this is the drawing for small screens."""
-        return self.variant.narrow
 
     def stack(self, shares: Sequence[float] = (1.0,), *, left: float = LEFT, gap: float = GAP) -> list[Axes]:
         """Make panels one above the other, of heights in proportion to ``shares``."""
@@ -77,18 +70,6 @@ class Canvas:
             top -= size + gap
         return self.panels
 
-    def insert(self, axes: Axes, key: str, markup: str, *, order: float = 0.5) -> None:
-        """Place raw SVG (in SVG units) into a panel, beneath its curves."""
-        marker = axes.text(0.0, 0.0, "x", transform=axes.transAxes, zorder=order, clip_on=False)
-        marker.set_gid(f"insert-{key}")
-        self.inserts[f"insert-{key}"] = markup
-
-    def box(self, axes: Axes) -> tuple[float, float, float, float]:
-        """Return left, top, right, bottom of a panel in SVG units (y downwards)."""
-        extent = axes.get_window_extent()
-        height = float(self.figure.get_size_inches()[1] * 72)
-        return float(extent.x0), height - float(extent.y1), float(extent.x1), height - float(extent.y0)
-
 
 def dress(axes: Axes) -> Axes:
     """Give a panel the house style: grey frame left and below, horizontal grid, short ticks."""
@@ -100,13 +81,11 @@ def dress(axes: Axes) -> Axes:
     return axes
 
 
-def titles(axes: Axes, *, x: str = "", y: str = "") -> None:
+def titles(axes: Axes, *, x: str, y: str) -> None:
     """Write the x title under the axis and the y title horizontally above it."""
-    if x:
-        axes.set_xlabel(x, color=colour_of("fg"), labelpad=3)
-    if y:
-        offset = axes.annotate(y, (0.0, 1.0), (-LEFT + 10.0, 9.0), xycoords="axes fraction", textcoords="offset points")
-        offset.set_color(colour_of("fg"))
+    axes.set_xlabel(x, color=colour_of("fg"), labelpad=3)
+    offset = axes.annotate(y, (0.0, 1.0), (-LEFT + 10.0, 9.0), xycoords="axes fraction", textcoords="offset points")
+    offset.set_color(colour_of("fg"))
 
 
 def linear(axes: Axes, axis: str, low: float, high: float, *, ticks: int = 6) -> None:
@@ -131,16 +110,6 @@ def decades(axes: Axes, axis: str, low: float, high: float, *, ticks: int = 6) -
     chosen.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(round(np.log10(value)))))
 
 
-def whole(axes: Axes, axis: str, positions: Sequence[float], names: Sequence[str], *, most: int) -> None:
-    """Put named ticks at given places, thinned to at most ``most``, the last one kept."""
-    step = max(1, -(-len(positions) // most))
-    kept = list(range(len(positions) - 1, -1, -step))[::-1]
-    chosen = axes.xaxis if axis == "x" else axes.yaxis
-    chosen.set_major_locator(FixedLocator([positions[i] for i in kept]))
-    chosen.set_major_formatter(FuncFormatter(lambda _, k: names[kept[k]] if k is not None and k < len(kept) else ""))
-    chosen.set_minor_locator(NullLocator())
-
-
 def draw(axes: Axes, line: Line) -> None:
     """Draw one curve."""
     (artist,) = axes.plot(
@@ -156,16 +125,6 @@ def draw(axes: Axes, line: Line) -> None:
     )
     if line.style:
         artist.set_gid(f"class:{line.style}")
-
-
-def shade(axes: Axes, low: float, high: float, *, hatched: bool = False) -> None:
-    """Shade a vertical zone, plainly (beyond a limit) or hatched (near a border)."""
-    if high <= low:
-        return
-    if hatched:
-        axes.axvspan(low, high, facecolor="none", edgecolor=colour_of("grid"), hatch="////", linewidth=0.0, zorder=0.4)
-    else:
-        axes.axvspan(low, high, color=colour_of("grid"), alpha=0.45, linewidth=0.0, zorder=0.3)
 
 
 def padded(values: Sequence[Array], *, share: float = 0.06) -> tuple[float, float]:

@@ -7,6 +7,7 @@ stand away from its curve gets a thin leader.  Every text is measured before it 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,8 +35,7 @@ def measured(axes: Axes, text: str, size: float = 10.0) -> tuple[float, float]:
 
 def _renderer(axes: Axes) -> RendererAgg:
     figure = axes.get_figure(root=True)
-    if figure is None:
-        raise ValueError("the panel belongs to no figure; measure labels on a panel of a canvas")
+    assert figure is not None  # noqa: S101 - a panel is of a canvas
     renderer: RendererAgg = FigureCanvasAgg(figure).get_renderer()  # type: ignore[no-untyped-call]
     return renderer
 
@@ -73,19 +73,16 @@ def place(axes: Axes, lines: Sequence[Line], *, taken: Sequence[Box] = (), size:
 
 def _place_one(axes: Axes, line: Line, own: Array, others: Array, boxes: list[Box], size: float) -> Box:
     width, _ = measured(axes, line.label, size)
-    best: tuple[float, Box, tuple[float, float]] | None = None
-    for fraction in FRACTIONS:
-        anchor = own[min(len(own) - 1, int(fraction * len(own)))]
-        for step in STEPS:
-            for shift in (0.0, 0.5, -0.5):
-                box = _box_at(anchor, width, step, shift)
-                price = _price(axes, box, step, shift, own, others, boxes)
-                if best is None or price < best[0]:
-                    best = (price, box, (float(anchor[0]), float(anchor[1])))
-    if best is None:
-        raise ValueError(f"no place for the label {line.label!r}")
-    _write(axes, line, best[1], best[2], size)
-    return best[1]
+    anchors = [own[min(len(own) - 1, int(fraction * len(own)))] for fraction in FRACTIONS]
+    places = [
+        (_price(axes, box, step, shift, own, others, boxes), i, box)
+        for i, (anchor, step, shift) in enumerate(product(anchors, STEPS, (0.0, 0.5, -0.5)))
+        for box in (_box_at(anchor, width, step, shift),)
+    ]
+    _, i, box = min(places)
+    x, y = anchors[i // (3 * len(STEPS))]
+    _write(axes, line, box, (float(x), float(y)), size)
+    return box
 
 
 def _box_at(anchor: Array, width: float, step: float, shift: float) -> Box:
@@ -144,11 +141,3 @@ def _write(axes: Axes, line: Line, box: Box, anchor: tuple[float, float], size: 
         zorder=6.0,
     )
     text.set_gid(f"class:{style}")
-
-
-def note(axes: Axes, text: str, x: float, y: float, *, align: str = "left", token: str = "fg") -> Box:
-    """Write a short text at axes fractions with a halo; returns its box in display units."""
-    written = axes.text(x, y, text, transform=axes.transAxes, ha=align, va="center", color=colour_of(token), zorder=6.0)
-    written.set_gid("class:halo")
-    extent = written.get_window_extent(_renderer(axes))
-    return float(extent.x0), float(extent.y0), float(extent.x1), float(extent.y1)

@@ -75,10 +75,6 @@ class Panel:
         view = f'viewBox="{x} {y} {width} {height}" preserveAspectRatio="none"'
         return f'<svg class="z" {place} {view}>{"".join(marks)}</svg>'
 
-    def title(self, words: str, kind: str = "m") -> str:
-        """What is shown upwards, above the axis at the left."""
-        return text(max(0.0, self.left - 70), self.top - 12, words, kind)
-
     def curve(self, x: Array, y: Array, kind: str) -> str:
         """A curve; what lies outside is drawn at the edge."""
         return curve(self.x.of(x), self.y.clipped(y), kind)
@@ -93,8 +89,3 @@ class Panel:
         """Place and ranges, as the page's script takes them."""
         x, y = self.x, self.y
         return [*(round(v, 1) for v in (self.left, self.top, self.right, self.bottom)), x.low, x.high, y.low, y.high]
-
-
-def joined(parts: Iterable[str]) -> str:
-    """Marks one after the other."""
-    return "".join(parts)

@@ -82,11 +82,6 @@ class Variant:
     width: float
     height: float
 
-    @property
-    def narrow(self) -> bool:
-        """Whether this is the drawing for small screens."""
-        return self.name == "narrow"
-
 
 WIDE = Variant(name="wide", width=7.6, height=4.2)
 NARROW = Variant(name="narrow", width=3.75, height=3.6)

@@ -90,8 +90,12 @@ def noise_heading(study: NoiseStudy) -> str:
         names = listing([estimator(m) for m in at_bound])
         verb, whose = ("stays", "its bound") if len(at_bound) == 1 else ("stay", "their bounds")
         return f"In noise, {names} {verb} within {AT_BOUND:g} times {whose}"
-    nearest = min(study.methods, key=lambda m: float(np.nanmedian(values(study.of(m), "ratio"))))
-    ratio = float(np.nanmedian(values(study.of(nearest), "ratio")))
+    ratios = {m: values(study.of(m), "ratio") for m in study.methods}
+    medians = {m: float(np.nanmedian(found)) for m, found in ratios.items() if np.isfinite(found).any()}
+    if not medians:
+        return "In noise, no estimator gives a value"
+    nearest = min(medians, key=lambda m: medians[m])
+    ratio = medians[nearest]
     return f"In noise, {estimator(nearest)} comes nearest to its bound, {number(ratio, 2)} times it in the median"
 
 

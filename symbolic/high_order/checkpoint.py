@@ -66,8 +66,10 @@ def ball_from(text: str) -> arb:
     if size == 0:
         return arb((int(mid, 16), int(exponent)))
     up = _RADIUS_BITS - size.bit_length()
+    if up < 0:
+        raise ValueError(f"the radius {radius},{scale} is not one of FLINT's")
     x = arb((int(mid, 16), int(exponent)), ((size << (up + 1)) - 1, power - up - 1))
-    if up < 0 or [int(v) for v in x.rad().man_exp()] != [size, power]:
+    if [int(v) for v in x.rad().man_exp()] != [size, power]:
         raise ValueError(f"the radius {radius},{scale} is not one of FLINT's")
     return x
 

@@ -117,14 +117,14 @@ def value_of(operand: Operand) -> str:
 
 
 def steps_of(function: Function) -> list[str]:
-    """Assignments, polynomials as sums."""
+    """Assignments, since a name may be given a value again; polynomials as sums."""
     lines = []
     for statement in function.body:
         if isinstance(statement, Horner):
             terms: Terms = {(n,): c for n, c in enumerate(statement.coefficients) if c is not None}
-            lines.append(f"{symbol(statement.name)} &= {' '.join(terms_of(Polynomial((statement.at,), terms)))}")
+            lines.append(rf"{symbol(statement.name)} &\gets {' '.join(terms_of(Polynomial((statement.at,), terms)))}")
         else:
-            lines.append(f"{symbol(statement.name)} &= {_operation(statement)}")
+            lines.append(rf"{symbol(statement.name)} &\gets {_operation(statement)}")
     return lines
 
 
