@@ -14,15 +14,8 @@ from typing import Any, Final
 from flint import fmpq
 
 from ridgeback.common.recurrences import Fixed, Node, Product, Ring, Sums
-from ridgeback.symbolic.series.integral_parts import (
-    Row,
-    Terms,
-    add_product,
-    integral,
-    integral_scalar,
-    products,
-    total,
-)
+from ridgeback.symbolic.series.block_products import products
+from ridgeback.symbolic.series.integral_parts import Row, Terms, add_product, integral, integral_scalar, total
 from ridgeback.symbolic.series.spaces import Rationals, Scalar, Space, is_zero
 from ridgeback.symbolic.series.trigonometric import NOTHING, Trig, constant
 

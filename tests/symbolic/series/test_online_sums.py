@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 
 from ridgeback.symbolic.expansion.limit_cycle import cycle_recursion
 from ridgeback.symbolic.expansion.lindstedt import conservative_recursion
+from ridgeback.symbolic.series.block_products import products
+from ridgeback.symbolic.series.integral_parts import add_product, total
 from ridgeback.symbolic.series.online_sums import BASE, sums_of_products, weighted_sums
 from ridgeback.symbolic.series.ring import TrigRing
 from ridgeback.symbolic.series.spaces import Rationals
@@ -67,6 +69,38 @@ def test_the_oscillator_is_solved_in_integers(coefficients, odd, shift):
     parts = tuple(p if k == 2 * shift + odd else None for k in range(4))
     if (odd, shift) in ((1, 0), (0, 1)):  # what is left is the first harmonic
         assert harmonic(Trig(Rationals(), parts), 1)[shift] == left
+
+
+def block(parts, size, *, seed):
+    """Rows that hold these parts, in turn; several parts of one entry together."""
+    own = [fmpq_poly([fmpq(seed + n, 3 + n % 4), fmpq(-n, 5), seed]) for n in range(size)]
+    return [tuple((i, own[n].numer(), own[n].denom()) for i in parts[n % len(parts)]) for n in range(size)]
+
+
+KINDS = (
+    [(1,), (2,)],
+    [(2,), (1,)],
+    [(0,), (3,)],
+    [(3,), (0,)],
+    [(0, 1)],
+    [(2, 3)],
+    [(0, 1), (2, 3)],
+    [(0, 1, 2, 3), ()],
+)
+
+
+@pytest.mark.parametrize("left", KINDS, ids=str)
+@pytest.mark.parametrize("right", KINDS, ids=str)
+def test_parts_are_multiplied_together_as_they_are_apart(left, right):
+    x, y = block(left, 6, seed=1), block(right, 5, seed=2)
+    for n in range(10):
+        apart, together = {}, {}
+        for j in range(max(0, n - 4), min(n, 5) + 1):
+            add_product(apart, x[j], y[n - j])
+        for order, key, value in products(x, y):
+            if order == n:
+                together.setdefault(key, []).append(value)
+        assert total(apart) == total(together)
 
 
 @pytest.mark.parametrize(
