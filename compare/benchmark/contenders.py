@@ -161,9 +161,10 @@ class Verdict(Brief):
     way: Way
     best: Row
     rival_way: Way | None
+    """None where no other way could be ranked; the rival is then the best yardstick, an exact omega0 at A(t)."""
     rival: Row | None
     ratio: float | None
-    """The rival's error over the best's, both no less than the reference's floor."""
+    """The rival's error over the best's, both no less than the reference's floor; below 1 for a better yardstick."""
     decided: bool
     """Whether the difference is more than the reference leaves open."""
     limit: str
@@ -179,8 +180,9 @@ class Verdict(Brief):
             return (
                 f"{head}, and {rival} cannot be told from it: omega0(t) itself is open by {relative(reference.floor)}"
             )
-        times = two_digits(self.ratio) if self.ratio < 1e5 else scientific(self.ratio)
-        return f"{head}, {times} times less than {rival}"
+        more = max(self.ratio, 1.0 / self.ratio)
+        times = two_digits(more) if more < 1e5 else scientific(more)
+        return f"{head}, {times} times {'less' if self.ratio > 1.0 else 'more'} than {rival}"
 
 
 def _capital(text: str) -> str:

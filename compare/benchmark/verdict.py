@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import Final
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import relative
 from ridgeback.compare.benchmark.contenders import WAYS, Reference, Row, Verdict, Way
 from ridgeback.compare.benchmark.crossings import SOURCES, expansions, passing
+
+YARDSTICKS: Final = ("closed-form", "averaged")
+"""What the best way is held against where no other way could be ranked."""
 
 
 def judge(rows: Sequence[Row], reference: Reference) -> Verdict:
@@ -18,19 +22,15 @@ def judge(rows: Sequence[Row], reference: Reference) -> Verdict:
     if not known:
         raise InputError("no expansion, series model or estimate could be ranked on this motion")
     first, *others = sorted(known, key=lambda way: _error(known[way]))
-    rival = others[0] if others else None
-    ratio = (
-        None
-        if rival is None
-        else max(_error(known[rival]), reference.floor) / max(_error(known[first]), reference.floor)
-    )
+    rival = known[others[0]] if others else closest([r for r in rows if r.ranked and r.kind in YARDSTICKS], floor)
+    ratio = None if rival is None else max(_error(rival), floor) / max(_error(known[first]), floor)
     return Verdict(
         way=first,
         best=known[first],
-        rival_way=rival,
-        rival=None if rival is None else known[rival],
+        rival_way=others[0] if others else None,
+        rival=rival,
         ratio=ratio,
-        decided=ratio is not None and ratio > 1.0 and _error(known[rival or first]) > reference.floor,
+        decided=ratio is not None and ratio != 1.0,
         limit="; ".join((_limit(known[first]), *_ends(known[first], known.get("estimates"), rows, reference))),
     )
 

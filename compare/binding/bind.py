@@ -26,7 +26,14 @@ from ridgeback.symbolic.flow.averaged_losses import undamped
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.elliptic import cubic_force, sine_force
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V, Value
-from ridgeback.symbolic.systems.sides import is_kinked, without_velocity
+from ridgeback.symbolic.systems.sides import (
+    is_kinked,
+    kinked_at_rest,
+    kinks_of,
+    place_of,
+    stops_of,
+    without_velocity,
+)
 from ridgeback.symbolic.systems.structure import dissipative_names
 
 Vectorised = Callable[[ArrayLike], Array]
@@ -114,30 +121,46 @@ def _time_scale(oscillator: Oscillator) -> float:
 
 
 def switches_of(force: sympy.Expr) -> Switches:
-    """The sides of a force with kinks, each smooth.
+    """The laws of a force with kinks, each smooth.
 
-    >>> sides = switches_of(U * abs(U) + sympy.sign(V))
-    >>> sides.force(-1, 1)(-2.0, 0.5), sides.force(1, -1)(2.0, -0.5)
+    >>> laws = switches_of(U * abs(U) + sympy.sign(V))
+    >>> laws.force(0, 1)(-2.0, 0.5), laws.force(1, -1)(2.0, -0.5)
     (-3.0, 3.0)
+    >>> laws = switches_of(U + abs(U - 1) - 1)
+    >>> laws.places, laws.force(0, 1)(0.5, 0.0), laws.force(1, 1)(2.0, 0.0)
+    ((1.0,), 0.0, 2.0)
     """
-    forces = {(one, other): _on_sides(force, one, other) for one in (1, -1) for other in (1, -1)}
-    return Switches(is_kinked(force, U), is_kinked(force, V), lambda one, other: forces[one, other])
+    stops = stops_of(force)
+    exact = sorted((*stops, *((sympy.S.Zero,) if kinked_at_rest(force) else ())), key=float)
+    places = tuple(float(place.evalf(30)) for place in exact)
+    laws = {(n, side): _law(force, exact, n, side) for n in range(len(exact) + 1) for side in (1, -1)}
+    return Switches(places, is_kinked(force, V), lambda stretch, side: laws[stretch, side])
 
 
-def _on_sides(force: sympy.Expr, one: int, other: int) -> Callable[[float, float], float]:
-    """The force on one side each of u and u'; broken powers are held at 0 beyond it."""
-    sizes = {U: sympy.Symbol("|u|", real=True), V: sympy.Symbol("|u'|", real=True)}
-    signs = {sympy.sign(U): sympy.Integer(one), sympy.sign(V): sympy.Integer(other)}
-    smooth = evaluator(
-        force.xreplace({**signs, **{sympy.Abs(x): s for x, s in sizes.items()}}), (U, V, *sizes.values()), SCALAR
-    )
-    held = any(power.exp.is_Integer is False for power in force.atoms(sympy.Pow) if power.base in (abs(U), abs(V)))
+def _law(force: sympy.Expr, places: list[sympy.Expr], stretch: int, side: int) -> Callable[[float, float], float]:
+    """The force on one stretch of u and one side of u'; broken powers are held at 0 beyond it."""
+    kinks = kinks_of(force)
+    where = {kink: _side_of(kink.args[0], places, stretch, side) for kink in kinks}
+    sizes = {kink: sympy.Symbol(str(kink), real=True) for kink in kinks if isinstance(kink, sympy.Abs)}
+    signs = {kink: sympy.Integer(where[kink]) for kink in kinks if kink not in sizes}
+    smooth = force.xreplace({**signs, **sizes})
+    value = evaluator(smooth, (U, V, *sizes.values()), SCALAR)
+    distances = [evaluator(where[kink] * kink.args[0], (U, V), SCALAR) for kink in sizes]
+    held = any(power.exp.is_Integer is False for power in smooth.atoms(sympy.Pow) if power.base in sizes.values())
 
-    def value(u: float, v: float) -> float:
-        x, y = one * u, other * v
-        return float(smooth((u, v, max(x, 0.0) if held else x, max(y, 0.0) if held else y)))
+    def law(u: float, v: float) -> float:
+        found = [distance((u, v)) for distance in distances]
+        return float(value((u, v, *((max(x, 0.0) for x in found) if held else found))))
 
-    return value
+    return law
+
+
+def _side_of(argument: sympy.Expr, places: list[sympy.Expr], stretch: int, side: int) -> int:
+    """The sign of what abs or sign is taken of: u', or a*u + b on a stretch of u."""
+    if not argument.has(U):
+        return side
+    above = places.index(place_of(argument)) < stretch
+    return 1 if above == bool(argument.diff(U) > 0) else -1
 
 
 def _check_numbers(oscillator: Oscillator) -> None:

@@ -29,7 +29,7 @@ from ridgeback.compare.motion.results import (
     SignedPlane,
 )
 from ridgeback.compare.motion.wigner_bias import wigner_bias
-from ridgeback.compare.study.derived import Derived, derive
+from ridgeback.compare.study.derived import Derived, derived_or_none
 from ridgeback.numeric.tracking.track import Track
 
 HIGH_ORDER = 20
@@ -92,7 +92,7 @@ def compare_motion(
     wanted = sorted(set(orders))
     progress(0.0, "integrating the motion twice")
     motion = integrate_motion(chosen) if isinstance(chosen, Setting) else chosen
-    exact = derive(motion.setting.oscillator, max(wanted)) if derived is None else derived
+    exact = derived_or_none(motion.setting.oscillator, max(wanted)) if derived is None else derived
     models = model_curves(motion, exact, orders=wanted)
     outcomes = estimates(motion, _within(progress, 0.2, 0.45), recipes, known_tracks)
     progress(0.45, "harmonics")

@@ -37,17 +37,17 @@ def expansion_name(order: int) -> str:
     return f"lindstedt-{order}"
 
 
-def model_curves(motion: Motion, derived: Derived, *, orders: Sequence[int]) -> tuple[Curve, ...]:
+def model_curves(motion: Motion, derived: Derived | None, *, orders: Sequence[int]) -> tuple[Curve, ...]:
     """All models and expansions of this oscillator along this motion.
 
-    ``orders`` are the orders of the expansion that are drawn (at most that of ``derived``).
+    ``orders`` are the orders of the expansion that are drawn (at most that of ``derived``); without one there is none.
     """
-    if derived.expansion.variable == "eps":
+    if derived is not None and derived.expansion.variable == "eps":
         return tuple(_limit_cycle_curves(motion, derived, orders))
     return tuple(_conservative_curves(motion, derived, orders))
 
 
-def _conservative_curves(motion: Motion, derived: Derived, orders: Sequence[int]) -> Iterator[Curve]:
+def _conservative_curves(motion: Motion, derived: Derived | None, orders: Sequence[int]) -> Iterator[Curve]:
     peak = motion.energy_peak
     if motion.has_backbone:
         yield _model(motion, CLOSED_FORM, _exact_label(motion), motion.exact_at_energy, by=AmplitudeSource.ENERGY)
@@ -64,6 +64,8 @@ def _conservative_curves(motion: Motion, derived: Derived, orders: Sequence[int]
         omega = motion.averaged.omega
         yield _model(motion, AVERAGED_ACTION, "averaged action", omega, note, by=AmplitudeSource.AVERAGED)
     yield _linear(motion)
+    if derived is None:
+        return
     for order in orders:
         yield _expansion(motion, derived, order, peak)
     if derived.flow is not None and motion.averaged is not None:

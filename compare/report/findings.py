@@ -51,6 +51,8 @@ def title_of(verdict: Verdict, reference: Reference) -> str:
     if verdict.rival is None or verdict.ratio is None:
         return f"{followed} within {error}"
     rival = short_name(verdict.rival)
+    if verdict.decided and verdict.ratio < 1.0:
+        return f"{followed} within {error}; {rival} is {two_digits(1.0 / verdict.ratio)} times closer"
     if verdict.decided and float(verdict.best.relative_rms_error or 0.0) <= reference.floor:
         within = f"as closely as it is defined ({per_cent(reference.floor)})"
         return f"{followed} {within}, at least {two_digits(verdict.ratio)} times closer than {rival}"

@@ -33,7 +33,7 @@ from ridgeback.compare.report.results import Described, Report
 from ridgeback.compare.report.stages import Stopwatch
 from ridgeback.compare.study.certified import certified
 from ridgeback.compare.study.derivation import derivation
-from ridgeback.compare.study.derived import Derived, derive
+from ridgeback.compare.study.derived import Derived, derived_or_none
 from ridgeback.compare.study.results import Range, Study
 from ridgeback.compare.study.study import ranges, study_of
 from ridgeback.compare.study.truncations import already_derived
@@ -85,11 +85,11 @@ class Plan:
 
 @dataclass(frozen=True)
 class Accuracy:
-    """Order against amplitude: the study, how far each order may be used, and the grid of the sliders."""
+    """Order against amplitude: study, range of use of each order, grid of the sliders; empty without a series."""
 
-    study: Study
-    ranges: tuple[Range, ...]
-    grid: ErrorGrid
+    study: Study | None = None
+    ranges: tuple[Range, ...] = ()
+    grid: ErrorGrid | None = None
 
 
 def system_report(
@@ -146,7 +146,7 @@ def system_report(
         motion = integrate_motion(case)
     with watch.stage("deriving and studying", 0.1, 0.2):
         plan, derived = _plan(motion, order, orders, amplitudes, target, trials)
-        accuracy = _accuracy(derived, plan)
+        accuracy = Accuracy() if derived is None else _accuracy(derived, plan)
     with watch.stage("contenders", 0.2, 0.5) as inner:
         contenders = _contenders(motion, plan, derived, inner)
         found = assembled(motion, contenders) if timed else untimed(assembled(motion, contenders))
@@ -177,16 +177,18 @@ def system_report(
         lead=lead_of(found, timed=timed),
         summary=(*said, *((noise.left_out,) if noise.left_out else ())),
         cards=cards(known),
-        derivation=derivation(derived, order=plan.order),
+        derivation=None if derived is None else derivation(derived, order=plan.order),
         study=accuracy.study,
         ranges=accuracy.ranges,
         decay=decay,
         recording=None,
         provenance=provenance(plan.settings(), command=command, seconds=watch.seconds() if timed else None),
-        certified=certified(derived.undamped.oscillator, plan.order, float(plan.amplitudes[-1])),
+        certified=None
+        if derived is None
+        else certified(derived.undamped.oscillator, plan.order, float(plan.amplitudes[-1])),
         noise=noise.study,
         csv=_csv(accuracy.study, decay, found),
-        finding=next(item for item in accuracy.ranges if item.order == plan.order and item.target == plan.target),
+        finding=next((r for r in accuracy.ranges if r.order == plan.order and r.target == plan.target), None),
         benchmark=found,
         grid=accuracy.grid,
         described=described(case),
@@ -202,14 +204,15 @@ def described(case: Setting) -> Described:
     return Described(name, o.equation_latex, parameters_line(case.case()), o.reference)
 
 
-def _contenders(motion: Motion, plan: Plan, derived: Derived, progress: Progress) -> list[Contender]:
+def _contenders(motion: Motion, plan: Plan, derived: Derived | None, progress: Progress) -> list[Contender]:
     steps = iter(range(1, 100))
 
     def step(label: str) -> None:
         progress(min(next(steps) / 14, 0.99), label)
 
     orders = [o for o in plan.orders if o in CONTENDING or len(plan.orders) < len(CONTENDING)]
-    return [*theory(motion, orders, step, known=derived.expansion), *estimates(motion, {}, step)]
+    known = None if derived is None else derived.expansion
+    return [*theory(motion, orders, step, known=known), *estimates(motion, {}, step)]
 
 
 def tracks_of(contenders: Sequence[Contender]) -> dict[str, Track]:
@@ -234,25 +237,28 @@ def _plan(
     amplitudes: Sequence[float] | Array | None,
     target: float,
     trials: int,
-) -> tuple[Plan, Derived]:
+) -> tuple[Plan, Derived | None]:
     if not 0 < target < 1:
         raise InputError(f"target {target} is not a relative error between 0 and 1; use e.g. 0.001")
     case = motion.setting
     cycle = case.oscillator.kind == "limit-cycle"
     wanted = tuple(sorted({*(orders or (CYCLE_ORDERS if cycle else ORDERS)), order}))
-    derived = derive(case.oscillator, max(HIGH_ORDER, *wanted), flow_order=min(max(order, 2), FLOW_ORDER))
+    highest, flow_order = max(HIGH_ORDER, *wanted), min(max(order, 2), FLOW_ORDER)
+    derived = derived_or_none(case.oscillator, highest, flow_order=flow_order)
     grid = _amplitudes(motion, derived) if amplitudes is None else np.asarray(amplitudes, dtype=float)
     return Plan(case, order, wanted, np.sort(grid), target, trials), derived
 
 
-def _amplitudes(motion: Motion, derived: Derived) -> Array:
+def _amplitudes(motion: Motion, derived: Derived | None) -> Array:
     """Up to 98 % of the separatrix; without one, beyond the start and beyond the radius of convergence."""
+    start = max(float(motion.energy_peak[0]), 0.1)
+    if derived is None:
+        return np.linspace(0.01, 1.0, AMPLITUDES) * BEYOND * start
     if derived.expansion.variable == "eps":
         own = _strength(motion)
         return CYCLE_STRENGTHS if own <= CYCLE_STRENGTHS[-1] else np.linspace(0.1, BEYOND * own, CYCLE_STRENGTHS.size)
     if derived.undamped.limit is not None:
         return np.linspace(0.01, 0.98, AMPLITUDES) * derived.undamped.limit
-    start = max(float(motion.energy_peak[0]), 0.1)
     radius = derived.limits.radius
     top = BEYOND * start if radius is None else max(BEYOND * start, min(1.5 * radius, 3.0 * start))
     return np.linspace(0.01, 1.0, AMPLITUDES) * top
@@ -268,8 +274,10 @@ def _accuracy(derived: Derived, plan: Plan) -> Accuracy:
     return Accuracy(result, _shown_ranges(result, plan.target), error_grid(derived, result))
 
 
-def _drawn(derived: Derived, order: int) -> tuple[int, ...]:
+def _drawn(derived: Derived | None, order: int) -> tuple[int, ...]:
     """Orders compared along the motion: the paper's low ones, the chosen one, and a high one."""
+    if derived is None:
+        return LOW_ORDERS
     return tuple(sorted({*LOW_ORDERS, min(order, derived.expansion.order), HIGH_ORDER}))
 
 
@@ -278,10 +286,10 @@ def _shown_ranges(result: Study, target: float) -> tuple[Range, ...]:
     return tuple(item for level in sorted({1e-2, 1e-3, 1e-6, target}, reverse=True) for item in ranges(result, level))
 
 
-def _csv(result: Study, decay: MotionComparison, found: Benchmark) -> dict[str, str]:
+def _csv(result: Study | None, decay: MotionComparison, found: Benchmark) -> dict[str, str]:
     return {
         "contenders.csv": tables.contenders_table(found),
-        "study.csv": tables.study_table(result),
+        **({} if result is None else {"study.csv": tables.study_table(result)}),
         "decay.csv": tables.decay_table(decay),
         "budget.csv": tables.budget_table(decay.budget),
         "harmonics.csv": tables.harmonics_table(decay),

@@ -19,6 +19,7 @@ from ridgeback.symbolic.flow.ordering import small_parameters, undamped
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
 from ridgeback.symbolic.singularities.limits import Limits, limits
 from ridgeback.symbolic.systems.oscillator import Oscillator
+from ridgeback.symbolic.systems.sides import NoSeriesError
 from ridgeback.symbolic.systems.structure import dissipative_names
 
 
@@ -133,6 +134,19 @@ def derive(oscillator: Oscillator, order: int, *, flow_order: int | None = None)
     if small_parameters(oscillator) or oscillator.kind != "damped":
         flow = multiple_scales(oscillator, min(order, 8) if flow_order is None else flow_order)
     return Derived(oscillator, rest, backbone_series(rest.oscillator, order), flow)
+
+
+def derived_or_none(oscillator: Oscillator, order: int, *, flow_order: int | None = None) -> Derived | None:
+    """The same, or None where no series about rest exists, as beyond a stop.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> derived_or_none(find("bilinear-stops"), 2) is None
+    True
+    """
+    try:
+        return derive(oscillator, order, flow_order=flow_order)
+    except NoSeriesError:
+        return None
 
 
 def backbone_series(rest: Oscillator, order: int) -> Expansion:

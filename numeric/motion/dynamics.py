@@ -7,6 +7,7 @@ Angular frequencies in rad per time unit.  ``potential`` and ``restoring`` belon
 from __future__ import annotations
 
 import math
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -24,19 +25,35 @@ from ridgeback.numeric.motion.roots import bracketed_newton
 
 @dataclass(frozen=True)
 class Switches:
-    """The sides of a force with kinks at u = 0 or u' = 0.
+    """The smooth laws of a force with kinks at places in u, or at u' = 0.
 
     Parameters
     ----------
-    in_u, in_velocity : bool
-        Where the kinks are.
+    places : tuple of float
+        The u at which it has kinks, rising; they part the line into stretches, numbered from 0 at the left.
+    in_velocity : bool
+        Whether it has a kink at u' = 0.
     force : callable
-        (side of u, side of u'), each 1 or -1, to the f(u, u') that holds there and goes on smoothly beyond.
+        (stretch of u, side of u': 1 or -1) to the f(u, u') that holds there and goes on smoothly beyond.
     """
 
-    in_u: bool
+    places: tuple[float, ...]
     in_velocity: bool
     force: Callable[[int, int], Callable[[float, float], float]]
+
+    def stretch(self, u: float, velocity: float) -> int:
+        """The number of the stretch that a state is in; at a kink the one it moves into, at rest there that nearer 0.
+
+        >>> law = Switches((-1.0, 0.0, 1.0), False, lambda _, side: lambda u, v: u)
+        >>> law.stretch(0.5, 1.0), law.stretch(1.0, -1.0), law.stretch(1.0, 1.0), law.stretch(-1.0, 0.0)
+        (2, 2, 3, 1)
+        """
+        forward = velocity > 0 or (velocity == 0 and u <= 0)
+        return bisect_right(self.places, u) if forward else bisect_left(self.places, u)
+
+    def pull(self, stretch: int, u: float) -> float:
+        """V' at a place by the law of a stretch: the mean of f over both sides of u' = 0."""
+        return 0.5 * (self.force(stretch, 1)(u, 0.0) + self.force(stretch, -1)(u, 0.0))
 
 
 @dataclass(frozen=True, repr=False)
@@ -68,7 +85,7 @@ class Dynamics:
         (u0, u0', degree) to the Taylor coefficients [u0, u0', u''/2!, ...] at mpmath's current precision; None for a
         force with kinks.
     switches : Switches, optional
-        The sides of a force with kinks.
+        The smooth laws of a force with kinks.
     ends : callable, optional
         Takes nothing and returns where the undamped oscillation ends: the first other equilibria or the edges of V',
         left and right, and the largest peak; None where that could not be decided.  Without it V' is scanned.
@@ -94,6 +111,11 @@ class Dynamics:
     def known_ends(self) -> tuple[float, float, float] | None:
         """What ``ends`` returns, None without it."""
         return None if self.ends is None else self.ends()
+
+    @property
+    def is_kinked_in_u(self) -> bool:
+        """Whether the force has kinks at places in u."""
+        return self.switches is not None and bool(self.switches.places)
 
     def __repr__(self) -> str:
         return f"<Dynamics: {self.name}, k = {self.natural_frequency:.6g}, mu = {self.damping:.6g}>"

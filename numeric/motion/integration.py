@@ -1,9 +1,9 @@
 """One integration by SciPy's steps: located events, switches of a force with kinks, rest by dry friction.
 
-A force with a kink at u = 0 or u' = 0 is integrated side by side: on each it is smooth, the place where the motion
-passes to another side is located on the dense output, and the solver starts anew there.  Where u' vanishes and the
-force pulls back on both sides, dry friction holds the motion: it stays at rest (A. F. Filippov, Differential Equations
-with Discontinuous Righthand Sides, 1988, section 4).
+A force with kinks at places in u or at u' = 0 is integrated from kink to kink: between them it is smooth, the time at
+which the motion passes to another stretch is located on the dense output, and the solver starts anew there.  Where u'
+vanishes and the force pulls back on both sides, dry friction holds the motion: it stays at rest (A. F. Filippov,
+Differential Equations with Discontinuous Righthand Sides, 1988, section 4).
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolution, Radau
@@ -20,7 +20,7 @@ from scipy.optimize import brentq
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.arrays import Array, frozen, frozen_mask
-from ridgeback.numeric.motion.dynamics import Dynamics, well
+from ridgeback.numeric.motion.dynamics import Dynamics, Switches, well
 from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
 from ridgeback.numeric.motion.request import MAX_EVALUATIONS, check_inside
 from ridgeback.numeric.motion.roots import bracketed_newton
@@ -100,7 +100,7 @@ class Integration:
         self.limits = well(dynamics)
         self.evaluations = 0
         self.switches = dynamics.switches
-        self.side_u = self.side_v = 1
+        self.stretch, self.side_v = 0, 1
 
     def slope(self, t: float, y: Array) -> Any:
         """Right-hand side of the first-order system; NaN (a rejected step) where f overflows."""
@@ -121,8 +121,8 @@ class Integration:
         return self.on_side(self.side_v)(u, v)
 
     def on_side(self, side_v: int) -> Callable[[float, float], float]:
-        """f on the present side of u and a side of u'."""
-        return self.dynamics.force if self.switches is None else self.switches.force(self.side_u, side_v)
+        """f on the present stretch of u and a side of u'."""
+        return self.dynamics.force if self.switches is None else self.switches.force(self.stretch, side_v)
 
     def run(self, state: tuple[float, float], duration: float) -> Solution:
         """The whole motion and its events."""
@@ -175,11 +175,11 @@ class Integration:
         return SOLVERS[self.method](self.slope, time, state, duration, rtol=self.rtol, atol=self.atol)
 
     def begin(self, state: Array) -> None:
-        """Choose the sides on which the motion begins; raises InputError where friction holds it."""
+        """Choose the stretch and the side on which the motion begins; raises InputError where friction holds it."""
         if self.switches is None:
             return
         u, v = float(state[0]), float(state[1])
-        self.side_u = 1 if (u or v or 1.0) > 0 else -1
+        self.stretch = self.switches.stretch(u, v)
         side = self.side_of_motion(state) if v == 0 else (1 if v > 0 else -1)
         if side is None:
             raise InputError(
@@ -194,9 +194,9 @@ class Integration:
         return ways[0] if ways else None
 
     def sticks(self, state: Array) -> bool:
-        """Whether the motion ends in the state that a switch was found at; else the sides are those behind it."""
-        if state[0] == 0:
-            self.side_u = 1 if state[1] > 0 else -1
+        """Whether the motion ends in the state that a switch was found at; else the laws are those behind it."""
+        if self.switches is not None and float(state[0]) in self.switches.places:
+            self.stretch = self.switches.stretch(float(state[0]), float(state[1]))
         if state[1] != 0:
             return False
         side = self.side_of_motion(state)
@@ -204,30 +204,39 @@ class Integration:
         return side is None
 
     def switched(self, start: float, end: float, y: Array, piece: Any) -> tuple[float, Array, bool]:
-        """The end of a step, or the first place in it where u or u' changes to another side of a kink."""
+        """The end of a step, or the first time in it at which u or u' passes a kink."""
         if self.switches is None:
             return end, y, False
         grid = np.linspace(start, end, _SUBDIVISIONS + 1)
         values = np.asarray(piece(grid))
-        found: list[tuple[float, int]] = []
-        for part, kink, side in ((0, self.switches.in_u, self.side_u), (1, self.switches.in_velocity, self.side_v)):
-            behind = np.flatnonzero(side * values[part, 1:] < 0) + 1 if kink else np.zeros(0, dtype=int)
-            if behind.size and side * values[part, behind[0] - 1] >= 0:
+        found: list[tuple[float, int, float]] = []
+        for part, place, side in self.bounds():
+            ahead = side * (values[part] - place)
+            behind = np.flatnonzero(ahead[1:] < 0) + 1
+            if behind.size and ahead[behind[0] - 1] >= 0:
                 low, high = grid[behind[0] - 1], grid[behind[0]]
-                found.append((self.zero(piece, part, float(low), float(high)), part))
+                found.append((self.crossed(piece, part, place, float(low), float(high)), part, place))
         if not found:
             return end, y, False
-        time, part = min(found)
+        time, part, place = min(found)
         state = np.asarray(piece(time), dtype=float)
-        state[part] = 0.0
+        state[part] = place
         return time, state, True
 
+    def bounds(self) -> list[tuple[int, float, int]]:
+        """What bounds the present laws: the part of the state, its value at the kink, and the side that it is on."""
+        switches = cast(Switches, self.switches)
+        places = switches.places
+        below = [(0, places[self.stretch - 1], 1)] if self.stretch > 0 else []
+        above = [(0, places[self.stretch], -1)] if self.stretch < len(places) else []
+        return below + above + ([(1, 0.0, self.side_v)] if switches.in_velocity else [])
+
     @staticmethod
-    def zero(piece: Any, part: int, low: float, high: float) -> float:
-        """Where a part of the state vanishes on the dense output, to rounding."""
-        if piece(low)[part] == 0:
+    def crossed(piece: Any, part: int, place: float, low: float, high: float) -> float:
+        """When a part of the state passes a kink on the dense output, to rounding."""
+        if piece(low)[part] == place:
             return low
-        return float(brentq(lambda t: float(piece(t)[part]), low, high, xtol=4 * np.spacing(high), rtol=1e-15))
+        return float(brentq(lambda t: float(piece(t)[part]) - place, low, high, xtol=4 * np.spacing(high), rtol=1e-15))
 
     def refuse_too_much(self, steps: int, t: float, recent: float, duration: float) -> None:
         """Refuse what the last steps show to take too many evaluations or too much memory."""

@@ -13,7 +13,9 @@ J* = J + g(phi), omega0^2 dg/dphi = -(u' d - P), with zero mean over the cycle.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.integrate import solve_ivp
@@ -22,14 +24,13 @@ from scipy.interpolate import BarycentricInterpolator
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.numeric.orbits.kinked_orbit import settled_half_orbit
 from ridgeback.numeric.orbits.period import FrequencyTable, action, exact_frequency, peak_of_action
-from ridgeback.numeric.orbits.potential import gauss, mean_restoring, peak_limit, restoring_of
-from ridgeback.numeric.orbits.waveform import orbit_harmonics
+from ridgeback.numeric.orbits.potential import peak_limit, peak_of_potential, potential_at, restoring_of
+from ridgeback.numeric.orbits.waveform import SETTLED, orbit_harmonics
 
 POINTS = 512
 """Phases over one cycle: the mean of a smooth periodic function converges geometrically in their number."""
-HALF_POINTS = 48
-"""Points of Gauss-Legendre in a quarter of a cycle."""
 HARMONICS = 120
 NODES = (17, 33, 65, 129)
 """Chebyshev points in ln J; their number is doubled until R is interpolated to ``ACCURACY``."""
@@ -38,8 +39,14 @@ MOST_SPAN = 16.0
 """ln J below the start at which a motion under dry friction counts as at rest."""
 SPAN = 4.0
 """ln J below the start that the first table covers."""
+SAME = 1e-9
+"""Levels of ln J closer than this are one."""
 EDGE = 1 - 1e-6
 """Share of the well's last amplitude up to which a motion that grows is followed."""
+
+
+Rate = Callable[[Array], Array]
+"""R at levels of ln J."""
 
 
 @dataclass(frozen=True)
@@ -105,27 +112,17 @@ def cycles_of(dynamics: Dynamics, peaks: Array) -> list[Cycle]:
     velocity = -np.sin(np.outer(phase, m)) @ (m[:, None] * cosine) * table.omega
     lost = damping_force(dynamics, u.ravel(), velocity.ravel()).reshape(u.shape) * velocity
     whole = np.concatenate((lost, lost[-2:0:-1]))
-    means = whole.mean(axis=0) if dynamics.switches is None else _lost_by_halves(dynamics, table)
+    means = whole.mean(axis=0) if dynamics.switches is None else _lost_between_kinks(dynamics, table)
     rows = zip(table.omega, table.action, whole.T, means, strict=True)
     return [Cycle(float(w), float(J), p, float(mean)) for w, J, p, mean in rows]
 
 
-def _lost_by_halves(dynamics: Dynamics, table: FrequencyTable) -> Array:
-    """P of a force with kinks, by Gauss-Legendre from each turning point W to 0, where all is smooth.
-
-    P = omega0/(2 pi) times the loop integral of d du, 2 times that over B < u < A; with u = W (1 - x^2) the speed is
-    x sqrt(2 |W| q), q the mean of V' from u to W.
-    """
-    x, weights = gauss(HALF_POINTS)
-    x, weights = 0.5 * (1 + x), 0.5 * weights
-    total = np.zeros_like(table.omega)
-    for turn in (table.trough[:, None], table.peak[:, None]):
-        fall = turn * x**2
-        q = np.abs(mean_restoring(restoring_of(dynamics), turn, -fall, HALF_POINTS))
-        speed = x * np.sqrt(2 * np.abs(turn) * q)
-        lost = damping_force(dynamics, (turn - fall).ravel(), speed.ravel()).reshape(fall.shape)
-        total += 2 * (lost * 2 * np.abs(turn) * x) @ weights
-    return np.asarray(table.omega / (2 * np.pi) * total)
+def _lost_between_kinks(dynamics: Dynamics, table: FrequencyTable) -> Array:
+    """P of a force with kinks, the mean of u' d over half a cycle, between the kinks in u."""
+    orbit, _ = settled_half_orbit(dynamics, table.trough, table.peak, SETTLED)
+    shape = orbit.u.shape
+    lost = damping_force(dynamics, orbit.u.ravel(), -orbit.speed.ravel()).reshape(shape)
+    return orbit.mean(-orbit.speed * lost)
 
 
 def averaged_action(dynamics: Dynamics, start: float, time: Array) -> Array:
@@ -180,29 +177,63 @@ def _highest(dynamics: Dynamics, start: float) -> float:
     return top if top > start else start * (1 + 1e-9)
 
 
-def _table(dynamics: Dynamics, low: float, high: float) -> BarycentricInterpolator:
-    """R over ln J as a polynomial through Chebyshev points, refined until the points between agree."""
+def _table(dynamics: Dynamics, low: float, high: float) -> Rate:
+    """R over ln J: a polynomial, or several where the force has stops in between.
+
+    Just above the level at which the orbit reaches a stop R goes in powers of the square root of the distance from it,
+    and so the polynomials are in that root.
+    """
+    edges = (low, *(level for level in _stop_levels(dynamics) if low < level < high), high)
+    if len(edges) == 2:
+        return _polynomial(dynamics, low, high, lambda x: x)
+    parts = [_above(dynamics, start, end) for start, end in pairwise(edges)]
+
+    def rates(level: Array) -> Array:
+        which = np.clip(np.searchsorted(edges, level, side="right") - 1, 0, len(parts) - 1)
+        return np.array([float(parts[i](np.sqrt(x - edges[i]))) for i, x in zip(which, level, strict=True)])
+
+    return rates
+
+
+def _above(dynamics: Dynamics, start: float, end: float) -> Rate:
+    """R between two levels, over the root of the distance from the first."""
+    return _polynomial(dynamics, 0.0, math.sqrt(end - start), lambda x: start + x**2)
+
+
+def _stop_levels(dynamics: Dynamics) -> list[float]:
+    """The levels ln J, rising, at which the orbit just reaches a kink away from rest."""
+    places = [place for place in (dynamics.switches.places if dynamics.switches else ()) if place]
+    limit = peak_limit(dynamics)
+    depths = potential_at(dynamics, places) if places else np.zeros(0)
+    most = float(potential_at(dynamics, limit)[0]) if math.isfinite(limit) else math.inf
+    peaks = peak_of_potential(dynamics, depths[depths < most * (1 - 1e-12)])
+    levels = sorted(np.log(action(dynamics, peaks)).tolist())
+    return [level for i, level in enumerate(levels) if i == 0 or level - levels[i - 1] > SAME]  # both stops at once
+
+
+def _polynomial(dynamics: Dynamics, low: float, high: float, level: Callable[[Array], Array]) -> Rate:
+    """R over what ``level`` makes ln J of, through Chebyshev points, refined until the points between agree."""
     known: dict[float, float] = {}
 
-    def rates(levels: Array) -> Array:
-        fresh = [x for x in levels.tolist() if x not in known]
+    def rates(places: Array) -> Array:
+        fresh = [x for x in places.tolist() if x not in known]
         if fresh:
-            cycles = cycles_of(dynamics, peak_of_action(dynamics, np.exp(fresh)))
+            cycles = cycles_of(dynamics, peak_of_action(dynamics, np.exp(level(np.array(fresh)))))
             known.update((x, cycle.rate) for x, cycle in zip(fresh, cycles, strict=True))
-        return np.array([known[x] for x in levels.tolist()])
+        return np.array([known[x] for x in places.tolist()])
 
     before: BarycentricInterpolator | None = None
     for count in NODES:
-        levels = low + (high - low) * 0.5 * (1 - np.cos(np.pi * np.arange(count) / (count - 1)))
-        values = rates(levels)
-        table = BarycentricInterpolator(levels, values)
-        if before is not None and np.abs(before(levels) - values).max() <= ACCURACY * np.abs(values).max():
-            return table
+        places = low + (high - low) * 0.5 * (1 - np.cos(np.pi * np.arange(count) / (count - 1)))
+        values = rates(places)
+        table = BarycentricInterpolator(places, values)
+        if before is not None and np.abs(before(places) - values).max() <= ACCURACY * np.abs(values).max():
+            return lambda x: np.asarray(table(x), dtype=float)
         before = table
     raise InputError(f"{dynamics.name}: the averaged loss of action changes too fast with amplitude to be tabulated")
 
 
-def _followed(table: BarycentricInterpolator, start: float, low: float, time: Array) -> Array | None:
+def _followed(table: Rate, start: float, low: float, time: Array) -> Array | None:
     """ln J at the times, or None when the motion leaves the table at its lower end."""
     level = np.full(time.size, start)
     for side in (np.flatnonzero(time > 0), np.flatnonzero(time < 0)):

@@ -10,7 +10,8 @@ whose integrands are smooth, even and periodic in theta: the midpoint rule conve
 Weideman, SIAM Review 56 (2014) 385-458).  E - V(u) is never formed as a difference, which would cancel near a
 turning point: it is (A - u) times the mean of V' over [u, A], or (u - B) times minus that over [B, u], both by
 Gauss-Legendre.  Near the end of the well g^(-1/2) peaks within delta of a turning point; tan(theta) = c tan(psi),
-c = sqrt(delta), widens the peak to sqrt(delta), so that the nodes needed grow like delta^(-1/2) only.
+c = sqrt(delta), widens the peak to sqrt(delta), so that the nodes needed grow like delta^(-1/2) only.  A force with
+kinks in u is integrated from kink to kink, by ``kinked_orbit``.
 
 Amplitudes are ``peak`` (the positive turning point) unless named otherwise.
 """
@@ -22,16 +23,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, frozen
 from ridgeback.numeric.motion.dynamics import Dynamics, well
 from ridgeback.numeric.motion.roots import bracketed_newton
+from ridgeback.numeric.orbits.kinked_orbit import MOST, half_orbit
 from ridgeback.numeric.orbits.potential import (
     Restoring,
     check_peaks,
-    gauss,
     mean_restoring,
     peak_limit,
     restoring_of,
@@ -41,6 +42,7 @@ from ridgeback.numeric.orbits.potential import (
 
 __all__ = ["FrequencyTable", "action", "exact_frequency", "peak_limit", "peak_of_action", "trough"]
 
+Indices = NDArray[np.int64]
 _FIRST_NODES = 16
 _LAST_NODES = 2**13
 _MOST_INNER = 256
@@ -163,17 +165,23 @@ def _doubled(dynamics: Dynamics, low: Array, high: Array, tolerance: float) -> t
     """Return omega0, J and the error of omega0, doubling nodes until each orbit has settled."""
     restoring = restoring_of(dynamics)
     share, c = stretch(dynamics, low, high)
-    kinked = dynamics.switches is not None and dynamics.switches.in_u
-    sums = _by_halves if kinked else _sums
-    inner, inner_error = inner_points(restoring, low, high, to_rest=kinked)
-    omega, J = sums(restoring, low, high, c, _FIRST_NODES, inner)
+    kinked = dynamics.is_kinked_in_u
+    inner, inner_error = (0, 0.0) if kinked else inner_points(restoring, low, high)
+
+    def sums(which: Indices, nodes: int) -> tuple[Array, Array]:
+        if kinked:
+            orbit = half_orbit(dynamics, low[which], high[which], nodes)
+            return math.pi / orbit.duration, orbit.action
+        return _sums(restoring, low[which], high[which], c[which], nodes, inner)
+
+    omega, J = sums(np.arange(low.size, dtype=np.int64), _FIRST_NODES)
     # u is rounded next to the end of the well, where V' depends on the distance to it; 1e-3 is what was observed
     # on the pendulum from 1e-3 to 1e-12 before its separatrix, with a margin of 2
     rounding = 1e-15 + 1e-3 * np.spacing(1.0) / share
     error = np.full_like(omega, np.inf)
-    active, nodes = np.arange(omega.size), 2 * _FIRST_NODES
-    while active.size and nodes <= _LAST_NODES:
-        finer, J[active] = sums(restoring, low[active], high[active], c[active], nodes, inner)
+    active, nodes = np.arange(omega.size, dtype=np.int64), 2 * _FIRST_NODES
+    while active.size and nodes <= (MOST if kinked else _LAST_NODES):
+        finer, J[active] = sums(active, nodes)
         change = np.abs(finer - omega[active])
         omega[active], error[active] = finer, change + (rounding[active] + inner_error) * finer
         active, nodes = active[change > tolerance * finer], 2 * nodes
@@ -192,19 +200,16 @@ def stretch(dynamics: Dynamics, low: Array, high: Array) -> tuple[Array, Array]:
     return share, np.minimum(1.0, (2 * share) ** 0.25)  # delta = sqrt(2 share), from cosh(delta) = 1 + share
 
 
-def inner_points(restoring: Restoring, low: Array, high: Array, *, to_rest: bool = False) -> tuple[int, float]:
+def inner_points(restoring: Restoring, low: Array, high: Array) -> tuple[int, float]:
     """Return Gauss points that give the mean of V' over each half orbit, and the relative error left (0: none).
-
-    The halves meet in the middle of the orbit, with ``to_rest`` at u = 0.
 
     >>> inner_points(np.sin, np.array([-1.0]), np.array([1.0]))
     (16, 0.0)
     """
-    spans = (-low, high) if to_rest else (0.5 * (high - low),) * 2
-    means = _halves(restoring, low, high, spans, 8)
+    means = _halves(restoring, low, high, 8)
     inner, change = 8, np.zeros(1)
     while inner < _MOST_INNER:
-        finer = _halves(restoring, low, high, spans, 2 * inner)
+        finer = _halves(restoring, low, high, 2 * inner)
         change = np.abs(finer / means - 1)
         if np.all(change <= 1e-12):  # the points converge geometrically: twice as many have twice the digits
             return 2 * inner, 0.0
@@ -212,9 +217,9 @@ def inner_points(restoring: Restoring, low: Array, high: Array, *, to_rest: bool
     return inner, float(change.max(initial=0.0))
 
 
-def _halves(restoring: Restoring, low: Array, high: Array, spans: tuple[Array, Array], inner: int) -> Array:
-    ahead, back = spans
-    return np.concatenate((mean_restoring(restoring, low, ahead, inner), mean_restoring(restoring, high, -back, inner)))
+def _halves(restoring: Restoring, low: Array, high: Array, inner: int) -> Array:
+    span = 0.5 * (high - low)
+    return np.concatenate((mean_restoring(restoring, low, span, inner), mean_restoring(restoring, high, -span, inner)))
 
 
 def _sums(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, inner: int) -> tuple[Array, Array]:
@@ -227,24 +232,6 @@ def _sums(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, i
     if not parts:
         return np.zeros(0), np.zeros(0)
     return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
-
-
-def _by_halves(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, inner: int) -> tuple[Array, Array]:  # noqa: ARG001
-    """omega0 and J of a force with a kink at u = 0, by Gauss-Legendre from each turning point W to 0.
-
-    With u = W (1 - x^2), E - V = W x^2 q and q the mean of V' from u to W, a quarter takes sqrt(2 |W|) times the
-    integral of q^(-1/2) dx, and J is (2/pi) |W|^(3/2) sqrt(2) times that of x^2 q^(1/2) dx, summed over both sides.
-    """
-    x, weights = gauss(min(nodes, _MOST_INNER))
-    x, weights = 0.5 * (1 + x), 0.5 * weights
-    time, area = np.zeros_like(low), np.zeros_like(low)
-    for turn in (low, high):
-        fall = turn[:, None] * x**2
-        q = np.abs(mean_restoring(restoring, turn[:, None], -fall, inner))
-        size = np.abs(turn)
-        time += np.sqrt(2 * size) * ((q**-0.5) @ weights)
-        area += math.sqrt(2) * size**1.5 * ((np.sqrt(q) * x**2) @ weights)
-    return math.pi / time, 2 / math.pi * area
 
 
 def _midpoint(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, inner: int) -> tuple[Array, Array]:

@@ -45,12 +45,11 @@ def potential_at(dynamics: Dynamics, u: ArrayLike) -> Array:
     >>> bool(abs(potential_at(pendulum(), [1e-9])[0] / 5e-19 - 1) < 1e-15)
     True
     """
-    restoring = restoring_of(dynamics)
     points = np.atleast_1d(np.asarray(u, dtype=float))
-    value = points * mean_restoring(restoring, np.zeros_like(points), points, 16)
+    value = _integrated(dynamics, points, 16)
     inner = 32
     while inner <= 512:
-        previous, value = value, points * mean_restoring(restoring, np.zeros_like(points), points, inner)
+        previous, value = value, _integrated(dynamics, points, inner)
         settled = np.abs(value - previous) <= 1e-12 * np.abs(value)  # the next change would be its square
         if np.all(settled):
             return np.asarray(value)
@@ -59,6 +58,18 @@ def potential_at(dynamics: Dynamics, u: ArrayLike) -> Array:
         with np.errstate(all="ignore"):
             value[~settled] = dynamics.potential(points[~settled])
     return np.asarray(value)
+
+
+def _integrated(dynamics: Dynamics, points: Array, inner: int) -> Array:
+    """V' integrated from 0, from kink to kink."""
+    restoring, total, start = restoring_of(dynamics), np.zeros_like(points), np.zeros_like(points)
+    places = dynamics.switches.places if dynamics.switches is not None else ()
+    for place in (*sorted((p for p in places if p), key=abs), math.inf):
+        between = (np.sign(points) == np.sign(place)) & (np.abs(points) > abs(place))
+        end = points if math.isinf(place) else np.where(between, place, start)
+        total += (end - start) * mean_restoring(restoring, start, end - start, inner)
+        start = end
+    return total
 
 
 def peak_limit(dynamics: Dynamics) -> float:

@@ -18,10 +18,13 @@ from scipy import fft
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, frozen
 from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.numeric.orbits.kinked_orbit import MOST, half_orbit, settled_half_orbit, since_turning
 from ridgeback.numeric.orbits.period import OrbitGrid, inner_points, orbit_grid, stretch
 from ridgeback.numeric.orbits.potential import check_peaks, peak_of_potential, potential_at, restoring_of, troughs
 
 _LAST_NODES = 2**12
+SETTLED = 1e-14
+"""Change of the frequency by a doubling of the nodes between kinks, relative, that counts as none."""
 FIRST_POINTS, DIED = 16, 1e-14
 """Chebyshev points that are tried first, and what the last coefficients then are of the largest, at most."""
 
@@ -65,6 +68,9 @@ def orbit_position(dynamics: Dynamics, u: float, velocity: float) -> OrbitPositi
         raise InputError(f"{dynamics.name}: the state (0, 0) is at rest and has no phase; start elsewhere")
     high = peak_of_potential(dynamics, energy)
     low = troughs(dynamics, high)
+    sign = -1.0 if velocity > 0 else 1.0
+    if dynamics.is_kinked_in_u:
+        return _between_kinks(dynamics, low, high, u, velocity, sign)
     grid = _grid(dynamics, low, high, _enough_nodes(dynamics, low, high))
     half, period = 0.5 * float(high[0] - low[0]), 1 / np.sqrt(grid.g[0]) * grid.weight[0]
     omega = math.sqrt(2) / float(np.mean(period))
@@ -73,8 +79,21 @@ def orbit_position(dynamics: Dynamics, u: float, velocity: float) -> OrbitPositi
     psi = _psi_of(u, velocity, dynamics, float(low[0]), float(high[0]))
     phase = math.pi - _integral_to(omega / math.sqrt(2) * period, psi)
     work = math.pi * J - _integral_to(loop, psi)
-    sign = -1.0 if velocity > 0 else 1.0
     return OrbitPosition(float(high[0]), omega, J, sign * phase, sign * (work - J * phase))
+
+
+def _between_kinks(
+    dynamics: Dynamics, low: Array, high: Array, u: float, velocity: float, sign: float
+) -> OrbitPosition:
+    """The same of a force with kinks in u: time and work from the turning point on the side of u."""
+    orbit, _ = settled_half_orbit(dynamics, low, high, SETTLED)
+    half, J = float(orbit.duration[0]), float(orbit.action[0])
+    omega = math.pi / half
+    turn, side = (float(high[0]), 1) if u >= 0 else (float(low[0]), -1)
+    time, work = (0.0, 0.0) if velocity == 0 else since_turning(dynamics, turn, side, u)
+    if side < 0:
+        time, work = half - time, math.pi * J - work
+    return OrbitPosition(float(high[0]), omega, J, sign * omega * time, sign * (work - omega * J * time))
 
 
 def _psi_of(u: float, velocity: float, dynamics: Dynamics, low: float, high: float) -> float:
@@ -128,6 +147,10 @@ def orbit_harmonics(dynamics: Dynamics, peak: ArrayLike, *, count: int = 9) -> O
     cosine, moving = np.zeros((count + 1, A.size)), A > 0
     high = A[moving]
     low = troughs(dynamics, high)
+    if dynamics.is_kinked_in_u:
+        cosine[:, moving], error = _cosines_between_kinks(dynamics, low, high, count)
+        cosine.flags.writeable = False
+        return OrbitHarmonics(frozen(A), cosine, error)
     nodes, error = 32, math.inf
     while nodes < 4 * count:
         nodes *= 2
@@ -179,6 +202,18 @@ def harmonics_along(dynamics: Dynamics, peak: ArrayLike, *, count: int = 9) -> O
             return OrbitHarmonics(frozen(A), cosine, at.error)
         points *= 2
     return orbit_harmonics(dynamics, A, count=count)
+
+
+def _cosines_between_kinks(dynamics: Dynamics, low: Array, high: Array, count: int) -> tuple[Array, float]:
+    """Coefficients ``[m, orbit]`` of a force with kinks in u, twice the mean of u cos(m phi) over half a cycle."""
+    nodes, error, found = max(32, 16 * math.ceil(count / 16)), math.inf, np.zeros((count + 1, low.size))
+    while error > 1e-13 and nodes <= MOST:
+        orbit = half_orbit(dynamics, low, high, nodes)
+        phase = np.pi * orbit.time / orbit.duration[:, None]
+        finer = np.array([(2.0 if m else 1.0) * orbit.mean(orbit.u * np.cos(m * phase)) for m in range(count + 1)])
+        error = float((np.abs(finer - found) / high).max(initial=0.0))
+        found, nodes = finer, 2 * nodes
+    return found, error
 
 
 def _cosines(dynamics: Dynamics, low: Array, high: Array, nodes: int, count: int) -> Array:

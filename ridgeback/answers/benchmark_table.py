@@ -184,9 +184,12 @@ def place(crossing: OrderCrossing) -> str:
 
 def unranked(found: Benchmark) -> list[str]:
     """What was refused or covers too little, and why."""
-    left = [row for row in found.contenders if not row.ranked]
-    reasons = [f"  {row.label}: {row.refused or f'covers {row.coverage:.0%} of the interior'}" for row in left]
-    return ["", "not ranked:", *dict.fromkeys(reasons)] if left else []
+    reasons: dict[str, list[str]] = {}
+    for row in found.contenders:
+        if not row.ranked:
+            reasons.setdefault(row.refused or f"covers {row.coverage:.0%} of the interior", []).append(row.label)
+    lines = [f"  {'; '.join(dict.fromkeys(labels))}: {reason}" for reason, labels in reasons.items()]
+    return ["", "not ranked:", *lines] if lines else []
 
 
 def equal(found: Benchmark) -> list[str]:

@@ -14,6 +14,7 @@ from ridgeback.symbolic.cycles.enclose import Cycle, enclose_cycle, turns_of
 from ridgeback.symbolic.cycles.search import OCTAVES, peaks
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.sides import require_one_law
 
 
 @dataclass(frozen=True)
@@ -97,6 +98,7 @@ def limits_itself(oscillator: Oscillator, small: str) -> bool:
 
 
 def _check(oscillator: Oscillator) -> None:
+    require_one_law(oscillator.name, oscillator.substituted_force)
     if oscillator.closes:
         raise InputError(
             f"{oscillator.name}: every orbit near the origin closes, so that there is no limit cycle to enclose; "

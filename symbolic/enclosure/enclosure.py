@@ -32,6 +32,7 @@ from ridgeback.symbolic.enclosure.well import Well, well_of
 from ridgeback.symbolic.grammar.tokens import parse_number
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator
+from ridgeback.symbolic.systems.sides import require_one_law
 
 __all__ = ["Amplitude", "Enclosure", "Separatrix", "enclose", "separatrix"]
 
@@ -146,6 +147,7 @@ def enclose(
     ridgeback.common.errors.InputError: duffing-softening: peak amplitude 1 is at or beyond the separatrix ...
     """
     oscillator = as_oscillator(oscillator)
+    require_one_law(oscillator.name, oscillator.substituted_force)
     if oscillator.by_sides:
         return _by_sides(oscillator, amplitude, definition=definition, bits=bits, method=method)
     with showing(progress) as told:

@@ -31,7 +31,7 @@ from ridgeback.symbolic.enclosure.walk import UndecidedError, root
 from ridgeback.symbolic.enclosure.well import exact_polynomial
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 from ridgeback.symbolic.systems.potential import potential_of
-from ridgeback.symbolic.systems.sides import Half
+from ridgeback.symbolic.systems.sides import Half, require_one_law
 from ridgeback.symbolic.systems.structure import free_names
 
 MAX_EVALUATIONS: Final = 50_000
@@ -70,6 +70,7 @@ def two_sided(oscillator: Oscillator) -> TwoSided:
     True
     """
     name, force = oscillator.name, oscillator.substituted_force
+    require_one_law(name, force)
     if force.has(V):
         raise InputError(
             f"{name}: there is no energy with terms in u' beside a kink, hence no enclosure; leave them out"

@@ -16,7 +16,7 @@ from ridgeback.symbolic.series.spaces import Scalar, space_for
 from ridgeback.symbolic.series.trigonometric import constant
 from ridgeback.symbolic.systems.natural_units import over_leading
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
-from ridgeback.symbolic.systems.sides import Half
+from ridgeback.symbolic.systems.sides import Half, require_one_law
 from ridgeback.symbolic.systems.structure import free_names, positive_root
 
 RATIO = "rho*"
@@ -37,6 +37,7 @@ class Side:
 def restoring_sides(oscillator: Oscillator, *, trough: bool) -> tuple[Half, Half]:
     """The side of the amplitude and the other one."""
     name = oscillator.name
+    require_one_law(name, oscillator.substituted_force)
     if oscillator.substituted_force.has(V):
         raise InputError(
             f"{name} has terms in u', so its energy is not conserved in this form; "

@@ -37,7 +37,7 @@ from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.natural_units import Natural, over_leading
 from ridgeback.symbolic.systems.oscillator import Oscillator, V
 from ridgeback.symbolic.systems.parameters import symbol_of
-from ridgeback.symbolic.systems.sides import half, without_velocity
+from ridgeback.symbolic.systems.sides import half, require_one_law, without_velocity
 from ridgeback.symbolic.systems.structure import dissipative_names, free_names, positive_root
 
 LEADING = 2
@@ -85,6 +85,7 @@ def averaged_losses(oscillator: OscillatorLike, order: int, *, amplitude: str | 
     check_name(oscillator, "a")
     names = dissipative_names(oscillator.force)
     force = _with_values(oscillator, names)
+    require_one_law(oscillator.name, force)
     losses = losses_of(oscillator.name, force)
     rest = undamped(oscillator, names)
     if not rest.is_linear_at_rest:

@@ -40,7 +40,7 @@ from ridgeback.symbolic.series.spaces import Parametric, Scalar
 from ridgeback.symbolic.series.trigonometric import Trig, constant, cosine, harmonic, sine, solve_oscillator
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import U, V
-from ridgeback.symbolic.systems.sides import is_kinked, kink_advice
+from ridgeback.symbolic.systems.sides import is_kinked, kink_advice, require_one_law
 
 COEFFICIENT: Final = 2
 """What a symbolic coefficient counts when the cost is predicted: that of u^3 comes with a^2 each time."""
@@ -105,6 +105,7 @@ def multiple_scales(
     oscillator = as_oscillator(oscillator)
     order = check_order(order)
     check_name(oscillator, "a")
+    require_one_law(oscillator.name, oscillator.substituted_force)
     if is_kinked(oscillator.substituted_force):
         raise InputError(
             f"{oscillator.name}: {kink_advice(oscillator.substituted_force, conservative=oscillator.closes)}"

@@ -240,7 +240,12 @@ class Oscillator:
 
     @cached_property
     def substituted_potential(self) -> sympy.Expr | None:
-        """The potential with every parameter that has a value inserted; integrated where these leave no u' at all."""
+        """The potential with every parameter that has a value inserted; integrated where these leave no u' at all.
+
+        Of a force with stops it is integrated anew, since the order of the stops depends on the values.
+        """
+        if self.stops and not self.potential_note:
+            return potential_of(sides.without_velocity(self.substituted_force))
         if self.potential is None:
             force = self.substituted_force
             return None if force.has(V) else potential_of(force)
@@ -274,7 +279,7 @@ class Oscillator:
             return "limit-cycle"
         if self.closes:
             return "conservative" if self.is_conservative else "reversible"
-        slope = sign_at_origin(slope_at_rest(self.force, V), self.parameters)
+        slope = sign_at_origin(slope_at_rest(self._near_rest, V), self.parameters)
         return "limit-cycle" if slope is not None and slope < 0 else "damped"
 
     @cached_property
@@ -282,12 +287,22 @@ class Oscillator:
         """The linear restoring coefficient f_u(0, 0) = k**2, parameters inserted; see ``natural_frequency``."""
         if self.is_kinked:
             return sympy.expand(self.natural_frequency**2)
-        return without_sizes(sympy.expand(self._inserted(self.force.diff(U)).subs({U: 0, V: 0})))
+        return without_sizes(sympy.expand(self._inserted(self._near_rest.diff(U)).subs({U: 0, V: 0})))
+
+    @cached_property
+    def _near_rest(self) -> sympy.Expr:
+        """The force within its stops; the force itself where it has none."""
+        return sides.on_stretch(self.substituted_force, sympy.S.Zero) if self.stops else self.force
 
     @cached_property
     def is_kinked(self) -> bool:
         """Whether the force has a kink at u = 0: abs, sign or a broken power of u."""
-        return sides.is_kinked(self.substituted_force, U)
+        return sides.kinked_at_rest(self.substituted_force)
+
+    @cached_property
+    def stops(self) -> tuple[sympy.Expr, ...]:
+        """Where the force has kinks away from rest, such as that of abs(u - 1); rising where these are numbers."""
+        return sides.stops_of(self.substituted_force)
 
     @cached_property
     def is_linear_at_rest(self) -> bool:
@@ -308,7 +323,7 @@ class Oscillator:
 
     @cached_property
     def halves(self) -> tuple[Half, Half]:
-        """The restoring force f(u, 0) on each side of rest, u > 0 first, parameters inserted."""
+        """The restoring force f(u, 0) on each side of rest up to its first stop, u > 0 first, parameters inserted."""
         return sides.restoring_halves(self.name, sides.without_velocity(self.substituted_force))
 
     @cached_property
@@ -328,7 +343,7 @@ class Oscillator:
     @cached_property
     def linear_damping(self) -> sympy.Expr:
         """Half of f_u'(0, 0), parameters inserted: the mu of the linearised equation, whatever it is called."""
-        return sympy.expand(self._inserted(slope_at_rest(self.force, V)) / 2)
+        return sympy.expand(self._inserted(slope_at_rest(self._near_rest, V)) / 2)
 
     @property
     def equation_latex(self) -> str:
@@ -339,7 +354,7 @@ class Oscillator:
     def check_at_origin(self) -> None:
         """Raise InputError unless u = 0 is an equilibrium with a restoring force, f analytic on each side of it."""
         value_at_origin(self.force, self.parameters)
-        rest = sympy.expand(self._inserted(self.force).subs({U: 0, V: 0}))
+        rest = sympy.expand(self._inserted(self._near_rest).subs({U: 0, V: 0}))
         if rest != 0:
             raise InputError(
                 f"{self.name}: u = 0 is not at rest, since f(0, 0) = {brief(rest)} and not 0; "
@@ -348,7 +363,7 @@ class Oscillator:
         if self.by_sides:
             _ = self.halves
             return
-        slope = self.force.diff(U)
+        slope = self._near_rest.diff(U)
         sign = sign_at_origin(slope, self.parameters)
         if sign == -1 or self.stiffness.is_nonpositive:
             raise InputError(
@@ -364,6 +379,7 @@ class Oscillator:
         >>> own.normalised.force, own.normalised.damping
         (2*mu*u' + sin(u), 1/400)
         """
+        sides.require_one_law(self.name, self.substituted_force)
         if sides.is_kinked(self.substituted_force):
             raise InputError(
                 f"{self.name}: {sides.kink_advice(self.substituted_force, conservative=self.is_conservative)}"

@@ -11,7 +11,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.symbolic.grammar.at_origin import brief, value_at_origin
 from ridgeback.symbolic.grammar.parse import U, V, parse_expression, to_sympy
 from ridgeback.symbolic.systems.parameters import symbol_of
-from ridgeback.symbolic.systems.sides import half, is_kinked, whole, without_velocity
+from ridgeback.symbolic.systems.sides import half, kinked_at_rest, on_stretch, stops_of, whole, without_velocity
 from ridgeback.symbolic.systems.structure import dissipative_names, small_name
 
 MAX_OPERATIONS: Final = 300
@@ -33,7 +33,7 @@ def potential_of(restoring: sympy.Expr) -> sympy.Expr | None:
 
     The rules: powers of u; sin, cos, tan, sinh, cosh, tanh, exp of a*u + b; c * g'(u) * g(u)**r and c * g'(u) * F(g(u))
     with F one of these functions; and p(u) * exp(q(u)) with polynomials p and q, where that is elementary.  A force
-    with a kink at u = 0 is integrated on each side.
+    with a kink at u = 0 is integrated on each side, and one with stops between them, which must be numbers.
 
     Parameters
     ----------
@@ -50,11 +50,47 @@ def potential_of(restoring: sympy.Expr) -> sympy.Expr | None:
     >>> potential_of(U + sympy.sin(2 * U))
     u**2/2 - cos(2*u)/2 + 1/2
     """
-    if is_kinked(restoring):
+    if stops := stops_of(restoring):
+        return _beyond_stops(restoring, stops)
+    if kinked_at_rest(restoring):
         right, left = (potential_of(half(restoring, side)) for side in (1, -1))
         return None if right is None or left is None else whole(right, left)
     integral = _sum(restoring, lambda term: _sum(_expanded(term), lambda _: None))
     return None if integral is None else _from_zero(integral)
+
+
+# With the law f_0 about rest, and f_in, f_out on both sides of a stop s, V = V_0 + sum of D(u) - D(s) beyond each s,
+# D' = f_out - f_in.
+def _beyond_stops(restoring: sympy.Expr, stops: tuple[sympy.Expr, ...]) -> sympy.Expr | None:
+    """The potential of a force with stops; None where their order is not known, or no rule integrates."""
+    if not all(place.is_number for place in stops):
+        return None
+    total = potential_of(on_stretch(restoring, sympy.S.Zero))
+    for place, inner, outer in _neighbours(stops):
+        side = 1 if outer > place else -1
+        change = on_stretch(restoring, outer) - on_stretch(restoring, inner)
+        gained = potential_of(side * sympy.expand(_one_sided(change, side)).subs(U, side * U))
+        if total is None or gained is None:
+            return None
+        beyond = (1 + side * sympy.sign(U - place)) / 2
+        total += beyond * (gained.subs(U, side * U) - gained.subs(U, side * place))
+    return total
+
+
+def _neighbours(stops: tuple[sympy.Expr, ...]) -> list[tuple[sympy.Expr, sympy.Expr, sympy.Expr]]:
+    """Each stop with a place between it and the next kink towards rest, and one beyond it."""
+    found = []
+    for side in (1, -1):
+        distances = [sympy.S.Zero, *sorted(side * place for place in stops if side * place > 0)]
+        ends = [*distances[1:], 2 * distances[-1] + 1]
+        middles = [(low + high) / 2 for low, high in zip(distances, ends, strict=True)]
+        found += [(side * d, side * a, side * b) for d, a, b in zip(distances[1:], middles, middles[1:], strict=False)]
+    return found
+
+
+def _one_sided(law: sympy.Expr, side: int) -> sympy.Expr:
+    """A law on one side of rest, without the kink at rest."""
+    return law.xreplace({sympy.Abs(U): side * U, sympy.sign(U): sympy.Integer(side)})
 
 
 def force_potential(force: sympy.Expr, given: str | None, unknown: str) -> tuple[sympy.Expr | None, str]:
@@ -74,7 +110,8 @@ def force_potential(force: sympy.Expr, given: str | None, unknown: str) -> tuple
     if checked is not None:
         return checked, ""
     potential = potential_of(restoring)
-    return potential, "" if potential is not None else f"no rule integrates {brief(restoring)}"
+    known = potential is not None or stops_of(restoring)  # the order of stops is known once they are numbers
+    return potential, "" if known else f"no rule integrates {brief(restoring)}"
 
 
 def checked_potential(potential: sympy.Expr, restoring: sympy.Expr) -> sympy.Expr:

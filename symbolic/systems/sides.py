@@ -1,4 +1,4 @@
-"""A force that is analytic on each side of 0: what it is on a side, and whether it has a kink there."""
+"""A force that is analytic on each side of 0: what it is on a side, and whether it has a kink there or beyond."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.number_ring import FUNCTIONS, NumberRing, plain_dot
 from ridgeback.symbolic.arithmetic.expression_series import Program
 from ridgeback.symbolic.grammar.at_origin import brief, sign_at_origin
-from ridgeback.symbolic.grammar.kinks import KINKS, U, V
+from ridgeback.symbolic.grammar.kinks import KINKS, U, V, is_kink, is_straight
 from ridgeback.symbolic.systems.structure import without_sizes
 
 MOST_ORDERS: Final = 16
@@ -22,6 +22,10 @@ MOST_ORDERS: Final = 16
 
 class NoLinearForceError(InputError):
     """There is no natural frequency: the frequency vanishes, or grows without bound, with the amplitude."""
+
+
+class NoSeriesError(InputError):
+    """There is no series about rest that holds for the motions that are asked about: the force has stops."""
 
 
 def no_linear_force(name: str) -> NoLinearForceError:
@@ -34,7 +38,7 @@ def no_linear_force(name: str) -> NoLinearForceError:
 
 
 def is_kinked(force: sympy.Expr, *unknowns: sympy.Symbol) -> bool:
-    """Whether abs, sign or a broken power of u or u' stands in a force.
+    """Whether abs, sign or a broken power of u or u' stands in a force, with its kink at rest or away from it.
 
     Parameters
     ----------
@@ -50,11 +54,104 @@ def is_kinked(force: sympy.Expr, *unknowns: sympy.Symbol) -> bool:
 
     Examples
     --------
-    >>> is_kinked(U * abs(U)), is_kinked(U * abs(U), V), is_kinked(U**3)
-    (True, False, False)
+    >>> is_kinked(U * abs(U)), is_kinked(U * abs(U), V), is_kinked(U**3), is_kinked(abs(U - 1))
+    (True, False, False, True)
     """
     wanted = unknowns or (U, V)
-    return bool(force.has(*(kink for kink in KINKS if kink.args[0] in wanted)))
+    return any(kink.args[0].has(*wanted) for kink in kinks_of(force))
+
+
+def kinks_of(force: sympy.Expr) -> tuple[sympy.Expr, ...]:
+    """Every abs and sign of u, u' and a*u + b in a force."""
+    return tuple(e for e in force.atoms(sympy.Abs, sympy.sign) if is_kink(e))
+
+
+def kinked_at_rest(force: sympy.Expr) -> bool:
+    """Whether a force has a kink at u = 0.
+
+    >>> kinked_at_rest(abs(U)), kinked_at_rest(abs(U - 1))
+    (True, False)
+    """
+    return bool(force.has(*(kink for kink in KINKS if kink.args[0] == U)))
+
+
+def stops_of(force: sympy.Expr) -> tuple[sympy.Expr, ...]:
+    """Where a force has kinks away from rest, rising where these are numbers.
+
+    >>> stops_of(U + abs(2 * U - 1) - abs(U + 3))
+    (-3, 1/2)
+    """
+    places = {place_of(kink.args[0]) for kink in kinks_of(force) if is_straight(kink.args[0])} - {sympy.S.Zero}
+    return tuple(sorted(places, key=lambda place: (float(place) if place.is_number else math.inf, str(place))))
+
+
+def place_of(argument: sympy.Expr) -> sympy.Expr:
+    """The u at which a*u + b vanishes."""
+    return sympy.expand(-argument.subs(U, 0) / argument.diff(U))
+
+
+def on_stretch(force: sympy.Expr, point: sympy.Expr) -> sympy.Expr:
+    """The law that holds at a place between kinks in u, without them; parameters left symbolic count as positive.
+
+    Parameters
+    ----------
+    force : sympy.Expr
+        In ``U``, ``V`` and parameters.
+    point : sympy.Expr
+        The place; 0 for the law about rest, where kinks at u = 0 stay.
+
+    Returns
+    -------
+    sympy.Expr
+        The force, abs and sign replaced by what they are there.
+
+    Raises
+    ------
+    InputError
+        Where a symbolic parameter hides on which side of a kink the place is.
+
+    Examples
+    --------
+    >>> on_stretch(U + abs(U - 1), sympy.S.Zero), on_stretch(U + abs(U - 1), sympy.Integer(2))
+    (1, 2*u - 1)
+    """
+    beyond = [kink for kink in kinks_of(force) if kink.args[0].has(U) and kink.args[0].subs(U, point) != 0]
+    if not beyond:
+        return force
+    values = {kink: _on_side(kink, point) for kink in beyond}
+    return sympy.expand(force.xreplace(values))
+
+
+def _on_side(kink: sympy.Expr, point: sympy.Expr) -> sympy.Expr:
+    (argument,) = kink.args
+    there = argument.subs(U, point)
+    bold = there.subs({s: sympy.Symbol(s.name, positive=True) for s in there.free_symbols})
+    if not (bold.is_positive or bold.is_negative):
+        raise InputError(
+            f"on which side of rest {brief(kink)} has its kink depends on parameters; give them numbers, e.g. "
+            f"{min(s.name for s in there.free_symbols)}=1"
+        )
+    side = 1 if bold.is_positive else -1
+    return side * argument if isinstance(kink, sympy.Abs) else sympy.Integer(side)
+
+
+def require_one_law(name: str, force: sympy.Expr) -> None:
+    """Raise NoSeriesError for a force with a kink away from rest, which no series about rest holds beyond.
+
+    >>> require_one_law("mine", U + abs(U - 1) - 1)
+    Traceback (most recent call last):
+        ...
+    ridgeback.symbolic.systems.sides.NoSeriesError: mine: the force has a kink at u = 1, away from rest, beyond ...
+    """
+    stops = stops_of(force)
+    if not stops:
+        return
+    places = f"{'a kink' if len(stops) == 1 else 'kinks'} at u = {', '.join(brief(place) for place in stops)}"
+    raise NoSeriesError(
+        f"{name}: the force has {places}, away from rest, beyond which no series about rest holds; up to there "
+        f"it is f = {brief(on_stretch(force, sympy.S.Zero))}, which derive takes as an equation of its own; simulate, "
+        "estimate, benchmark, report and study integrate this one from kink to kink"
+    )
 
 
 def half(force: sympy.Expr, side: int) -> sympy.Expr:
@@ -77,7 +174,8 @@ def half(force: sympy.Expr, side: int) -> sympy.Expr:
     >>> half(U * abs(U) + U**2, 1), half(U * abs(U) + U**2, -1)
     (2*u**2, 0)
     """
-    seen = force.xreplace({sympy.Abs(U): U, sympy.sign(U): sympy.Integer(side), U: side * U})
+    near = on_stretch(force, sympy.S.Zero)
+    seen = near.xreplace({sympy.Abs(U): U, sympy.sign(U): sympy.Integer(side), U: side * U})
     return sympy.expand(side * parameters_positive(seen))
 
 
@@ -105,7 +203,7 @@ def without_velocity(force: sympy.Expr) -> sympy.Expr:
 
 
 def kink_advice(force: sympy.Expr, *, conservative: bool) -> str:
-    """What to do with a force that has a kink, where an expansion about rest is asked for."""
+    """What to do with a force that has a kink at rest, where an expansion about rest is asked for."""
     if not conservative:
         return (
             f"the losses in {brief(force)} are not analytic at rest, so no power series in u' holds them; derive "

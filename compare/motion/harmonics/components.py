@@ -16,6 +16,7 @@ from typing import ClassVar
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.numbers import relative
 from ridgeback.common.show.displayed import Displayed
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.motion.harmonics.order_analysis import POINTS_PER_CYCLE, phase_clock
@@ -97,7 +98,7 @@ class Components(Displayed):
         strong = sorted(np.argsort(-np.abs(self.amplitude).max(axis=1))[:3])
         parts = [f"a_{m + 1} from {self.amplitude[m, 0]:.4g} to {self.amplitude[m, -1]:.4g}" for m in strong]
         off = self.model_error
-        model = "" if off is None else f"; the undamped orbit has them within {off:.2g} of their size"
+        model = "" if off is None else f"; the undamped orbit has them within {relative(off)} of their size"
         return f"{self.name}, components of (7): {', '.join(parts)}{model}"
 
     def picture(self) -> Picture:

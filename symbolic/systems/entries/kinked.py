@@ -20,6 +20,19 @@ KINKED: Final = (
         description="Another stiffness on each side: half a cycle takes pi/k1 and half pi/k2, whatever the amplitude.",
     ),
     Entry(
+        name="bilinear-stops",
+        title="Bilinear oscillator between two stops",
+        equation="u'' + 2*mu*u' + k1**2*u + (k2**2 - k1**2)*(max(u - s, 0) + min(u + s, 0)) "
+        "+ p*(sign(u - s) + sign(u + s))/2 = 0",
+        values={"k1": "1", "k2": "2", "s": "1", "p": "1/8", "mu": "1/160"},
+        kind="damped",
+        initial=(3.0, 0.0),
+        reference="S. W. Shaw and P. J. Holmes, Journal of Sound and Vibration 90, 129-155, 1983",
+        description="Linear between two springs at u = s and -s, stretched beforehand with the force p: omega0(t) of a "
+        "decay has a kink where the amplitude falls below s, and is k1 from there on.",
+        aliases=("stops",),
+    ),
+    Entry(
         name="kinked-spring",
         title="Linear spring with an odd quadratic part",
         equation="u'' + k**2*u + eps*u*abs(u) = 0",

@@ -106,6 +106,18 @@ def test_an_undamped_motion_has_no_crossing_in_amplitude_and_its_integration_is_
     assert "expansion, order 2; 1 up to order 4 alike" in text
 
 
+def test_beyond_stops_there_is_no_series_and_the_wigner_peak_parts_from_the_smoothed_one_at_the_kink() -> None:
+    found = benchmark(setting(find("bilinear-stops"), duration=250.0, rate=4.0))
+    why = {row.refused for row in found.contenders if row.kind in ("expansion", "slow-flow")}
+    assert all(reason is not None and "no series about rest holds" in reason for reason in why)
+    wigner, smooth = (found.row(name).relative_rms_error for name in ("wigner", "smoothed-pseudo-wigner"))
+    exact = found.row("averaged-action").relative_rms_error
+    assert exact < smooth < 0.1 * wigner
+    assert found.verdict.rival_way is None
+    assert found.verdict.rival is not None
+    assert found.verdict.rival.kind == "averaged"
+
+
 def test_a_correction_is_by_the_methods_own_track_and_makes_it_better(pendulum: Benchmark) -> None:
     for name in ("pseudo-wigner", "spectrogram"):
         better = pendulum.row(f"{name}-corrected")
