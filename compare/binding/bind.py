@@ -18,7 +18,8 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR
 from ridgeback.compare.binding.taylor_jet import force_jet
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.motion.dynamics import Dynamics, Switches, duffing_frequency, pendulum_frequency
+from ridgeback.numeric.motion.dynamics import Dynamics, duffing_frequency, pendulum_frequency
+from ridgeback.numeric.motion.events import Switches
 from ridgeback.symbolic.arithmetic.closures import evaluator
 from ridgeback.symbolic.enclosure.enclosure import enclose
 from ridgeback.symbolic.enclosure.separatrix import ends_of

@@ -20,8 +20,8 @@ from scipy.optimize import brentq
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.arrays import Array, frozen, frozen_mask
-from ridgeback.numeric.motion.dynamics import Dynamics, Switches, well
-from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
+from ridgeback.numeric.motion.dynamics import Dynamics, well
+from ridgeback.numeric.motion.events import CrossingEvents, Switches, TurningEvents
 from ridgeback.numeric.motion.request import MAX_EVALUATIONS, check_inside
 from ridgeback.numeric.motion.roots import bracketed_newton
 

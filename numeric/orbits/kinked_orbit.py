@@ -20,7 +20,8 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from ridgeback.numeric.arrays import Array, frozen
-from ridgeback.numeric.motion.dynamics import Dynamics, Switches
+from ridgeback.numeric.motion.dynamics import Dynamics
+from ridgeback.numeric.motion.events import Switches
 from ridgeback.numeric.orbits.potential import Restoring, gauss, mean_restoring, restoring_of
 
 FEWEST, MOST = 16, 256
@@ -68,7 +69,7 @@ class _Stretch:
 def half_orbit(dynamics: Dynamics, low: Array, high: Array, nodes: int) -> HalfOrbit:
     """The orbits between turning points low < 0 < high, of a force with kinks in u.
 
-    >>> from ridgeback.numeric.motion.dynamics import Switches
+    >>> from ridgeback.numeric.motion.events import Switches
     >>> place = Switches((0.5,), False, lambda stretch, side: lambda u, v: u)
     >>> stop = Dynamics("stop", lambda u, v: u, 1.0, restoring=np.asarray, switches=place)
     >>> half_orbit(stop, np.array([-1.0]), np.array([1.0]), 16).duration.round(12).tolist()  # a kink that is none

@@ -240,10 +240,7 @@ class Oscillator:
 
     @cached_property
     def substituted_potential(self) -> sympy.Expr | None:
-        """The potential with every parameter that has a value inserted; integrated where these leave no u' at all.
-
-        Of a force with stops it is integrated anew, since the order of the stops depends on the values.
-        """
+        """The potential, values inserted; integrated where these leave no u' at all, or tell the order of stops."""
         if self.stops and not self.potential_note:
             return potential_of(sides.without_velocity(self.substituted_force))
         if self.potential is None:
@@ -301,7 +298,7 @@ class Oscillator:
 
     @cached_property
     def stops(self) -> tuple[sympy.Expr, ...]:
-        """Where the force has kinks away from rest, such as that of abs(u - 1); rising where these are numbers."""
+        """Where the force has kinks away from rest, such as abs(u - 1); rising where these are numbers."""
         return sides.stops_of(self.substituted_force)
 
     @cached_property
@@ -336,9 +333,7 @@ class Oscillator:
             raise sides.no_linear_force(self.name)
         if not self.is_kinked:
             return positive_root(self.stiffness)
-        one, other = (positive_root(side.coefficient) for side in self.halves)
-        mean = one if one == other else 2 * one * other / (one + other)
-        return sympy.radsimp(mean) if mean.is_number else mean
+        return sides.harmonic_mean(*(positive_root(side.coefficient) for side in self.halves))
 
     @cached_property
     def linear_damping(self) -> sympy.Expr:
@@ -354,17 +349,11 @@ class Oscillator:
     def check_at_origin(self) -> None:
         """Raise InputError unless u = 0 is an equilibrium with a restoring force, f analytic on each side of it."""
         value_at_origin(self.force, self.parameters)
-        rest = sympy.expand(self._inserted(self._near_rest).subs({U: 0, V: 0}))
-        if rest != 0:
-            raise InputError(
-                f"{self.name}: u = 0 is not at rest, since f(0, 0) = {brief(rest)} and not 0; "
-                "measure the unknown from the equilibrium"
-            )
+        sides.require_rest(self.name, sympy.expand(self._inserted(self._near_rest).subs({U: 0, V: 0})))
         if self.by_sides:
             _ = self.halves
             return
-        slope = self._near_rest.diff(U)
-        sign = sign_at_origin(slope, self.parameters)
+        sign = sign_at_origin(self._near_rest.diff(U), self.parameters)
         if sign == -1 or self.stiffness.is_nonpositive:
             raise InputError(
                 f"{self.name}: the origin is a saddle, since the linear restoring coefficient "
@@ -379,11 +368,7 @@ class Oscillator:
         >>> own.normalised.force, own.normalised.damping
         (2*mu*u' + sin(u), 1/400)
         """
-        sides.require_one_law(self.name, self.substituted_force)
-        if sides.is_kinked(self.substituted_force):
-            raise InputError(
-                f"{self.name}: {sides.kink_advice(self.substituted_force, conservative=self.is_conservative)}"
-            )
+        sides.require_no_kinks(self.name, self.substituted_force, conservative=self.is_conservative)
         k, kept = self.natural_frequency, [name for name in (self.damping, self.small) if name]
         symbols = {name: symbol_of(name) for name in kept}
         force = self._inserted(self.force, keep=kept).subs({V: k * V, **{s: k * s for s in symbols.values()}})

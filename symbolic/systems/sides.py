@@ -217,6 +217,32 @@ def kink_advice(force: sympy.Expr, *, conservative: bool) -> str:
     )
 
 
+def require_no_kinks(name: str, force: sympy.Expr, *, conservative: bool) -> None:
+    """Raise InputError for a force with kinks, at rest or away from it."""
+    require_one_law(name, force)
+    if is_kinked(force):
+        raise InputError(f"{name}: {kink_advice(force, conservative=conservative)}")
+
+
+def require_rest(name: str, force: sympy.Expr) -> None:
+    """Raise InputError unless the force at u = u' = 0 is 0."""
+    if force != 0:
+        raise InputError(
+            f"{name}: u = 0 is not at rest, since f(0, 0) = {brief(force)} and not 0; measure the unknown from the "
+            "equilibrium"
+        )
+
+
+def harmonic_mean(one: sympy.Expr, other: sympy.Expr) -> sympy.Expr:
+    """2 a b / (a + b), the frequency of half a cycle at a and half at b.
+
+    >>> harmonic_mean(sympy.Integer(2), sympy.Integer(1))
+    4/3
+    """
+    mean = one if one == other else 2 * one * other / (one + other)
+    return sympy.radsimp(mean) if mean.is_number else mean
+
+
 def root_of_u(*forces: sympy.Expr) -> int:
     """The d for which forces of u > 0 are analytic in w = u^(1/d): the common denominator of the powers of u.
 
