@@ -170,10 +170,11 @@ def sentences(found: DriftComparison) -> tuple[str, ...]:
             f"omega0 by the action errs by {found.rms_error:.2g} rms and {found.max_error:.2g} at most, against the "
             "cycle frequency of the integrated motion."
         )
-    told.append(
-        f"Expected is {found.expected_error or 0.0:.2g}: of second order in the rates of drift and damping, exact to "
-        "leading order for a linear oscillator."
-    )
+    if found.expected_error is not None:
+        told.append(
+            f"Expected is {found.expected_error:.2g}: of second order in the rates of drift and damping, exact to "
+            "leading order for a linear oscillator."
+        )
     if found.frozen_error is not None:
         told.append(f"The parameters of t = 0 throughout would err by {found.frozen_error:.2g}.")
     return tuple(told)

@@ -109,7 +109,8 @@ class DriftComparison(Displayed):
     def headline(self) -> str:
         """What drifts, and how far omega0 by the action is from the cycle frequency."""
         error = "" if self.max_error is None else f", omega0 by the action within {self.max_error:.2g}"
-        return f"{self.case.system} with {self.laws}{error}, expected {self.expected_error or 0.0:.2g}"
+        expected = "" if self.expected_error is None else f", expected {self.expected_error:.2g}"
+        return f"{self.case.system} with {self.laws}{error}{expected}"
 
     def picture(self) -> Picture:
         """omega0 over the time, by the action and by cycles."""

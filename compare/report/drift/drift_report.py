@@ -96,6 +96,8 @@ def drift_title(found: DriftComparison) -> str:
     """The finding in one sentence."""
     if not found.adiabatic.is_slow:
         return "This drift is not slow: the action is not conserved well enough to be relied on"
+    if found.max_error is None:
+        return "The motion holds too few cycles to hold the conserved action against"
     ratio = _ratio(found)
     closer = f", {two_digits(ratio)} times closer than the parameters of t = 0" if ratio else ""
     return f"The conserved action follows ω₀(t) within {per_cent(found.max_error)}{closer}"

@@ -83,20 +83,12 @@ def pooled(blocks: Iterable[Finished]) -> Iterator[Pooled]:
     """Rows in the order of the plan."""
     for _, group in groupby(blocks, key=case_of):
         found: dict[tuple[Any, ...], list[Any]] = {}
-        first = None
-        for block in group:
-            first = task_of(block) if first is None else first
+        alike = list(group)
+        for block in alike:
             for (method, _, _, snr, order, _), outcome in block.rows():
                 found.setdefault((method, snr, order), []).append(outcome)
-        if first is not None:
-            for (method, snr, order), outcomes in found.items():
-                yield _pooled(first, str(method), float(snr), order, outcomes)
-
-
-def cases(blocks: Iterable[Finished]) -> Iterator[list[Pooled]]:
-    """The rows of each case together."""
-    for _, group in groupby(pooled(blocks), key=lambda row: (row.system, row.amplitude, row.duration)):
-        yield list(group)
+        for (method, snr, order), outcomes in found.items():
+            yield _pooled(task_of(alike[0]), str(method), float(snr), order, outcomes)
 
 
 def task_of(block: Finished) -> DecayTask:

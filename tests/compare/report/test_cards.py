@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from ridgeback.compare.benchmark.contenders import EqualCoefficients, Row
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.harmonics.folding import folding
 from ridgeback.compare.report.cards import Known, _needs, cards, in_noise, within
-from ridgeback.compare.report.findings import findings, lead_of
+from ridgeback.compare.report.findings import _cured, findings, lead_of
 from ridgeback.numeric.orbits.paper_model import series_frequency
 from tests.reports import synthetic
 
@@ -80,3 +81,20 @@ def test_costs_are_said_where_both_ways_are_timed() -> None:
     assert "times less than one of" in lead_of(BENCHMARK, timed=True)
     rows = tuple(replace(row, time_ns_per_value=None) for row in BENCHMARK.contenders)
     assert "costs" not in lead_of(replace(BENCHMARK, contenders=rows), timed=True)
+
+
+def test_a_start_beyond_the_radius_is_said_first() -> None:
+    derived = SimpleNamespace(expansion=SimpleNamespace(variable="A"), limits=SimpleNamespace(radius=2.0))
+    said = [findings(BENCHMARK, DECAY, derived, start)[0] for start in (3.0, 1.0)]  # type: ignore[arg-type]
+    assert "outside the radius of convergence 2 of the series in A" in said[0]
+    assert "radius" not in said[1]
+
+
+def test_a_corrected_estimate_is_told_only_where_it_is_closer() -> None:
+    def with_error(size: float) -> Benchmark:
+        rows = (replace(r, relative_rms_error=size) if r.corrected_by else r for r in BENCHMARK.contenders)
+        return replace(BENCHMARK, contenders=tuple(rows))
+
+    assert _cured(with_error(1e-3)).startswith(" Wigner peak errs 0.94 %, and 0.10 %")
+    assert _cured(with_error(0.5)) == ""
+    assert _cured(without("estimate")) == ""
