@@ -9,6 +9,7 @@ Differential Equations with Discontinuous Righthand Sides, 1988, section 4).
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, cast
@@ -81,6 +82,17 @@ class TooManyStepsError(InputError):
     """The first steps show that the others would be too many."""
 
 
+def stepped(solver: Any) -> str | None:
+    """One step: SciPy's message when it fails, which an implicit solver does not give where its Jacobian overflows."""
+    try:
+        return str(message) if (message := solver.step()) else None
+    except InputError:
+        raise
+    except (ValueError, ArithmeticError, np.linalg.LinAlgError):
+        solver.status = "failed"
+        return "the derivatives of the force are no finite numbers"
+
+
 class Integration:
     """One integration under way: counts evaluations and guards against escape."""
 
@@ -126,7 +138,8 @@ class Integration:
 
     def run(self, state: tuple[float, float], duration: float) -> Solution:
         """The whole motion and its events."""
-        with np.errstate(all="ignore"):
+        with np.errstate(all="ignore"), warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "lsoda:", UserWarning)  # a failed step is said in our words
             steps, states, dense, rest = self.solve(np.array(state), duration)
             moving = steps.size if rest is None else int(np.searchsorted(steps, rest, side="right"))
             crossings, turnings = self.events(steps[:moving], states[:moving], dense)
@@ -140,7 +153,7 @@ class Integration:
         rest: float | None = None
         bound = 1e6 * max(1.0, float(np.abs(state).max()))
         while solver.status == "running":
-            message = solver.step()
+            message = stepped(solver)
             self.guard(solver, message, bound)
             if len(times) % TOLD == 0:
                 self.progress(float(solver.t) / duration, f"integrating by {self.method}")
@@ -262,6 +275,8 @@ class Integration:
                 f"{name}: {self.method} stops at t = {t:.6g}, u = {u:.6g} ({message}): the solution probably "
                 "grows without bound; start with less energy, or use method Radau if the equation is stiff"
             )
+        if not math.isfinite(u):
+            raise InputError(f"{name}: {self.method} leaves the doubles before t = {t:.6g}; start with less energy")
         check_inside(self.dynamics, u, t, self.limits)
         if not abs(u) < bound:
             raise InputError(f"{name}: u = {u:.3g} at t = {t:.6g} grows beyond {bound:.3g}; start with less energy")

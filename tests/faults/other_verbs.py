@@ -21,6 +21,7 @@ CASES: tuple[Case, ...] = (
     refused("generate pendulum --order -1", "'-1'", "give an integer"),
     unusable("generate pendulum -o .", "'.'", "check the path"),
     unusable("generate pendulum -o missing/p.c", "'missing'", "check the path"),
+    refused("simulate van-der-pol --initial 1e154,0", "derivatives of the force are no finite numbers"),
     refused("simulate zzz", "'zzz'", "for instance pendulum"),
     refused("simulate pendulum --initial 1", "'1'", "write for example"),
     refused("simulate pendulum --initial 1,2,3", "'1,2,3'", "write for example"),

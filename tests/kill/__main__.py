@@ -162,12 +162,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if (trial.folder / "output").read_bytes() != reference:
                 trial.faults.append("the end differs")
             totals[name] += trial.counts + Counter({"chains": 1, "equal at the end": not trial.faults})
-            faults += [f"{name}, {', '.join(s.name for s, _ in stops)}: {fault}" for fault in trial.faults]
+            found = [f"{name}, {', '.join(s.name for s, _ in stops)}: {fault}" for fault in trial.faults]
+            print(*found, sep="\n", end="\n" if found else "", file=sys.stderr, flush=True)
+            faults += found
     columns = ("stopped", "finished first", "chains", "equal at the end")
     print(f"| job | {' | '.join(columns)} |\n|---|{'---|' * len(columns)}")
     for name, counts in totals.items():
         print(f"| {name} | {' | '.join(str(counts[column]) for column in columns)} |")
-    print(*faults, sep="\n", file=sys.stderr)
+    whole = sum(totals.values(), Counter[str]())
+    print(f"| in all | {' | '.join(str(whole[column]) for column in columns)} |")
     return 1 if faults else 0
 
 

@@ -1,10 +1,12 @@
 """Change the code in one place and see whether its tests notice: ``python -m tests.mutants --count 200 --seed 1``.
 
 A mutant is one changed operator, comparison, constant or condition in the cores of ``symbolic`` and ``numeric``.  It
-is killed when a test fails that passes on the unchanged code, or hangs: first the examples of its file and the tests of
-its folder, then further tests that reach it by imports, the nearest first, as long as FAR seconds of processor time
-last.  Prints every mutant with the test that killed it, the survivors to be looked at, and the share killed; works on
-a copy of the tree and takes a while on each mutant.
+is killed when a test fails, or does not end, that passes on the unchanged code: first the examples of its file and the
+tests that bear its name, then those that import it, then those that reach it through other files, for so many seconds
+of processor time as ``--seconds`` says.  The tests are collected once; every mutant lives in a copy of that process.
+Prints every mutant with the test that killed it, the survivors to be looked at, and the share killed.  With ``--log``
+it takes up where it stopped, and tries again those whose file has changed and, with ``--survivors``, those that
+survived.
 """
 
 from __future__ import annotations
@@ -12,18 +14,17 @@ from __future__ import annotations
 import argparse
 import os
 import random
-import shutil
 import sys
-import tempfile
+import time
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
-from functools import cache
 from pathlib import Path
-from queue import SimpleQueue
 
-from tests.mutants.changes import Mutant, changed, places
+import pytest
+
+from tests.mutants.changes import Mutant, places
 from tests.mutants.choice import Choice, choice_in
-from tests.mutants.processes import tried
+from tests.mutants.log import Log
+from tests.mutants.processes import Tests
 
 ROOT = Path(__file__).resolve().parents[2]
 CORES = (
@@ -35,29 +36,35 @@ CORES = (
     *(f"numeric/{name}" for name in ("signal", "harmonics", "tracking", "motion", "model_fit", "distributions")),
     *("numeric/estimators", "numeric/orbits", "numeric/recording", "numeric/backbone"),
 )
-NEAR, FAR = 300, 20
-"""Processor seconds that the two rounds of tests may take: in the first more is a hang, in the second it is enough."""
 
 
-def killer(tree: Path, mutant: Mutant, choice: Choice) -> str:
-    """The test that notices a mutant; empty for a survivor."""
-    file = tree / mutant.path
-    whole = file.read_text(encoding="utf-8")
-    try:
-        file.write_text(changed(whole, mutant.place), encoding="utf-8")
-        near = tried(tree, choice.near(mutant.path), NEAR)
-        if not near.passed:
-            return near.failed or "a hang"
-        far = choice.far(mutant.path)
-        return tried(tree, far, FAR).failed if far else ""
-    finally:
-        file.write_text(whole, encoding="utf-8")
+class Trial:
+    """Tries mutants in the place of pytest's loop over the tests."""
 
+    def __init__(self, given: argparse.Namespace, chosen: Sequence[Mutant], choice: Choice) -> None:
+        self.given, self.chosen, self.choice = given, chosen, choice
+        self.log, self.found = Log(ROOT, given.log), list[tuple[Mutant, str | None]]()
 
-@cache
-def sound(tree: Path, test: str) -> bool:
-    """Whether a test passes on the unchanged code, so that its failure means something."""
-    return tried(tree, [test], NEAR).passed
+    def open(self) -> list[Mutant]:
+        """Those that no log knows."""
+        known = [(mutant, self.log.killer(mutant)) for mutant in self.chosen]
+        return [mutant for mutant, test in known if test is None or (not test and self.given.survivors)]
+
+    def pytest_runtestloop(self, session: pytest.Session) -> bool:
+        tests, last = Tests(session.items, ROOT), time.monotonic() + 60.0 * self.given.minutes
+        for mutant in self.open():
+            if time.monotonic() > last:
+                break
+            test = tests.killer(mutant, self.choice.files(mutant.path), self.given.seconds)
+            self.say(mutant, test)
+            if test is not None:
+                self.log.note(mutant, test)
+        return True
+
+    @staticmethod
+    def say(mutant: Mutant, test: str | None) -> None:
+        came = f"killed by {test}" if test else "SURVIVED" if test == "" else "shows in no copy of a process"
+        print(f"{mutant.path}:{mutant.line} {mutant.what}: {came}", flush=True)
 
 
 def drawn(count: int, seed: int, within: str) -> tuple[list[Mutant], int]:
@@ -67,45 +74,37 @@ def drawn(count: int, seed: int, within: str) -> tuple[list[Mutant], int]:
     return random.Random(seed).sample(every, min(count, len(every))), len(every)  # noqa: S311 - a draw, no secret
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
-    """Draw mutants, try them, print what came of each."""
+def arguments_read(arguments: Sequence[str] | None) -> argparse.Namespace:
+    """What is asked on the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--skip", type=int, default=0, help="leave out so many of those drawn, tried elsewhere")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--seconds", type=int, default=60, help="processor time that the tests of a mutant may take")
     parser.add_argument("--within", default="", help="only files whose path begins so, e.g. numeric/estimators")
-    given = parser.parse_args(arguments)
+    parser.add_argument("--log", type=Path, help="a file that keeps what came of each mutant, to take it up again")
+    parser.add_argument("--survivors", action="store_true", help="try those again that the log calls survivors")
+    parser.add_argument("--minutes", type=float, default=float("inf"), help="begin no mutant after so long")
+    return parser.parse_args(arguments)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Draw mutants, try them, print what came of each and of those of the log."""
+    given = arguments_read(arguments)
     chosen, places_in_all = drawn(given.count, given.seed, given.within)
-    chosen = chosen[given.skip :]
-    choice = choice_in(ROOT)
-    with tempfile.TemporaryDirectory(prefix="ridgeback-mutants-") as name:
-        trees: SimpleQueue[Path] = SimpleQueue()
-        for i in range(given.jobs):
-            copy = Path(name) / str(i)
-            shutil.copytree(ROOT, copy, symlinks=True, ignore=shutil.ignore_patterns(".*", "__pycache__"))
-            trees.put(copy)
-
-        def attempt(mutant: Mutant) -> tuple[str, bool]:
-            tree = trees.get()
-            try:
-                test = killer(tree, mutant, choice)
-                if "::" in test and not sound(tree, test):
-                    print(f"{test} fails on the unchanged code", flush=True)
-                    test = ""
-            finally:
-                trees.put(tree)
-            came = f"killed by {test}" if test else "SURVIVED"
-            print(f"{mutant.path}:{mutant.line} {mutant.what}: {came}", flush=True)
-            return mutant.path.partition("/")[0], not test
-
-        with ThreadPoolExecutor(given.jobs) as pool:
-            found = list(pool.map(attempt, chosen))
-    for room in sorted({room for room, _ in found}):
-        here = [alive for of, alive in found if of == room]
-        print(f"{room}: {len(here) - sum(here)} of {len(here)} killed")
+    trial = Trial(given, chosen, choice_in(ROOT))
+    os.environ["CI"] = "1"
+    if needed := sorted({name for mutant in trial.open() for name in trial.choice.files(mutant.path)}):
+        os.chdir(ROOT)
+        pytest.main(["-q", "-s", "-p", "no:cacheprovider", *needed], plugins=[trial])
+    killers = [(mutant, trial.log.killer(mutant)) for mutant in chosen]
+    found = [(mutant, test) for mutant, test in killers if test is not None]
+    print(*(f"survivor: {m.path}:{m.line} {m.what}" for m, test in found if not test), sep="\n")
+    for room in sorted({mutant.path.partition("/")[0] for mutant, _ in found}):
+        here = [test for mutant, test in found if mutant.path.startswith(f"{room}/")]
+        print(f"{room}: {sum(map(bool, here))} of {len(here)} killed")
     print(
-        f"{sum(not a for _, a in found)} of {len(found)} mutants killed, of {places_in_all} places; seed {given.seed}"
+        f"{sum(bool(test) for _, test in found)} of {len(found)} mutants killed,"
+        f" of {len(chosen)} drawn from {places_in_all} places; seed {given.seed}"
     )
     return 0
 

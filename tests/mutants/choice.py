@@ -51,21 +51,19 @@ class Choice:
                     waiting.append(user)
         return {name: steps for name, steps in far.items() if name.startswith("tests/")}
 
-    def near(self, path: str) -> list[str]:
-        """The examples of a file and the tests of its folder."""
-        folder = self.root / "tests" / Path(path).parent
-        return [f"ridgeback/{path}", *(str(test.relative_to(self.root)) for test in sorted(folder.glob("test_*.py")))]
+    def files(self, path: str) -> list[str]:
+        """The tests of a file, the nearest first: its examples, the tests that bear its name, those that import it.
 
-    def others(self, path: str) -> dict[str, int]:
-        """Further tests of its room and of the one where rooms meet that reach a file, with their distances."""
-        rooms, near = (f"tests/{path.partition('/')[0]}/", "tests/compare/"), set(self.near(path))
-        reached = self.distances(path)
-        return {t: far for t, far in reached.items() if t not in near and far <= FARTHEST and t.startswith(rooms)}
+        Then those that reach it through other files, of its room or of the one where rooms meet.
+        """
+        rooms, reached = (f"tests/{path.partition('/')[0]}/", "tests/compare/"), self.distances(path)
+        tests = [name for name, far in reached.items() if far <= FARTHEST and name.startswith(rooms)]
 
-    def far(self, path: str) -> list[str]:
-        """The others, the nearest first."""
-        others = self.others(path)
-        return sorted(others, key=lambda test: (others[test], test))
+        def near(name: str) -> tuple[bool, int, bool, str]:
+            named = Path(name).stem.startswith(f"test_{Path(path).stem}")
+            return not named, reached[name], Path(name).parent != Path("tests", path).parent, name
+
+        return [f"ridgeback/{path}", *sorted(tests, key=near)]
 
 
 def choice_in(root: Path) -> Choice:

@@ -1,89 +1,155 @@
-"""Run pytest in a process that starts with the libraries imported, bounded in time and memory."""
+"""Collect the tests once, and try every mutant in a copy of the process, bounded in time and memory."""
 
 from __future__ import annotations
 
 import os
 import resource
 import signal
-import sys
 import tempfile
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
-from multiprocessing import get_context
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parents[2]
+import pytest
+
+from tests.mutants.changes import Mutant
+from tests.mutants.patching import patched
+
 MOST_MEMORY = 6_000_000_000
 HANG = 1800.0
 """Seconds on the clock after which a process that hardly computes is ended."""
-IMPORTED = (
-    "numpy scipy.integrate scipy.interpolate scipy.linalg scipy.ndimage scipy.optimize scipy.signal scipy.special"
-)
-IMPORTED_ONCE = (*IMPORTED.split(), "scipy.stats", "sympy", "mpmath", "flint", "click", "pytest")
-"""What every process of tests starts with, imported: none of it is ours."""
-WAYS = get_context("forkserver")
-WAYS.set_forkserver_preload(list(IMPORTED_ONCE))
-PASSED = (0, 5)
-"""Exit codes of pytest when no test failed, and when there was none."""
+ENDLESS, SHORT = 20, 5
+"""Processor seconds of a test that may be in an endless loop, and in which it ends on the unchanged code."""
+SOUND = 120
+"""Processor seconds in which a test that failed passes on the unchanged code."""
+RUNS, UNREAD, UNSEEN = "runs since ", "the module cannot be read", "nothing that is kept shows it"
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """Whether tests passed, the first that failed, and whether their processor time ran out."""
+    """The first test that failed, and the one at which the processor time ran out; neither where all passed."""
 
-    passed: bool
     failed: str = ""
-    exhausted: bool = False
+    endless: str = ""
 
 
 class Recorder:
-    """Writes down the first test, or file of tests, that fails."""
+    """Writes down the test that runs, while it runs, and the first one that fails; then ends the process."""
 
-    def __init__(self, place: str) -> None:
-        self.place = Path(place)
+    def __init__(self, place: Path) -> None:
+        self.place = place
+
+    def begin(self, test: str) -> None:
+        self.place.write_text(f"{RUNS}{time.process_time()} {test}", encoding="utf-8")
+
+    def end(self, said: str) -> None:
+        self.place.write_text(said, encoding="utf-8")
+        os._exit(0)
 
     def pytest_runtest_logreport(self, report: Any) -> None:
-        self.note(report)
-
-    def pytest_collectreport(self, report: Any) -> None:
-        self.note(report)
-
-    def note(self, report: Any) -> None:
-        if report.failed and not self.place.read_text():
-            self.place.write_text(report.nodeid)
+        if report.failed:
+            self.end(report.nodeid)
 
 
-def pytest_in(tree: Path, tests: Sequence[str], seconds: int, place: str) -> None:
-    """Run pytest in a copy of the tree, in a process of its own, and end with its exit code."""
-    os.setsid()
-    resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
-    silence = os.open(os.devnull, os.O_RDWR)
-    for stream in range(3):
-        os.dup2(silence, stream)
-    os.chdir(tree)
-    os.environ.update(PYTHONPATH=str(tree), PYTHONDONTWRITEBYTECODE="1", CI="1")
-    sys.dont_write_bytecode = True
-    for name in [name for name in sys.modules if name.partition(".")[0] in ("tests", "ridgeback")]:
-        del sys.modules[name]
-    sys.path[:] = [str(tree), *(place for place in sys.path if Path(place).resolve() != ROOT)]
-    import pytest
+@dataclass
+class Tests:
+    """The collected tests of a session, by file."""
 
-    os._exit(int(pytest.main(["-q", "-x", "-p", "no:cacheprovider", *tests], plugins=[Recorder(place)])))
+    items: Sequence[pytest.Item]
+    root: Path
+    unsound: set[str] = field(default_factory=set)
+    known: dict[tuple[str, int], bool] = field(default_factory=dict)
+
+    def of(self, files: Sequence[str]) -> list[pytest.Item]:
+        """The tests of these files, in their order, that are known to pass on the unchanged code."""
+        place = {name: at for at, name in enumerate(files)}
+        near = [(place.get(item.nodeid.partition("::")[0], -1), item) for item in self.items]
+        return [item for at, item in sorted(near, key=lambda x: x[0]) if at >= 0 and item.nodeid not in self.unsound]
+
+    def killer(self, mutant: Mutant, files: Sequence[str], seconds: int) -> str | None:
+        """The test that notices a mutant; empty for a survivor, None for one that does not show in a copy."""
+        while True:
+            came = copied(lambda: patch(self.root, mutant), self.of(files), seconds)
+            if came.failed == UNSEEN:
+                return None
+            if not came.failed and not (came.endless and self.sound(came.endless, SHORT)):
+                return ""
+            if came.endless:
+                return f"{came.endless}, which did not end"
+            if came.failed == UNREAD or self.sound(came.failed, SOUND):
+                return came.failed
+            self.unsound.add(came.failed)
+            print(f"{came.failed} fails on the unchanged code", flush=True)
+
+    def sound(self, test: str, seconds: int) -> bool:
+        """Whether a test passes on the unchanged code, so that its failure means something."""
+        if (test, seconds) not in self.known:
+            came = copied(lambda: None, [item for item in self.items if item.nodeid == test], seconds)
+            self.known[test, seconds] = came == Outcome()
+        return self.known[test, seconds]
 
 
-def tried(tree: Path, tests: Sequence[str], seconds: int) -> Outcome:
-    """Run tests in a copy of the tree until one fails, for so many seconds of processor time."""
-    with tempfile.NamedTemporaryFile() as place:
-        process = WAYS.Process(target=pytest_in, args=(tree, list(tests), seconds, place.name))
-        process.start()
-        process.join(HANG)
-        if process.exitcode is None and process.pid is not None:
+def patch(root: Path, mutant: Mutant) -> str | None:
+    """Carry a mutant out here; what to say instead of running tests."""
+    try:
+        return None if patched(root, mutant) else UNSEEN
+    except Exception:
+        return UNREAD
+
+
+def copied(prepare: Callable[[], str | None], items: Sequence[pytest.Item], seconds: int) -> Outcome:
+    """Run tests in a copy of this process until one fails, for so many seconds of processor time."""
+    with tempfile.TemporaryDirectory(prefix="ridgeback-mutant-") as folder:
+        place = Path(folder) / "said"
+        place.touch()
+        process = os.fork()
+        if not process:
+            run_here(prepare, items, seconds, place)
+        killed = ended(process)
+        said = place.read_text(encoding="utf-8")
+    if not said.startswith(RUNS):
+        return Outcome(failed=said)
+    begun, test = said.removeprefix(RUNS).split(" ", 1)
+    return Outcome(endless=test if killed and seconds - float(begun) >= ENDLESS else "")
+
+
+def run_here(prepare: Callable[[], str | None], items: Sequence[pytest.Item], seconds: int, place: Path) -> None:
+    """In the copy: run tests, and end."""
+    recorder = Recorder(place)
+    try:
+        os.setsid()
+        silence = os.open(os.devnull, os.O_RDWR)
+        for stream in range(3):
+            os.dup2(silence, stream)
+        resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, MOST_MEMORY))
+        resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
+        if said := prepare():
+            recorder.end(said)
+        if items:
+            items[0].config.pluginmanager.register(recorder)
+        for item, following in zip(items, [*items[1:], None], strict=True):
+            recorder.begin(item.nodeid)
+            item.config.hook.pytest_runtest_protocol(item=item, nextitem=following)
+        recorder.end("")
+    finally:
+        os._exit(1)
+
+
+def ended(process: int) -> bool:
+    """Wait for a copy; whether it was killed."""
+    last, pause = time.monotonic() + HANG, 0.005
+    while True:
+        found, status = os.waitpid(process, os.WNOHANG)
+        if found:
+            break
+        if time.monotonic() > last:
             with suppress(ProcessLookupError):
-                os.killpg(process.pid, signal.SIGKILL)
-            process.join()
-        failed = Path(place.name).read_text(encoding="utf-8")
-    code = process.exitcode
-    return Outcome(code in PASSED, failed, exhausted=not failed and (code is None or code < 0))
+                os.killpg(process, signal.SIGKILL)
+        time.sleep(pause)
+        pause = min(2 * pause, 0.2)
+    with suppress(ProcessLookupError):
+        os.killpg(process, signal.SIGKILL)  # what a test may have left running
+    return os.WIFSIGNALED(status)

@@ -12,7 +12,7 @@ from ridgeback.compare.binding.bind import bind
 from ridgeback.numeric.motion.dynamics import pendulum
 from ridgeback.numeric.motion.integration import TooManyStepsError
 from ridgeback.numeric.motion.taylor import integrate_taylor
-from ridgeback.numeric.motion.trajectory import integrate
+from ridgeback.numeric.motion.trajectory import AUTO, integrate
 from ridgeback.symbolic.systems.any_form import as_oscillator
 
 
@@ -48,3 +48,13 @@ def test_an_equation_that_is_not_stiff_is_left_to_dop853() -> None:
 def test_a_taylor_integration_that_takes_too_long_is_refused_early() -> None:
     with pytest.raises(InputError, match=r"would (take|keep) about"):
         integrate_taylor(bind("pendulum"), (1.0, 0.0), duration=1e5, rate=1.0)
+
+
+@pytest.mark.parametrize("method", [AUTO, "Radau", "BDF", "LSODA"])
+@pytest.mark.parametrize("start", [(1e154, 0.0), (0.0, 1e200)])
+def test_a_start_where_the_derivatives_of_the_force_overflow_is_refused(method: str, start: tuple[float, float]) -> None:
+    """u^2 u' is finite and the Jacobian of an implicit step is not; no solver's own error comes out, and no nan."""
+    dynamics = bind(as_oscillator("van-der-pol").with_parameters({"eps": 1}))
+    with pytest.raises(InputError, match=r"start (with less|nearer|elsewhere)") as refusal:
+        integrate(dynamics, start, duration=1.0, rate=8.0, method=method)
+    assert "nan" not in str(refusal.value)
