@@ -62,6 +62,8 @@ CASES = (
     Case("lindstedt", "pendulum", 100),
     Case("lindstedt", "pendulum", 240),
     Case("lindstedt", "helmholtz-duffing", 80),
+    Case("lindstedt", "u'' + u*exp(u) = 0", 100),
+    Case("lindstedt", "u'' + sin(u)*exp(u)/(1 + u**2) = 0", 160),
     Case("lindstedt", SYMBOLIC, 20, parameters=2),
     Case("limit-cycle", "van-der-pol", 48),
     Case("limit-cycle", "van-der-pol", 96),

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ridgeback.options.arguments import ORDER
-from ridgeback.options.budget import budget_option
+from ridgeback.options.budget import Watch, budget_option
 from ridgeback.options.shared import expansion_options
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def requesting(command: Command) -> Command:
 
 
 def derived(oscillator: Oscillator, request: Request) -> Expansion | PowerExpansion | LossFlow | SlowFlow:
-    """Derive what is asked for.
+    """Derive what is asked for, saying how far it is.
 
     >>> from ridgeback.symbolic.systems.catalogue import find
     >>> derived(find("pendulum"), Request(2)).method
@@ -62,12 +62,14 @@ def derived(oscillator: Oscillator, request: Request) -> Expansion | PowerExpans
     """
     from ridgeback.interface.derivation import derivation
 
-    return derivation(
-        oscillator,
-        request.order,
-        method=request.method,
-        amplitude=request.amplitude,
-        weight=request.weight,
-        weights=request.weights,
-        budget=request.budget,
-    )
+    with Watch(f"order {request.order}", None) as watch:
+        return derivation(
+            oscillator,
+            request.order,
+            method=request.method,
+            amplitude=request.amplitude,
+            weight=request.weight,
+            weights=request.weights,
+            budget=request.budget,
+            progress=watch,
+        )
