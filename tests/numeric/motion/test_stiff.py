@@ -52,7 +52,7 @@ def test_a_taylor_integration_that_takes_too_long_is_refused_early() -> None:
 
 @pytest.mark.parametrize("method", [AUTO, "Radau", "BDF", "LSODA"])
 @pytest.mark.parametrize("start", [(1e154, 0.0), (0.0, 1e200)])
-def test_a_start_where_the_derivatives_of_the_force_overflow_is_refused(method: str, start: tuple[float, float]) -> None:
+def test_a_start_where_derivatives_of_the_force_overflow_is_refused(method: str, start: tuple[float, float]) -> None:
     """u^2 u' is finite and the Jacobian of an implicit step is not; no solver's own error comes out, and no nan."""
     dynamics = bind(as_oscillator("van-der-pol").with_parameters({"eps": 1}))
     with pytest.raises(InputError, match=r"start (with less|nearer|elsewhere)") as refusal:
