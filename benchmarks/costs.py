@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from ridgeback.symbolic.expansion.cost import Budget, Cost, balls_of, effort_of, predict
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
-from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.expansion.lindstedt import in_closed_form, lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
 from ridgeback.symbolic.systems.catalogue import find
@@ -46,8 +46,10 @@ class Case:
 
     def predicted(self) -> Cost:
         """What is foretold."""
-        effort = effort_of(self.oscillator.normalised.bound, U) if self.method == "lindstedt" else 1.0
         law = balls_of(self.oscillator) if self.method == "balls" else self.method
+        if law == "lindstedt" and in_closed_form(self.oscillator, self.order, "peak"):
+            law = "theta series"
+        effort = effort_of(self.oscillator.normalised.bound, U) if law == "lindstedt" else 1.0
         return predict(law, self.order, parameters=self.parameters, weights=self.weights, effort=effort)
 
 
@@ -61,6 +63,9 @@ RUNS: dict[str, Callable[[Oscillator, int], object]] = {
 CASES = (
     Case("lindstedt", "pendulum", 100),
     Case("lindstedt", "pendulum", 240),
+    Case("lindstedt", "pendulum", 400),
+    Case("lindstedt", "duffing-hardening", 240),
+    Case("lindstedt", "u'' + tan(u) = 0", 120),
     Case("lindstedt", "helmholtz-duffing", 80),
     Case("lindstedt", "u'' + u*exp(u) = 0", 100),
     Case("lindstedt", "u'' + sin(u)*exp(u)/(1 + u**2) = 0", 160),

@@ -21,13 +21,15 @@ from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 # method: (seconds, its power of the order, bytes, its power), half-way (in the ratio) between the cheapest and the
 # dearest of: pendulum A^60 to A^320, Helmholtz-Duffing A^60 to A^160, hardening 160, u exp(u) 80, u/(1+u^2) 120; with
 # parameters u^2 and u^3 16 to 26, u^3 40, sin(u) and u^2 24; van der Pol eps^30 to eps^120, Rayleigh 96; multiple
-# scales at the damped pendulum 60, 90, two dampings 36, van der Pol 60; energy integral at pendulum A^400 to A^1600,
-# Helmholtz-Duffing A^400, A^800; balls at van der Pol 100, 200, 300, 859 (0.023, 0.13, 0.25, 3.6 GB),
+# scales at the damped pendulum 60, 90, two dampings 36, van der Pol 60; theta series at pendulum, hardening 100 to 400;
+# energy integral at pendulum A^400 to A^1600, Helmholtz-Duffing A^400, A^800; balls at van der Pol 100, 200, 300, 859
+# (0.023, 0.13, 0.25, 3.6 GB),
 # of odd forces at pendulum 120 to 360 (0.0022 to 0.016 GB), Duffing 60 to 240 (0.001 to 0.022), cubic-quintic 120
 # (0.006); of others at Helmholtz-Duffing 40, 80 (0.002, 0.0066), Toda 40, 80 (0.0009, 0.0032), Morse 50 (0.0023).
 _LAWS = {
     "lindstedt": (8e-8, 3.0, 3.0, 3.0),
     "lindstedt with parameters": (1.4e-7, 2.5, 0.8, 3.0),
+    "theta series": (2e-8, 3.0, 1.6, 3.0),
     "limit-cycle": (2e-8, 4.0, 80.0, 3.0),
     "multiple-scales": (1.5e-9, 4.0, 2.5, 3.0),
     "energy-integral": (5e-8, 2.63, 5.0, 2.4),
@@ -83,7 +85,8 @@ def predict(
     Parameters
     ----------
     method : str
-        ``lindstedt``, ``limit-cycle``, ``energy-integral``, ``multiple-scales``, or balls by ``balls_of``.
+        ``lindstedt``, ``theta series``, ``limit-cycle``, ``energy-integral``, ``multiple-scales``, or balls by
+        ``balls_of``.
     order : int
         Highest order.
     parameters : int, optional

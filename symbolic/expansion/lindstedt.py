@@ -13,10 +13,17 @@ cos tau or sin tau (solvability).
 
 The homogeneous part of u_n is fixed by the amplitude definition: ``peak`` (u'(0) = 0, and u(0) = A) or
 ``fundamental`` (first harmonic A cos tau).
+
+Long series of motions that Jacobi's theta functions give in closed form are read off those (``theta_motion``): the same
+coefficients, sooner.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Final
+
+import sympy
 from flint import fmpq
 
 from ridgeback.common.errors import InputError
@@ -26,8 +33,9 @@ from ridgeback.symbolic.expansion.cost import Budget, check, effort_of
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order
 from ridgeback.symbolic.expansion.limit_cycle import limit_cycle
 from ridgeback.symbolic.expansion.recursion import BetweenOrders, Recursion, compiled, no_watch, normalise, residual
-from ridgeback.symbolic.series.spaces import Space, is_zero, space_for
-from ridgeback.symbolic.series.trigonometric import constant, cosine, solve_oscillator
+from ridgeback.symbolic.expansion.theta_motion import is_theta_series, theta_motion, waveform
+from ridgeback.symbolic.series.spaces import Scalar, Space, is_zero, space_for
+from ridgeback.symbolic.series.trigonometric import Trig, constant, cosine, solve_oscillator
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 from ridgeback.symbolic.systems.structure import free_names
@@ -45,6 +53,8 @@ def lindstedt(
     progress: Wanted = None,
 ) -> Expansion:
     """Expand omega0 in the amplitude (conservative) or in eps (limit cycle) by Lindstedt's recursion.
+
+    From order 50 on, motions that are theta series, of c sin(b u) and a u + e u^3 with numbers, are taken from those.
 
     Parameters
     ----------
@@ -111,10 +121,17 @@ def watching(progress: Progress, order: int) -> BetweenOrders:
 def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Budget, progress: Progress) -> Expansion:
     natural = oscillator.normalised
     force, names = natural.rational, free_names(natural.rational)
-    check("lindstedt", order, budget, parameters=len(names), effort=effort_of(force, U))
-    recursion = conservative_recursion(
-        oscillator, order, amplitude, space_for(names, order + 1), watch=watching(progress, order)
-    )
+    omega: Sequence[Scalar]
+    waves: Sequence[Trig]
+    if in_closed_form(oscillator, order, amplitude):
+        check("theta series", order, budget)
+        omega, waves = _by_theta_series(force, order, progress)
+    else:
+        check("lindstedt", order, budget, parameters=len(names), effort=effort_of(force, U))
+        found = conservative_recursion(
+            oscillator, order, amplitude, space_for(names, order + 1), watch=watching(progress, order)
+        )
+        omega, waves = found.omega, found.u
     return Expansion(
         system=oscillator.name,
         method="lindstedt",
@@ -123,14 +140,38 @@ def _conservative(oscillator: Oscillator, order: int, amplitude: str, budget: Bu
         order=order,
         scale=natural.scale,
         scaled_variable=False,
-        coefficients=tuple(recursion.omega),
-        waveform=tuple(recursion.u),
+        coefficients=tuple(omega),
+        waveform=tuple(waves),
         amplitude_coefficients=None,
         residual_of=lambda e: residual(e, force, {}),
         names=names,
         constants=natural.constants,
         velocity=force.has(V),
     )
+
+
+FROM: Final = 50
+"""Order from which theta series are read off; the recursion is as quick below."""
+
+
+def in_closed_form(oscillator: Oscillator, order: int, amplitude: str) -> bool:
+    """Whether an expansion of a conservative oscillator is read off theta series.
+
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> in_closed_form(find("pendulum"), 200, "peak"), in_closed_form(find("helmholtz"), 200, "peak")
+    (True, False)
+    """
+    return order >= FROM and amplitude == "peak" and is_theta_series(oscillator.normalised.rational)
+
+
+def _by_theta_series(force: sympy.Expr, order: int, progress: Progress) -> tuple[list[Scalar], list[Trig]]:
+    """omega_0 ... omega_order and u_0 ... u_(order+1)."""
+    progress(0, "the nome in the amplitude")
+    motion = theta_motion(force, (order + 1) // 2 + 1)
+    progress(1 / 10, "theta series")
+    omega: list[Scalar] = [fmpq(0)] * (order + 1)
+    omega[::2] = motion.omega[: order // 2 + 1]
+    return omega, waveform(motion, space_for((), order + 1), order + 1)
 
 
 def conservative_recursion(
