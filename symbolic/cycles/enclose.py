@@ -31,6 +31,8 @@ FIRST_BITS: Final = 128
 FIRST_WIDTH: Final = 60
 """The first neighbourhood is 2**-60 of the peak."""
 GUARD_BITS: Final = 32
+NARROW: Final = 24
+"""A tube of 2**-24 of the peak about a motion can be followed; narrower neighbourhoods cost Newton's steps."""
 MOST_BITS: Final = 1500
 """Precision beyond which a proof is given up: the tube about the motion grows too much."""
 PASSAGES: Final = 7
@@ -194,6 +196,7 @@ def _next(found: _Newton, bits: int) -> _Attempt:
     lost = log2((found.passage.turns[-1].tube.grown / abs(found.slope - 1).lower()).upper())
     enough = bits + GUARD_BITS + 2 * lost  # the error of the peak, and that of the period that the peak's error makes
     floor = found.peak.mid() * arb(2) ** (lost + 8 - enough)
-    width = arb.max(arb.max(shift * arb(2) ** -20, 16 * found.peak.rad()), floor)
+    followed = found.peak.mid() * arb(2) ** -NARROW / found.passage.turns[-1].tube.grown
+    width = arb.max(arb.max(arb.min(shift * arb(2) ** -20, followed), 16 * found.peak.rad()), floor)
     more = attempt.working + GUARD_BITS if attempt.working >= enough else enough
     return _Attempt(found.peak.mid(), width.upper(), more)

@@ -11,7 +11,7 @@ from ridgeback.common.progress import Wanted, showing
 from ridgeback.symbolic.arithmetic.balls import natural_frequency
 from ridgeback.symbolic.cycles.averaged import balanced_amplitudes
 from ridgeback.symbolic.cycles.enclose import Cycle, enclose_cycle, turns_of
-from ridgeback.symbolic.cycles.search import OCTAVES, peaks
+from ridgeback.symbolic.cycles.search import OCTAVES, peaks, runs_out
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 from ridgeback.symbolic.systems.sides import require_one_law
@@ -61,6 +61,11 @@ def limit_cycles(
     turns = turns_of(force)
     expected = balanced_amplitudes(force, k) or (1.0,)
     ways = {backwards: in_time(force, backwards=backwards) for backwards in (False, True)}
+    if all(runs_out(ways[False], peak, turns=turns) for peak in expected):
+        raise InputError(
+            f"{own.name}: the motion is too stiff to be followed through a cycle (a relaxation oscillation, whose "
+            "loss is many times the natural frequency), so that no limit cycle is looked for; use a smaller one"
+        )
     seen = sorted((a, backwards) for backwards, way in ways.items() for a in peaks(way, turns=turns, near=expected))
     if not seen:
         low, high = expected[0] / 2**OCTAVES, expected[-1] * 2**OCTAVES

@@ -17,7 +17,8 @@ from ridgeback.symbolic.systems.oscillator import U, V
 DEGREE: Final = 12
 PART: Final = 0.2
 """The length of a step, as a part of the radius of convergence read off the last coefficients."""
-MOST_STEPS: Final = 800
+MOST_STEPS: Final = 1500
+"""Of a motion; van der Pol's with eps = 40 takes as many."""
 OCTAVES: Final = 3
 """How far from the amplitude that is expected the scan goes, up and down."""
 PER_OCTAVE: Final = 5
@@ -77,7 +78,42 @@ def _followed(force: sympy.Expr, peak: float, turns: int) -> float | None:
                 turned = _at(c, _zero(c, step))[0] * (1 if turns == 2 else -1)
                 return turned if turned > 0 else None  # else the motion is about another place
         u, v = u_end, v_end
-    return None
+    raise _StepsError(f"more than {MOST_STEPS} steps from the peak {peak:.6g}")
+
+
+class _StepsError(InputError):
+    """The motion is too stiff for the steps that are made."""
+
+
+def runs_out(force: sympy.Expr, peak: float, *, turns: int) -> bool:
+    """Return whether the motion from a peak is too stiff to be followed to its turning point.
+
+    Parameters
+    ----------
+    force : sympy.Expr
+        f(U, V) of u'' + f = 0, without further symbols.
+    peak : float
+        Where it starts at rest.
+    turns : int
+        As for ``return_map``.
+
+    Returns
+    -------
+    bool
+        Whether the steps run out.
+
+    Examples
+    --------
+    >>> runs_out(U - 1000 * (1 - U**2) * V, 2.0, turns=1), runs_out(U - (1 - U**2) * V, 2.0, turns=1)
+    (True, False)
+    """
+    try:
+        _followed(force, peak, turns)
+    except _StepsError:
+        return True
+    except (InputError, OverflowError, ZeroDivisionError):
+        pass
+    return False
 
 
 def _coefficients(force: sympy.Expr, u: float, v: float) -> list[float]:

@@ -55,6 +55,15 @@ def test_an_exact_circle_is_in_the_balls(radius: Fraction, strength: Fraction, s
     assert cycle.stable
 
 
+def test_a_relaxation_oscillation_is_enclosed_and_a_stiffer_one_is_refused_at_once() -> None:
+    """With LSODA at 1e-12 omega0(20) agrees to 3e-11."""
+    cycle = enclose_cycle(U - 20 * (1 - U**2) * V, 2.00778997, unit=1.0, bits=64)
+    assert cycle.omega.str(15, radius=False) == "0.181163910235176"
+    assert cycle.peak.str(15, radius=False) == "2.00778997086543"
+    with pytest.raises(InputError, match="too stiff to be followed"):
+        limit_cycles("u'' - 1000*(1 - u**2)*u' + u = 0")
+
+
 def test_nested_circles_are_told_apart() -> None:
     """s (u^2 + u'^2 - 1)(u^2 + u'^2 - 4) u': multipliers exp(6 pi s) at 1, exp(-24 pi s) at 2."""
     inner, outer = cycles("u'' + (u**2 + u'**2 - 1)*(u**2 + u'**2 - 4)*u'/20 + u = 0")
