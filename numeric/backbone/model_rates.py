@@ -3,8 +3,8 @@
 In a model x = e^l cos phi + ... with splines l and phi, the growth rate is l' and the frequency phi'.  Both are linear
 in the coefficients, of which the Fisher information gives the covariance C: a mean with shares w_k of the values at
 times t_k has the variance r^T C r, r = sum of w_k B'(t_k), however the errors at these times belong together.  The
-values are those of the model on more knots; what is left of its bias is the share, by the order at which the models
-converge, of its difference from the one on fewer knots, as far as that exceeds noise.
+values are those of the model on more knots; what is left of its bias is, as far as that exceeds noise, its difference
+from the one on fewer knots where that is clear, else the share of it by the order at which the models converge.
 """
 
 from __future__ import annotations
@@ -21,6 +21,9 @@ from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.tracking.uncertainty import room_of_definition
 
+CLEARLY = 2.0
+"""Deviations by which two models differ more than noise explains: all of the difference is taken for bias there, since
+at the end of a fast decay models converge far more slowly than their order says."""
 LEVEL, PHASE = 0, -1
 """Families of a model's coefficients: the increments of l and of phi."""
 
@@ -74,8 +77,10 @@ class ModelRates:
 
     def with_bias(self, noise: Array, noise_coarse: Array, apart: Array) -> Array:
         """One sigma of the fine model with the bias that should be left in it."""
-        beyond = np.maximum(apart**2 - np.maximum(noise**2 - noise_coarse**2, 0.0), 0.0)
-        return np.asarray(np.sqrt(noise**2 + self.models.remainder**2 * beyond), dtype=np.float64)
+        by_noise = np.maximum(noise**2 - noise_coarse**2, 0.0)
+        share = np.where(apart**2 > CLEARLY**2 * by_noise, 1.0, self.models.remainder)
+        beyond = np.maximum(apart**2 - by_noise, 0.0)
+        return np.asarray(np.sqrt(noise**2 + share**2 * beyond), dtype=np.float64)
 
     def of_means(self, weights: csr_array, family: int, *, slopes: bool) -> Array:
         """One sigma of means ``weights[mean, point]`` of a family's values or slopes."""

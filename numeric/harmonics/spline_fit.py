@@ -51,6 +51,8 @@ ENOUGH = 100
 """Ordinates of a spectrum from which on they suffice to judge a model by."""
 FIRM = 0.05
 """Of the mean square of what is left of the samples: so much of a^2 / 2 leaves the increments of l and phi free."""
+FLOOR = 0.01
+"""Of the largest amplitude, down to which its fall counts where knots are spread."""
 LEAST = 1e-4
 """Of the largest amplitude, that the first logarithm is taken of."""
 LOW_DEGREES = (1, 2, 3)
@@ -298,16 +300,35 @@ def harmonic_splines(
         )
     time = np.arange(x.size) / rate
     known = replace(known, band=counted(guide / rate, amplitude, multiples))
-    first = best_model(until_no_better(on_more_knots(x, time, phase, amplitude, phase, multiples, known)))
+    even = falling(phase, amplitude)
+    first = best_model(until_no_better(on_more_knots(x, time, phase, amplitude, even, multiples, known)))
     return until_no_better(on_more_knots(x, time, first.phase, first.amplitude, adapted(first), multiples, known))
+
+
+def falling(phase: Array, amplitude: Array) -> Array:
+    """A rising function of time whose equal steps hold as many cycles, or as great a fall of the amplitude.
+
+    A loss that grows with the amplitude makes most of its changes early, in a few cycles.
+
+    >>> t = np.linspace(0.0, 60.0, 7)
+    >>> falling(t, np.ones(7)).tolist() == (t / 60.0).tolist(), np.allclose(falling(t, np.exp(-t)), t * 2.0 / 60.0)
+    (True, True)
+    """
+    fallen = np.maximum.accumulate(
+        np.log(float(amplitude.max()) / np.maximum(amplitude, FLOOR * float(amplitude.max())))
+    )
+    most = float(fallen[-1])
+    cycles = (phase - phase[0]) / float(phase[-1] - phase[0])
+    return np.asarray(cycles + min(1.0, most) * fallen / max(most, 1e-300), dtype=np.float64)
 
 
 def adapted(model: SplineModel) -> Array:
     """A rising function of time whose equal steps put knots where the model's phase asks for them."""
     if model.basis.degree < DEGREE:
         return model.phase
-    share = np.diff(np.interp(model.breaks, model.time, model.phase)) / np.diff(model.breaks)
-    total = float(model.phase[-1] - model.phase[0])
+    even = falling(model.phase, model.size)
+    share = np.diff(np.interp(model.breaks, model.time, even)) / np.diff(model.breaks)
+    total = float(even[-1] - even[0])
     middle = np.interp(0.5 * (model.breaks[1:] + model.breaks[:-1]), model.time, model.size)
     both = np.stack([model.logarithm, model.coefficients[:, -1]], axis=1)
     density = adapted_density(both, model.breaks, share / total, middle)
