@@ -51,8 +51,9 @@ ENOUGH = 100
 """Ordinates of a spectrum from which on they suffice to judge a model by."""
 FIRM = 0.05
 """Of the mean square of what is left of the samples: so much of a^2 / 2 leaves the increments of l and phi free."""
-FLOOR = 0.01
-"""Of the largest amplitude, down to which its fall counts where knots are spread."""
+FLOOR, MUCH = 0.01, 3.0
+"""Of the largest amplitude, down to which its fall counts where knots are spread; its logarithm from which on it counts
+as much as the cycles."""
 LEAST = 1e-4
 """Of the largest amplitude, that the first logarithm is taken of."""
 LOW_DEGREES = (1, 2, 3)
@@ -311,7 +312,7 @@ def falling(phase: Array, amplitude: Array) -> Array:
     A loss that grows with the amplitude makes most of its changes early, in a few cycles.
 
     >>> t = np.linspace(0.0, 60.0, 7)
-    >>> falling(t, np.ones(7)).tolist() == (t / 60.0).tolist(), np.allclose(falling(t, np.exp(-t)), t * 2.0 / 60.0)
+    >>> falling(t, np.ones(7)).tolist() == (t / 60.0).tolist(), np.allclose(falling(t, np.exp(-t / 20)), t / 30.0)
     (True, True)
     """
     fallen = np.maximum.accumulate(
@@ -319,7 +320,7 @@ def falling(phase: Array, amplitude: Array) -> Array:
     )
     most = float(fallen[-1])
     cycles = (phase - phase[0]) / float(phase[-1] - phase[0])
-    return np.asarray(cycles + min(1.0, most) * fallen / max(most, 1e-300), dtype=np.float64)
+    return np.asarray(cycles + min(1.0, most / MUCH) ** 2 * fallen / max(most, 1e-300), dtype=np.float64)
 
 
 def adapted(model: SplineModel) -> Array:
