@@ -108,7 +108,7 @@ def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
     growth = [uncertain(found.growth_rate[i], found.growth_rate_sd[i]) for i in (high, low)]
     ratio = [uncertain(found.damping_ratio[i], found.growth_rate_sd[i] / found.backbone_omega[i]) for i in (high, low)]
     middle = _middle(found.damping_ratio[_known(found)])
-    relative = _relative_sd(found)[_known(found)]
+    relative = _relative_sd(found)
     return (
         Card(
             "Fundamental frequency",
@@ -129,6 +129,6 @@ def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
             "Uncertainty of ω₀",
             per_cent(_middle(relative)),
             "one standard deviation, median",
-            (("best", per_cent(float(relative.min()))), ("worst", per_cent(float(_relative_sd(found).max())))),
+            (("best", per_cent(float(relative.min()))), ("worst", per_cent(float(relative.max())))),
         ),
     )

@@ -225,10 +225,16 @@ def _numbers(which: Shown, panel: Panel, rows: Sequence[Row], style: str, *, lef
     wanted = [row for row in rows if row.order in NUMBERED or len(rows) < 7]
     taken: list[tuple[float, float]] = []
     parts = []
+    everywhere = _places(which, panel, rows)
     for x, y, row in _places(which, panel, wanted):
         if all(abs(x - a) > 20 or abs(y - b) > 12 for a, b in taken):
             taken.append((x, y))
-            parts.append(text(x + (-9 if left else 9), y + 4, str(row.order), style, "end" if left else "start"))
+            side = -1 if left else 1
+            crowded = any(0 < side * (a - x) < 32 and abs(b - y) < 10 for a, b, _ in everywhere)
+            if crowded:
+                parts.append(text(x, y - 9, str(row.order), style, "middle"))
+            else:
+                parts.append(text(x + 9 * side, y + 4, str(row.order), style, "end" if left else "start"))
     return "".join(parts)
 
 
@@ -239,7 +245,8 @@ def _families(which: Shown, panel: Panel, line_at: float | None) -> Iterable[str
     native = any(row.language == "c" for row in which.expansions)
     name = f"expansions{' in C' if native else ''}"
     words += _named(which, panel, which.expansions, "e b", name)
-    words += _named(which, panel, which.in_python, "e sm", "in Python", last=True)
+    below = _name_is_below(_places(which, panel, which.expansions), panel)
+    words += _named(which, panel, which.in_python, "e sm", "in Python", last=True, down=17.0 * below)
     words += _named(which, panel, which.flows, "e sm", "multiple scales", line_at=line_at)
     yield group([*e, group(words, "halo")], "fE")
     s = [_chain(which, panel, which.terms, "s")]
@@ -256,6 +263,11 @@ def _families(which: Shown, panel: Panel, line_at: float | None) -> Iterable[str
     yield group([*s, group(words, "halo")], "fS")
 
 
+def _name_is_below(at: Sequence[tuple[float, float, Row]], panel: Panel) -> bool:
+    """Whether a family reaches so far up that its name stands below it."""
+    return min((y for _, y, _ in at), default=panel.bottom) < panel.top + 20
+
+
 def _named(
     which: Shown,
     panel: Panel,
@@ -264,6 +276,7 @@ def _named(
     name: str,
     *,
     last: bool = False,
+    down: float = 0.0,
     line_at: float | None = None,
 ) -> list[str]:
     """The name of a family above its highest point, or below its last; clear of a line at this height."""
@@ -272,11 +285,11 @@ def _named(
         return []
     if last:
         x, y, _ = max(at, key=lambda p: p[1])
-        if y + 17 < panel.bottom - 22:
-            return [text(x + 9, y + 17, name, style)]
+        if y + 17 + down < panel.bottom - 22:
+            return [text(x + 9, y + 17 + down, name, style)]
         return [text(max(p[0] for p in at) + 10, y + 4, name, style)]
     x, y, _ = min(at, key=lambda p: p[1])
-    if y < panel.top + 20:
+    if _name_is_below(at, panel):
         x, y, _ = max(at, key=lambda p: p[1])
         return [text(max(x - 12, panel.left + 4), min(y + 20, panel.bottom - 22), name, style)]
     if line_at is not None and abs(y - 15 - line_at) < 9:

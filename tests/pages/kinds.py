@@ -30,7 +30,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     "cubic": (*CUBIC, "--set", "g=0.3"),
     "helmholtz-duffing": ("damped-helmholtz-duffing", "--set", "alpha2=1/5", "--set", "alpha3=3/10"),
     "decay": ("--recording", "decay.csv"),
-    "degrees": ("pendulum", "--recording", "pendulum.csv"),
+    "degrees": ("pendulum", "--set", "k=3.5", "--recording", "pendulum.csv"),
     "runs": ("--recording", "first.csv", "--recording", "second.csv"),
     "study": ("five.db",),
 }

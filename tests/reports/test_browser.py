@@ -8,16 +8,13 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from ridgeback.compare.report.results import Report
-from ridgeback.reports.page import html_page
 from tests.reports import synthetic
-from tests.reports.chromium import NAMES, Browser, binary
+from tests.reports.chromium import Browser
 
 WIDTHS = (1280, 400)
 FIGURES = {
@@ -32,45 +29,6 @@ FIGURES = {
 MANY = {"planes": 2, "noise": 5, "side-by-side": 5}
 """Figures that are rows of small drawings."""
 SIDES = tuple(FIGURES)
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    path = binary()
-    if path is None:
-        pytest.skip(f"no browser: none of {', '.join(NAMES)} is on the path, so the page was not opened")
-    started = Browser(path)
-    try:
-        started.attach()
-        yield started
-    finally:
-        started.close()
-
-
-@pytest.fixture(scope="module")
-def pages(
-    tmp_path_factory: pytest.TempPathFactory, full_page: str, recording_page: str, runs_page: str, study_page: str
-) -> dict[str, Path]:
-    folder = tmp_path_factory.mktemp("pages")
-    made = {
-        "full": full_page,
-        "recording": recording_page,
-        "runs": runs_page,
-        "study": study_page,
-        "empty": html_page(synthetic.empty_report()),
-        "hostile": html_page(_hostile()),
-    }
-    for name, page in made.items():
-        (folder / f"{name}.html").write_text(page, encoding="utf-8")
-    return {name: folder / f"{name}.html" for name in made}
-
-
-def _hostile() -> Report:
-    """Names that would run or fetch something if they were not text."""
-    bait = "<script>document.title='run'</script><img src='https://example.org/x.png' onerror=\"document.title='run'\">"
-    bait += "<link rel=stylesheet href=https://example.org/x.css></svg></title></style>"
-    report: Report = synthetic.poisoned(synthetic.small_report(), bait)
-    return report
 
 
 # Every drawing that is laid out, with its accessible name, its size and its texts.
@@ -162,56 +120,6 @@ def test_nothing_is_wider_than_a_small_screen(browser: Browser, pages: dict[str,
     wide = """[...document.querySelectorAll("main *")].filter(e => e.getBoundingClientRect().right > 400.5
       && !e.closest("pre") && !e.closest("svg")).map(e => e.tagName + "." + e.className).slice(0, 9)"""
     assert browser.evaluate("document.documentElement.scrollWidth") <= 400, browser.evaluate(wide)
-
-
-def test_ids_are_unique(browser: Browser, pages: dict[str, Path]) -> None:
-    for side in SIDES:
-        browser.open(pages[side])
-        ids = browser.evaluate("[...document.querySelectorAll('[id]')].map(e => e.id)")
-        assert len(ids) > 10
-        assert len(ids) == len(set(ids))
-
-
-# Text colour against the nearest painted background, for all text that is laid out.
-COLOURS = r"""
-(() => {
-  const found = {}, walk = document.createTreeWalker(document.querySelector("main"), NodeFilter.SHOW_TEXT);
-  const parse = c => c.match(/[\d.]+/g).map(Number);
-  while (walk.nextNode()) {
-    const e = walk.currentNode.parentElement;
-    if (!walk.currentNode.data.trim() || !e.getClientRects().length || e.closest("script,style,title,desc")) continue;
-    const style = getComputedStyle(e), ink = e.closest("svg") ? style.fill : style.color;
-    let ground = "", up = e;
-    for (; up && !ground; up = up.parentElement) {
-      const c = getComputedStyle(up).backgroundColor, v = parse(c);
-      if (v.length === 3 || v[3] > 0) ground = c;
-    }
-    found[ink + " on " + ground] = walk.currentNode.data.trim().slice(0, 40);
-  }
-  return Object.entries(found).map(([k, text]) => [text, ...k.split(" on ").map(parse)]);
-})()
-"""
-
-
-def _contrast(ink: list[float], ground: list[float]) -> float:
-    """WCAG 2.1, relative luminance and contrast ratio."""
-
-    def luminance(colour: list[float]) -> float:
-        channels = [v / 255 for v in colour[:3]]
-        red, green, blue = (v / 12.92 if v <= 0.03928 else ((v + 0.055) / 1.055) ** 2.4 for v in channels)
-        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
-
-    low, high = sorted((luminance(ink), luminance(ground)))
-    return (high + 0.05) / (low + 0.05)
-
-
-@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-@pytest.mark.parametrize("side", SIDES)
-def test_all_text_as_rendered_meets_wcag_aa(browser: Browser, pages: dict[str, Path], side: str, dark: bool) -> None:
-    browser.open(pages[side], dark=dark)
-    pairs = browser.evaluate(COLOURS)
-    assert len(pairs) >= 4
-    assert [pair for pair in pairs if _contrast(pair[1], pair[2]) < 4.5] == []
 
 
 def test_a_dark_screen_gets_a_dark_page(browser: Browser, pages: dict[str, Path]) -> None:
@@ -338,7 +246,7 @@ def test_a_time_figure_is_stretched_by_dragging_and_linked_ones_follow(
 ) -> None:
     """From 5 s to 10 s of 20: the views of all panels are a quarter of theirs, the ticks are new; 0 shows all again."""
     browser.open(pages["full"])
-    views = """[...document.querySelectorAll("#in-time svg.wide .z, #motion svg.wide .z")]
+    views = """[...document.querySelectorAll("#in-time svg.wide .z, #motion svg.wide .z, #planes .z")]
       .map(z => +z.getAttribute("viewBox").split(" ")[2])"""
     labels = "[...document.querySelectorAll('#motion svg.wide .xt text')].map(t => t.textContent)"
     whole, before = browser.evaluate(views), browser.evaluate(labels)
@@ -354,6 +262,22 @@ def test_a_time_figure_is_stretched_by_dragging_and_linked_ones_follow(
     assert browser.evaluate(labels) == before
     browser.press("+")
     assert browser.evaluate(views) == pytest.approx([0.5 * width for width in whole], rel=0.02)
+    assert browser.complaints() == []
+
+
+def test_a_plane_is_stretched_too_and_read_in_the_stretch(browser: Browser, pages: dict[str, Path]) -> None:
+    """From 5 s to 10 s of the second plane: its middle then reads 7.5 s."""
+    browser.open(pages["full"])
+    width = "+document.querySelector('#{} .z').getAttribute('viewBox').split(' ')[2]"
+    whole = browser.evaluate(width.format("motion svg.wide"))
+    plane = "#planes svg:nth-of-type(2)"
+    browser.drag(*(_at(browser, plane, (44 + 448 * share) / 500, 0.5) for share in (0.25, 0.5)))
+    assert browser.evaluate(width.format("motion svg.wide")) == pytest.approx(0.25 * whole, rel=0.02)
+    browser.hover(_at(browser, plane, (44 + 448 * 0.5) / 500, 0.6))
+    said = browser.evaluate("document.querySelector('#planes .out').textContent")
+    assert float(re.search(r"^t = ([\d.]+)", said)[1]) == pytest.approx(7.5, abs=0.1)
+    browser.evaluate("document.querySelector('#planes .whole').click()")
+    assert browser.evaluate(width.format("motion svg.wide")) == whole
     assert browser.complaints() == []
 
 

@@ -283,15 +283,22 @@ def facts(one: Measurement) -> Mapping[str, str]:
         "method": one.method.replace("-", " "),
     }
     if curve is None:
-        return {**row, "largest": "", "ω₀ there, Hz": "", "smallest": "", "ω₀ there": "", "damping ratio": ""}
+        return {
+            **row,
+            "largest": "",
+            "ω₀ at the largest, Hz": "",
+            "smallest": "",
+            "ω₀ at the smallest, Hz": "",
+            "damping ratio": "",
+        }
     a, omega, sd = curve.curve_amplitude, curve.curve_omega / (2 * np.pi), curve.curve_omega_sd / (2 * np.pi)
     high, low = int(np.argmax(a)), int(np.argmin(a))
     ratio = float(np.median(-curve.curve_growth_rate / curve.curve_omega))
     return {
         **row,
         "largest": f"{a[high]:.3g}",
-        "ω₀ there, Hz": uncertain(float(omega[high]), float(sd[high])),
+        "ω₀ at the largest, Hz": uncertain(float(omega[high]), float(sd[high])),
         "smallest": f"{a[low]:.3g}",
-        "ω₀ there": uncertain(float(omega[low]), float(sd[low])),
+        "ω₀ at the smallest, Hz": uncertain(float(omega[low]), float(sd[low])),
         "damping ratio": number(ratio, 3),
     }

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from ridgeback.common.numbers import relative
+from ridgeback.common.numbers import number, relative
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, Grid, grids, thinned
+from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, Grid, axis_of, grids, thinned
 from ridgeback.compare.studies.tasks import Column, Finished
 
 COLUMNS = (
@@ -40,12 +40,12 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
         A row for each oscillator, method and order; the figure has the first oscillator and method.
     """
     rows: list[dict[str, Any]] = []
-    picture, failed = Picture(plan.title, "amplitude", "relative error of omega0"), 0
+    picture, failed = Picture(plan.title, "amplitude", "relative error of ω₀"), 0
     for grid in grids(blocks):
         picture = drawing(grid, plan.title) if not rows else picture
         rows += rows_of(grid)
         failed += grid.failed
-    title = "relative error of omega0 over the amplitudes, by order"
+    title = "relative error of ω₀ over the amplitudes, by order"
     return Answer("error", title, COLUMNS, tuple(rows), tuple(sentences(rows)), picture, failed)
 
 
@@ -72,16 +72,20 @@ def drawing(grid: Grid, title: str) -> Picture:
     pairs = list(zip(grid.orders, errors, strict=True))
     strokes = tuple(Stroke(grid.amplitudes[at], line, f"order {order}") for order, line in pairs[:SHOWN_STROKES])
     name = f"{grid.system.name}, {grid.method}"
-    return Picture(f"{title}: {name}" if title else name, "amplitude", "relative error of omega0", strokes, None, True)
+    whole = f"{title}: {name}" if title else name
+    return Picture(whole, axis_of([grid.system]), "relative error of ω₀", strokes, None, True)
 
 
 def sentences(rows: list[dict[str, Any]]) -> Iterator[str]:
     """The least of the largest errors of each oscillator, among orders with a value at as many amplitudes as any."""
-    for who in dict.fromkeys((row["oscillator"], row["parameters"]) for row in rows):
+    everyone = list(dict.fromkeys((row["oscillator"], row["parameters"]) for row in rows))
+    names = [name for name, _ in everyone]
+    for who in everyone:
         mine = [row for row in rows if (row["oscillator"], row["parameters"]) == who]
         most = max(row["cells"] for row in mine)
         best = min((row for row in mine if row["cells"] == most), key=lambda row: row["largest"])
+        name = who[0] if names.count(who[0]) == 1 else f"{who[0]} ({who[1]})"
         yield (
-            f"{who[0]} ({who[1]}): {best['method']} of order {best['order']} has the least largest error, "
-            f"{relative(best['largest'])} at {best['at_amplitude']:.6g}"
+            f"{name}: {best['method']} of order {best['order']} has the least largest error, "
+            f"{relative(best['largest'])} at {number(best['at_amplitude'])}"
         )

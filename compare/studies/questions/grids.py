@@ -16,7 +16,7 @@ from ridgeback.numeric.arrays import Array
 ERROR = 3
 UNCERTAINTY = 2
 """Places of the relative error and of the reference's uncertainty among the values of a cell."""
-SHOWN_STROKES = 8
+SHOWN_STROKES = 12
 POINTS = 400
 """Points of a curve in a figure, about."""
 WHO = (
@@ -49,6 +49,16 @@ def grids(blocks: Iterable[Finished]) -> Iterator[Grid]:
     """Put the blocks of each oscillator and method together; amplitudes rise."""
     for _, group in groupby(blocks, key=lambda block: (task_of(block).system, task_of(block).method)):
         yield joined([_grid(block) for block in group])
+
+
+def axis_of(systems: Iterable[System]) -> str:
+    """What the errors of some oscillators are drawn over: the amplitude, or eps for limit cycles.
+
+    >>> axis_of([System("pendulum", "pendulum"), System("van-der-pol", "van-der-pol")])
+    'amplitude or ε'
+    """
+    names = ("ε" if system.oscillator().kind == "limit-cycle" else "amplitude" for system in systems)
+    return " or ".join(dict.fromkeys(names)) or "amplitude"
 
 
 def joined(parts: Sequence[Grid]) -> Grid:

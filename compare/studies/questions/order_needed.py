@@ -12,10 +12,12 @@ from typing import Any
 
 import numpy as np
 
+from ridgeback.common.numbers import number, threshold
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, Grid, grids, thinned
+from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, Grid, axis_of, grids, thinned
+from ridgeback.compare.studies.systems import System
 from ridgeback.compare.studies.tasks import Column, Finished
 from ridgeback.numeric.arrays import Array
 
@@ -46,18 +48,20 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
     rows: list[dict[str, Any]] = []
     strokes: list[Stroke] = []
     said: list[str] = []
+    systems: list[System] = []
     failed = 0
     for grid in grids(blocks):
         failed += grid.failed
+        systems.append(grid.system)
         for tolerance in plan.tolerances:
             needed = orders_needed(grid, tolerance)
             rows += rows_of(grid, tolerance, needed)
             said.append(sentence(grid, tolerance, needed))
             at = thinned(grid.amplitudes.size)
-            name = f"{grid.system.name}, {grid.method}, {tolerance:.0e}"
+            name = f"{grid.system.name}, {grid.method}, {threshold(tolerance)}"
             orders = [np.nan if needed[i] is None else needed[i] for i in at]
             strokes.append(Stroke(grid.amplitudes[at], orders, name, steps=True))
-    picture = Picture(plan.title or "order needed", "amplitude", "order", tuple(strokes[:SHOWN_STROKES]))
+    picture = Picture(plan.title or "order needed", axis_of(systems), "order", tuple(strokes[:SHOWN_STROKES]))
     return Answer(
         "order-needed", "smallest order within a tolerance", COLUMNS, tuple(rows), tuple(said), picture, failed
     )
@@ -83,11 +87,11 @@ def rows_of(grid: Grid, tolerance: float, needed: list[int | None]) -> Iterator[
 
 def sentence(grid: Grid, tolerance: float, needed: list[int | None]) -> str:
     """How far the studied orders serve."""
-    head = f"{grid.system.name}, {grid.method}, tolerance {tolerance:.0e}"
+    head = f"{grid.system.name}, {grid.method}, tolerance {threshold(tolerance)}"
     served = [i for i, order in enumerate(needed) if order is not None]
     if not served:
-        return f"{head}: no studied order serves at {grid.amplitudes[0]:.6g}"
+        return f"{head}: no studied order serves at {number(float(grid.amplitudes[0]))}"
     last = served[-1]
-    return f"{head}: order {needed[last]} is needed at {grid.amplitudes[last]:.6g}" + (
+    return f"{head}: order {needed[last]} is needed at {number(float(grid.amplitudes[last]))}" + (
         "" if last == len(needed) - 1 else "; no studied order serves beyond"
     )
