@@ -111,7 +111,7 @@ def _caption(which: Shown, *, timed: bool) -> str:
     if which.expansions and which.expansions[0].amplitude_from == "action":
         parts.append("Expansions and series take A(t) from the averaged action, whose own cost is not counted.")
     if which.corrected:
-        parts.append("Open: an estimate with the bias of its own track removed.")
+        parts.append("Open, and corr.: an estimate with the bias of its own track removed.")
     missing = [row for row in found.contenders if row.refused]
     if missing:
         parts.append(f"No result: {refused_names(missing)}.")
@@ -332,7 +332,7 @@ def _ranked(which: Shown, target: float, label: str, width: float, *, timed: boo
     step = 18.0 if width < WIDE else 20.0
     height = 44 + step * len(rows) + 8
     names = max((text_width(_row_name(row), 11.5 if width < WIDE else 13.5) for row in rows), default=60.0)
-    names = min(names, 0.46 * width)
+    names = min(names, 0.5 * width)
     errors = [error(row) for row in rows]
     split = names + 14 + (width - names) * (0.52 if timed else 0.94)
     x = Scale(0.5 * min(*errors, target), 2.0 * min(max(errors), 30.0), names + 14, split, log=True)
@@ -374,7 +374,7 @@ def _ranked_row(which: Shown, row: Row, y: float, names: float, x: Scale, cost: 
 
 
 def _row_name(row: Row) -> str:
-    return short_name(row).replace("own bias removed", "corrected")
+    return short_name(row).replace("own bias removed", "corr.")
 
 
 def _chosen(which: Shown) -> list[Row]:

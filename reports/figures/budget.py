@@ -106,10 +106,11 @@ def budget_heading(rows: Sequence[BudgetRow], floor: float = 0.0) -> str:
 def short(label: str) -> str:
     """A label without the signal that nearly all of them see.
 
-    >>> short("harmonic least squares on u"), short("Wigner peak of u'")
-    ('harmonic least squares', "Wigner peak of u'")
+    >>> short("harmonic least squares on u"), short("Wigner peak of u'"), short("exact backbone at V(A) = E(t)")
+    ('harmonic least squares', 'Wigner peak of u′', 'exact ω₀ at V(A) = E(t)')
     """
-    return label.removesuffix(" on u").removesuffix(" of u")
+    plain = label.removesuffix(" on u").removesuffix(" of u")
+    return plain.replace("exact backbone", "exact ω₀").replace("u'", "u′")
 
 
 def _ruling(row: BudgetRow) -> str:

@@ -164,7 +164,7 @@ def _axes(study: Study, grid: ErrorGrid, panel: Panel, *, narrow: bool) -> Itera
     unit = f", {study.amplitude_unit}" if study.amplitude_unit else ""
     title = f"{study.amplitude_definition} amplitude A{unit}" if study.variable == "A" else "ε"
     yield text(middle, panel.bottom + 38, title, "m", "middle")
-    yield text(0, panel.top - 10, "order n", "m")
+    yield text(0, panel.top - (24 if narrow else 10), "order n", "m")
 
 
 def _ticks(study: Study, panel: Panel, *, narrow: bool) -> Iterable[tuple[float, str]]:
