@@ -306,7 +306,7 @@ def test_amplitudes_of_a_limit_cycle_reach_beyond_its_own_strength(own: float, t
     from ridgeback.compare.report.system_report import BEYOND, CYCLE_STRENGTHS
 
     case = STUB(parameters={"eps": own})
-    motion = STUB(setting=STUB(case=lambda: case, oscillator=STUB(small="eps")))
+    motion = STUB(energy_peak=np.ones(1), setting=STUB(case=lambda: case, oscillator=STUB(small="eps")))
     grid = _amplitudes(motion, STUB(expansion=STUB(variable="eps")))
     assert grid[-1] == pytest.approx(CYCLE_STRENGTHS[-1] if top is None else BEYOND * own)
 

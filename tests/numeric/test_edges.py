@@ -23,7 +23,7 @@ from ridgeback.numeric.harmonics.spline_basis import ROWS, SplineBasis
 from ridgeback.numeric.model_fit.start import matched
 from ridgeback.numeric.motion import limit_cycle
 from ridgeback.numeric.motion.dynamics import duffing, linear, van_der_pol
-from ridgeback.numeric.motion.integration import Drift, Integration
+from ridgeback.numeric.motion.integration import Drift
 from ridgeback.numeric.orbits import action_loss, adiabatic
 from ridgeback.numeric.recording.drift import MOST_SAMPLES, wandering
 from ridgeback.numeric.recording.file_signals import runs_of
@@ -137,11 +137,6 @@ def test_attributes_that_are_no_lone_number_state_no_rate() -> None:
 
 
 # --- motions ---
-
-
-def test_a_zero_on_a_step_s_end_is_taken_as_it_is() -> None:
-    assert Integration.zero(lambda t: np.array([t - 1.0]), 0, 1.0, 2.0) == 1.0
-    assert Integration.zero(lambda t: np.array([t - 1.5]), 0, 1.0, 2.0) == pytest.approx(1.5)
 
 
 def test_a_cycle_that_no_step_leads_to_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

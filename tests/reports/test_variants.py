@@ -142,9 +142,9 @@ def test_a_ridge_that_is_nowhere_valid_has_no_enlargement(decay: MotionCompariso
     reference, ridge = plane.overlays
     nowhere = replace(ridge, valid=np.zeros(ridge.time.size, dtype=bool))
     blank = replace(ridge, omega=np.full(ridge.time.size, np.nan))
-    usual = signed_plane("key", plane, clock, (0.0, 20.0))  # type: ignore[arg-type]
+    usual = signed_plane("key", plane, clock, (0.0, 20.0), (2.0, 18.0))  # type: ignore[arg-type]
     for overlays in ((reference, nowhere), (reference, blank), (ridge,)):
-        bare = signed_plane("key", replace(plane, overlays=overlays), clock, (0.0, 20.0))  # type: ignore[arg-type]
+        bare = signed_plane("key", replace(plane, overlays=overlays), clock, (0.0, 20.0), (2.0, 18.0))  # type: ignore[arg-type]
         assert len(bare) < len(usual)
 
 

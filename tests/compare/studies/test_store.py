@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import sqlite3
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -105,7 +106,7 @@ def test_a_changed_setting_is_refused_with_what_differs(plan: Plan, tmp_path: Pa
 def test_a_damaged_block_is_computed_again_with_a_warning(plan: Plan, tmp_path: Path, damage: str) -> None:
     path = tmp_path / "s.db"
     whole = table(plan, path)
-    with sqlite3.connect(path) as connection:
+    with closing(sqlite3.connect(path)) as connection, connection:
         key = connection.execute("SELECT key FROM blocks").fetchone()[0]
         connection.execute(f"{damage} WHERE key = ?", (key,))
     connection.close()
@@ -187,6 +188,6 @@ def test_two_runs_at_once_leave_one_whole_store(plan: Plan, tmp_path: Path) -> N
 
     with ThreadPoolExecutor(3) as pool:
         assert list(pool.map(run_it, range(3))) == [alone] * 3
-    with sqlite3.connect(tmp_path / "s.db") as connection:
+    with closing(sqlite3.connect(tmp_path / "s.db")) as connection, connection:
         assert connection.execute("SELECT count(*) FROM blocks").fetchone()[0] == counted(plan).blocks
     connection.close()
