@@ -12,14 +12,17 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from ridgeback.symbolic.expansion.cost import Budget
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
-from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.expansion.lindstedt import conservative_recursion, lindstedt
+from ridgeback.symbolic.series.spaces import space_for
 from ridgeback.symbolic.systems.catalogue import find
+from ridgeback.symbolic.systems.oscillator import Oscillator
 
 sys.path.insert(0, str(Path(__file__).parent))
 import recurrences
@@ -29,6 +32,12 @@ SUPERSCRIPT = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 TITLES = {"pendulum": "pendulum", "van-der-pol": "van der Pol", "helmholtz-duffing": "Helmholtz-Duffing"}
 LONG = bool(os.environ.get("RIDGEBACK_LONG_BENCHMARKS"))
 FREE = Budget(1e9, 1e9)
+
+
+def recursion(oscillator: Oscillator, order: int, *, budget: Budget) -> SimpleNamespace:  # noqa: ARG001
+    """Lindstedt's recursion, also where ``lindstedt`` knows a closed form."""
+    found = conservative_recursion(oscillator, order, "peak", space_for((), order + 1))
+    return SimpleNamespace(coefficients=found.omega)
 
 
 @dataclass(frozen=True)
@@ -42,14 +51,20 @@ class Case:
     derive: Callable[..., Any]
 
     @property
+    def long(self) -> bool:
+        """Whether one round is enough."""
+        return self.order > (300 if self.letter == "A" else 100)
+
+    @property
     def series(self) -> str:
         """What the table calls it."""
         limit = ", by its mean" if self.by_hand is reversion.pendulum_mean else ""
-        by = "" if self.derive is lindstedt else f", frequency alone{limit}"
+        by = {lindstedt: "", recursion: ", order by order"}.get(self.derive, f", frequency alone{limit}")
         return f"{TITLES[self.system]} to {self.letter}{str(self.order).translate(SUPERSCRIPT)}{by}"
 
 
 CASES = [
+    *(Case("pendulum", "A", n, recurrences.pendulum, recursion) for n in (100, 200)),
     *(Case("pendulum", "A", n, recurrences.pendulum, lindstedt) for n in (100, 200, *([400] if LONG else []))),
     *(Case("van-der-pol", "ε", n, recurrences.van_der_pol, lindstedt) for n in (48, 96, *([164] if LONG else []))),
     *(Case("pendulum", "A", n, reversion.pendulum, energy_integral) for n in (400, 800)),
@@ -67,5 +82,5 @@ def test_against_what_is_written_by_hand(benchmark: Any, case: Case, who: str) -
     oscillator = find(case.system)
     engine = lambda order: list(case.derive(oscillator, order, budget=FREE).coefficients)  # noqa: E731
     run = case.by_hand if who == "by hand" else engine
-    found = benchmark.pedantic(run, args=(case.order,), rounds=1 if case.order > 300 else 3, warmup_rounds=0)
+    found = benchmark.pedantic(run, args=(case.order,), rounds=1 if case.long else 3, warmup_rounds=0)
     assert found[:41] == engine(40) == run(40)
