@@ -106,7 +106,7 @@ def test_a_title_claims_nothing_below_what_is_defined():
     )
     apart = judge([row("expansion", 2e-5), row("estimate", 1e-3)], reference)
     assert title_of(apart, reference) == (
-        "Order 8 follows ω₀(t) as closely as it is defined (0.010 %), 10 times closer than estimate"
+        "Order 8 follows ω₀(t) as closely as it is defined (0.010 %), at least 10 times closer than estimate"
     )
 
 
