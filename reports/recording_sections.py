@@ -102,7 +102,7 @@ def _tracks_title(report: Report) -> str:
     found = report.recording
     if found is None:
         return ""
-    if not found.backbone_omega.size:
+    if found.doubt or not found.backbone_omega.size:
         return "Frequency in time by every estimator"
     way = trend_of(found.backbone_omega, found.backbone_omega_sd)
     return "Frequency in time by every estimator" + (", no change beyond noise" if way is Trend.CONSTANT else "")

@@ -17,10 +17,11 @@ from ridgeback.compare.motion.estimate_curves import curve_of
 from ridgeback.compare.motion.planes import spectrogram_image
 from ridgeback.compare.motion.results import Curve
 from ridgeback.compare.recording.backbone_fit import fit_backbone, formula_of
+from ridgeback.compare.recording.measurement import estimated, marked, measured
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.recording.theory import over_measured, theory_curve
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
-from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.estimators.estimate import Estimation
 from ridgeback.numeric.recording.reading import read_recording
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.tracking.track import Track
@@ -84,37 +85,55 @@ def compare_recording(
         recording = source
     else:
         recording = read_recording(source, column=column, time_column=time_column, rate=rate)
-    tracks, failed = _tracks(recording, tuple(methods), progress)
-    if not tracks:
+    found, failed = _estimations(recording, tuple(methods), progress)
+    if not found:
         raise InputError(f"{recording.source}: no estimator succeeded; " + "; ".join(failed))
     progress(0.7, "backbone")
-    chosen = tracks[0].of_oscillation()
-    flat = recording.clipped if recording.clipped.any() else None
-    measured = backbone(chosen, recording.values, recording.rate, start=float(recording.time[0]), exclude=flat)
+    first = measured(recording, found[0], 1, None)
+    curve, doubt = first.backbone, ""
+    if curve is None:
+        track = found[0].track
+        why = track.used.doubt or track.no_interval or first.notes[0].removesuffix(".")
+        curve, doubt = (
+            in_windows(track, recording),
+            f"No uncertainty is claimed: {why}; what is drawn is of short windows",
+        )
     progress(0.9, "spectrogram")
-    return _assembled(recording, tracks, measured, failed, oscillator)
+    tracks = [one.track for one in found]
+    return _assembled(recording, tracks, curve, [*first.notes, *failed], oscillator, doubt)
 
 
-def _tracks(
+def in_windows(track: Track, recording: Recording) -> Backbone:
+    """The backbone of windows, of all of a recording, where no model of one oscillation can be trusted."""
+    start = float(recording.time[0])
+    return backbone(track.of_oscillation(), recording.values, recording.rate, start=start, exclude=marked(recording))
+
+
+def _estimations(
     recording: Recording, methods: tuple[str, ...], progress: Callable[[float, str], None]
-) -> tuple[list[Track], list[str]]:
-    tracks, failed = [], []
+) -> tuple[list[Estimation], list[str]]:
+    found, failed = [], []
     for i, method in enumerate(methods):
         progress(0.05 + 0.6 * i / len(methods), _LABELS.get(method, method))
         try:
-            start = float(recording.time[0])
-            tracks.append(estimate(recording.values, recording.rate, method=method, start=start))
+            found.append(estimated(recording, method=method))
         except InputError as error:
             failed.append(str(error))
-    return tracks, failed
+    return found, failed
 
 
 def _assembled(
-    recording: Recording, tracks: list[Track], measured: Backbone, failed: list[str], oscillator: Oscillator | None
+    recording: Recording,
+    tracks: list[Track],
+    curve: Backbone,
+    said: list[str],
+    oscillator: Oscillator | None,
+    doubt: str,
 ) -> RecordingComparison:
     chosen = tracks[0]
     curves = tuple(curve_of(track, track.method, _LABELS.get(track.method, track.method)) for track in tracks)
-    fit = fit_backbone(measured.curve_amplitude, measured.curve_omega, measured.curve_omega_sd)
+    fit = None if doubt else fit_backbone(curve.curve_amplitude, curve.curve_omega, curve.curve_omega_sd)
+    known = np.nan if doubt else 1.0
     step = max(1, recording.time.size // MOST_POINTS)
     slowest, fastest = float(chosen.inside().omega.min()), float(chosen.inside().omega.max())
     return RecordingComparison(
@@ -136,22 +155,23 @@ def _assembled(
             start=float(recording.time[0]),
             unit="s",
         ),
-        amplitude_time=measured.time,
-        amplitude=measured.amplitude,
-        backbone_amplitude=measured.curve_amplitude,
-        backbone_omega=measured.curve_omega,
-        backbone_omega_sd=measured.curve_omega_sd,
-        growth_rate=measured.curve_growth_rate,
-        growth_rate_sd=measured.curve_growth_rate_sd,
+        amplitude_time=curve.time,
+        amplitude=curve.amplitude,
+        backbone_amplitude=curve.curve_amplitude,
+        backbone_omega=curve.curve_omega,
+        backbone_omega_sd=known * curve.curve_omega_sd,
+        growth_rate=curve.curve_growth_rate,
+        growth_rate_sd=known * curve.curve_growth_rate_sd,
         fit=None if fit is None else formula_of(fit),
-        notes=tuple(_notes(recording, curves, measured, failed)),
-        theory=() if oscillator is None else (theory_curve(oscillator, measured),),
-        over=None if oscillator is None else over_measured(oscillator, measured),
+        notes=tuple(_notes(curves, said)),
+        theory=() if oscillator is None else (theory_curve(oscillator, curve),),
+        over=None if oscillator is None else over_measured(oscillator, curve),
+        doubt=doubt,
     )
 
 
-def _notes(recording: Recording, curves: tuple[Curve, ...], measured: Backbone, failed: list[str]) -> Iterable[str]:
-    yield from recording.notes
+def _notes(curves: tuple[Curve, ...], said: list[str]) -> Iterable[str]:
+    yield from said
     yield (
         f"The backbone is made from {curves[0].label}: the first that succeeded, in an order of preference that puts "
         "efficiency in noise and freedom from curvature bias first."
@@ -160,8 +180,6 @@ def _notes(recording: Recording, curves: tuple[Curve, ...], measured: Backbone, 
     apart = [f"{label} {relative(value)}" for label, value in pairs if value is not None]
     if apart:
         yield f"Rms distance of the other tracks from it, where both are valid: {', '.join(apart)}."
-    yield from measured.notes
-    yield from failed
 
 
 def distance(first: Curve, second: Curve) -> float | None:

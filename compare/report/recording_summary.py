@@ -24,6 +24,8 @@ HELD = 0.8
 
 def _known(found: RecordingComparison) -> Indices:
     """Indices of the points that are known about as well as most: the noisiest are never in a headline."""
+    if found.doubt:
+        return np.arange(found.backbone_amplitude.size)
     limit = KNOWN * float(np.median(found.backbone_omega_sd))
     kept = np.flatnonzero(found.backbone_omega_sd <= limit)
     return kept if kept.size > 1 else np.arange(found.backbone_amplitude.size)
@@ -53,6 +55,8 @@ def recording_title(found: RecordingComparison) -> str:
         f"{_hertz(found.backbone_omega[high])} at amplitude {found.backbone_amplitude[high]:.3g}, "
         f"{_hertz(found.backbone_omega[low])} at {found.backbone_amplitude[low]:.3g}"
     )
+    if found.doubt:
+        return f"{text}: no uncertainty is claimed"
     way = trend(found)
     return f"{text}: no dependence beyond the uncertainty" if way is Trend.CONSTANT else f"{text}: {way.value}"
 
@@ -63,13 +67,16 @@ def recording_sentences(found: RecordingComparison, made: Identification | None)
 
 
 def _sentences(found: RecordingComparison, made: Identification | None) -> Iterator[str]:
+    if found.doubt:
+        yield f"{found.doubt}."
     if found.over is not None:
         yield found.over.sentence()
     if made is not None:
         yield f"What made it: {made.verdict}"
         if made.prediction is not None:
             yield forecast(made)
-    yield f"The backbone’s relative standard deviation is {per_cent(_middle(_relative_sd(found)))} in the median."
+    if not found.doubt:
+        yield f"The backbone’s relative standard deviation is {per_cent(_middle(_relative_sd(found)))} in the median."
 
 
 def held(made: Identification) -> bool:
@@ -108,12 +115,11 @@ def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
     growth = [uncertain(found.growth_rate[i], found.growth_rate_sd[i]) for i in (high, low)]
     ratio = [uncertain(found.damping_ratio[i], found.growth_rate_sd[i] / found.backbone_omega[i]) for i in (high, low)]
     middle = _middle(found.damping_ratio[_known(found)])
-    relative = _relative_sd(found)
     return (
         Card(
             "Fundamental frequency",
             _hertz(_middle(found.backbone_omega[_known(found)])),
-            f"median; {trend(found).value}",
+            "median" if found.doubt else f"median; {trend(found).value}",
             tuple((size, f"{value} Hz") for size, value in zip(sizes, omega, strict=True)),
         ),
         Card(
@@ -125,10 +131,17 @@ def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
                 ("a′/a", f"{growth[0]} and {growth[1]} per s"),
             ),
         ),
-        Card(
-            "Uncertainty of ω₀",
-            per_cent(_middle(relative)),
-            "one standard deviation, median",
-            (("best", per_cent(float(relative.min()))), ("worst", per_cent(float(relative.max())))),
-        ),
+        _uncertainty(found),
+    )
+
+
+def _uncertainty(found: RecordingComparison) -> Card:
+    if found.doubt:
+        return Card("Uncertainty of ω₀", "–", "none is claimed", ())
+    relative = _relative_sd(found)[_known(found)]
+    return Card(
+        "Uncertainty of ω₀",
+        per_cent(_middle(relative)),
+        "one standard deviation, median",
+        (("best", per_cent(float(relative.min()))), ("worst", per_cent(float(_relative_sd(found).max())))),
     )

@@ -119,13 +119,13 @@ def backbone_figure(recording: RecordingComparison) -> Figure:
     theory = recording.over
     over = () if theory is None else ((f"{theory.title}, exact", theory.omega * f, "el d1 nf"),)
     bands = (
-        Band(CLOCK.title(), x, recording.backbone_omega * f, recording.backbone_omega_sd * f, over),
-        Band("growth rate a′/a, 1/s", x, recording.growth_rate, recording.growth_rate_sd),
+        Band(CLOCK.title(), x, recording.backbone_omega * f, np.nan_to_num(recording.backbone_omega_sd * f), over),
+        Band("growth rate a′/a, 1/s", x, recording.growth_rate, np.nan_to_num(recording.growth_rate_sd)),
     )
     caption = (
         "Left: fundamental frequency against the amplitude of the fundamental; right: growth rate a′/a, negative in "
     )
-    caption += "a decay. Bands: 95 %."
+    caption += f"a decay. {recording.doubt}." if recording.doubt else "a decay. Bands: 95 %."
     if theory is not None:
         caption += f" {theory.sentence()}"
     return side_by_side(

@@ -8,7 +8,9 @@ from ridgeback.compare.binding.bind import bind
 from ridgeback.compare.recording.backbone_fit import fit_backbone, formula_of
 from ridgeback.compare.recording.recording import compare_recording
 from ridgeback.compare.report.recording_report import recording_report
+from ridgeback.compare.report.recording_summary import recording_cards, recording_sentences, recording_title
 from ridgeback.numeric.motion.trajectory import integrate
+from ridgeback.numeric.recording.recording import Recording
 from ridgeback.symbolic.systems.catalogue import find
 
 RATE = 20.0
@@ -95,3 +97,34 @@ def test_the_report_states_what_was_found(path):
     assert report.identification.best.omega[-1] > report.identification.best.omega[0]
     assert report.summary[0].startswith("What made it: ")
     assert report.noise.trials == 2
+
+
+def beside(other: np.ndarray, seed: int) -> Recording:
+    """A damped oscillation at 20 Hz with another motion beside it, in a little noise."""
+    t = np.arange(1200) / 400.0
+    noise = 0.01 * np.random.default_rng(seed).normal(size=t.size)
+    return Recording.from_arrays(np.exp(-0.4 * t) * np.cos(40 * np.pi * t) + other + noise, 400.0)
+
+
+def test_the_backbone_of_a_report_is_that_of_one_mode_and_its_growth_rate_holds() -> None:
+    t = np.arange(1200) / 400.0
+    found = compare_recording(
+        beside(0.4 * np.exp(-0.5 * t) * np.cos(43.2 * np.pi * t), 1), methods=("harmonic-least-squares",)
+    )
+    assert found.doubt == ""
+    assert abs(found.amplitude[0] - np.exp(-0.4 * found.amplitude_time[0])) < 0.02
+    assert np.mean(np.abs(found.growth_rate + 0.4) < 3.0 * found.growth_rate_sd) > 0.8
+    assert np.median(found.growth_rate_sd) < 0.01
+
+
+def test_a_report_claims_no_uncertainty_where_no_model_of_one_oscillation_holds_and_says_so_first() -> None:
+    t = np.arange(1200) / 400.0
+    blow = np.where(t < 1.5, 0.0, 0.8 * np.exp(-0.4 * (t - 1.5)) * np.sin(40 * np.pi * t))
+    found = compare_recording(beside(blow, 2), methods=("harmonic-least-squares",))
+    assert found.doubt.startswith("No uncertainty is claimed: ")
+    assert np.isnan(found.backbone_omega_sd).all()
+    assert np.isnan(found.growth_rate_sd).all()
+    assert recording_sentences(found, None)[0] == f"{found.doubt}."
+    assert recording_title(found).endswith("no uncertainty is claimed")
+    shown = [value for card in recording_cards(found) for _, value in card.rows]
+    assert not any("±" in value or "nan" in value for value in shown)
