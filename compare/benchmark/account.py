@@ -33,7 +33,7 @@ class Account(Brief):
         if self.energy is not None:
             yield energy_sentence(self.energy)
         yield self.components.headline()
-        yield folded_sentence(self.folding, lambda omega: frequency(omega, self.time_unit))
+        yield folded_sentence(self.folding, lambda omega: frequency(omega, self.time_unit), self.time_unit)
 
     def to_dict(self) -> dict[str, object]:
         """The energy at the start, what of it is lost and how the balance closes; components by cycle; folding."""

@@ -164,7 +164,7 @@ def _derivative(e: Evidence) -> Statement:
         figure=3,
         title="Time-frequency plane of the derivative",
         paper="The higher harmonics stand out more, by the factor ω² in the power spectrum; two are aliased.",
-        measured=(f"{raised}{folded_sentence(folding_of(e.motion, v), e.hertz)}"),
+        measured=(f"{raised}{folded_sentence(folding_of(e.motion, v), e.hertz, e.motion.setting.time_unit)}"),
     )
 
 

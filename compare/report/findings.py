@@ -133,7 +133,9 @@ def _about_start(decay: MotionComparison, derived: Derived | None, start: float)
 def _about_sampling(decay: MotionComparison) -> Iterator[Finding]:
     """The paper's footnote 3: which multiples this rate folds back."""
     if decay.folding.folded:
-        yield Finding(1, folded_sentence(decay.folding, lambda omega: frequency(omega, decay.case.time_unit)))
+        yield Finding(
+            1, folded_sentence(decay.folding, lambda w: frequency(w, decay.case.time_unit), decay.case.time_unit)
+        )
 
 
 def _from_contenders(found: Benchmark) -> Iterator[Finding]:

@@ -24,6 +24,12 @@ APART, CLEAR_DB = 0.35, 3.0
 """A multiple is a ridge where its level is so much above that this share of the fundamental away, on both sides."""
 SEEN = 0.5
 """Pixels from which on a distance of ridge and reference is worth enlarging."""
+FOLDED = "rd d2 nf"
+"""Style of a line of a folded multiple."""
+PLACES = np.linspace(0.05, 0.95, 19)
+"""Shares of a folded line at which its name may stand."""
+WIDE, HIGH, ABOVE, CLEAR, MARGIN = 92.0, 14.0, 7.0, 16.0, 34.0
+"""Pixels: what such a name takes, how far it is above its line and from others, what names at the right take."""
 MOST = 7
 """Highest multiple of the fundamental that is marked."""
 
@@ -110,7 +116,8 @@ def _folded(decay: MotionComparison) -> str:
     """Which multiples the sampling folds, and which rates would fold the two highest alone."""
     if not decay.folding.folded:
         return ""
-    said = folded_sentence(decay.folding, lambda omega: frequency(omega, decay.case.time_unit))
+    unit = decay.case.time_unit
+    said = folded_sentence(decay.folding, lambda omega: frequency(omega, unit), unit)
     return f" Dashed: multiples beyond half the sampling rate, where they are folded back to. {said}"
 
 
@@ -181,21 +188,24 @@ def level_plane(
     )
     plane = rect(*box, "bgf") + rect(*box, "b5 img", _masked(f"{key}-m"))
     moving, names = [f'<g clip-path="url(#{key}-c)">{plane}</g>'], []
+    taken: list[tuple[float, float]] = []
     if reference is not None:
         x = panel.x.of(reference.time)
         inside = (reference.time >= image.time[0]) & (reference.time <= image.time[-1])
         lines = [(m * shown(reference), f"{m} ω₀" if m > 1 else "ω₀", "rd nf") for m in multiples]
         if folding is not None:
-            lines += [
-                (folded(m * shown(reference), folding.rate), f"{m} ω₀, folded", "rd d2 nf") for m in folding.folded
-            ]
-        for omega, words, style in lines:
-            y = np.where(inside, panel.y.of(omega * clock.factor), np.nan)
-            y = np.where(y >= panel.top, y, np.nan)
+            lines += [(folded(m * shown(reference), folding.rate), f"{m} ω₀, folded", FOLDED) for m in folding.folded]
+        drawn = [np.where(inside, panel.y.of(omega * clock.factor), np.nan) for omega, _, _ in lines]
+        for (_, words, style), whole in zip(lines, drawn, strict=True):
+            y = np.where(whole >= panel.top, whole, np.nan)
             if np.isfinite(y).any():
                 moving.append(curve(x, y, style))
                 last = int(np.flatnonzero(np.isfinite(y))[-1])
-                names.append(_name_of(words, x, y, last))
+                if style == FOLDED:
+                    taken.append(_free_place(x, y, panel, [other for other in drawn if other is not whole], taken))
+                    names.append(text(*taken[-1], words, "e b sm", "middle"))
+                else:
+                    names.append(_name_of(words, x, y, last))
     marks += [panel.zooming(moving), group(names, "halo nz")]
     marks += _axes(panel, clock, image.name) + _bar(
         f"{key}-g", [(v, decibels(v)) for v in np.linspace(image.floor_db, 0, 5)], image.floor_db, 0.0, "of the maximum"
@@ -204,14 +214,30 @@ def level_plane(
 
 
 def _name_of(words: str, x: Array, y: Array, last: int) -> str:
-    """The name of a line: at its end, or that of a folded one, which may end anywhere, over its middle."""
-    if "folded" in words:
-        seen = np.flatnonzero(np.isfinite(y))
-        middle = int(seen[seen.size // 3])
-        return text(float(x[middle]), float(y[middle]) - 7, words, "e b sm", "middle")
+    """The name of a line, at its end."""
     beside = float(x[last]) < SIZE[0] - 40
     at = (float(x[last]) + (3 if beside else -4), float(y[last]) + (4 if beside else -8))
     return text(*at, words, "e b sm", "start" if beside else "end")
+
+
+def _free_place(
+    x: Array, y: Array, panel: Panel, others: Sequence[Array], taken: Sequence[tuple[float, float]]
+) -> tuple[float, float]:
+    """Where the name of a folded line stands: above it, within the panel, clear of other lines and of such names."""
+    seen = np.flatnonzero(np.isfinite(y))
+    spots = [(float(x[i]), float(y[i]) - ABOVE) for i in seen[(PLACES * (seen.size - 1)).astype(int)]]
+    left, right = panel.left + WIDE / 2, panel.right - WIDE / 2 - MARGIN
+
+    def clearance(spot: tuple[float, float]) -> float:
+        """Pixels to the nearest other line, at most ``CLEAR``; less outside the panel and on another name."""
+        near = np.abs(x - spot[0]) < WIDE / 2
+        lines = [np.abs(other[near] - spot[1] + HIGH / 3) for other in others]
+        nearest = min((float(np.nanmin(d)) for d in lines if np.isfinite(d).any()), default=CLEAR)
+        inside = spot[1] > panel.top + HIGH and left < spot[0] < right
+        apart = all(abs(spot[0] - a) > WIDE or abs(spot[1] - b) > HIGH for a, b in taken)
+        return min(nearest, CLEAR) - CLEAR * ((not inside) + (not apart))
+
+    return max(spots, key=clearance)
 
 
 def signed_plane(

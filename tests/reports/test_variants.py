@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from importlib.metadata import EntryPoint
+from itertools import combinations
 from types import SimpleNamespace
 from typing import Any
 
@@ -135,6 +137,20 @@ def test_folded_multiples_are_dashed_and_said(decay: MotionComparison) -> None:
     assert "Dashed: multiples beyond half the sampling rate" in folded.caption
     assert "folded" in folded.wide
     assert "Dashed: multiples" not in planes(decay).caption
+
+
+def test_names_of_folded_multiples_stand_in_the_panel_clear_of_each_other_and_of_the_title(
+    decay: MotionComparison,
+) -> None:
+    top = float(np.nanmax(decay.reference.omega)) / (2 * np.pi)
+    several = folding((3, 5, 7, 9, 11), top, 7.0 * top)
+    drawn = planes(replace(decay, folding=several)).wide
+    found = re.findall(r'x="([-\d.]+)" y="([-\d.]+)"[^>]*>(\d+) ω₀, folded<', drawn)
+    places = {int(m): (float(x), float(y)) for x, y, m in found}
+    assert set(places) == {5, 7, 9, 11}
+    assert all(28.0 < y < 286.0 for _, y in places.values())
+    for (x0, y0), (x1, y1) in combinations(places.values(), 2):
+        assert abs(x0 - x1) > 80.0 or abs(y0 - y1) > 12.0
 
 
 def test_a_ridge_that_is_nowhere_valid_has_no_enlargement(decay: MotionComparison) -> None:

@@ -62,7 +62,7 @@ def folded(omega: Array, rate: float) -> Array:
     return np.asarray(np.abs(omega - sampled * np.round(omega / sampled)))
 
 
-def folded_sentence(found: Folding, hertz: Callable[[float], str]) -> str:
+def folded_sentence(found: Folding, hertz: Callable[[float], str], time_unit: str = "") -> str:
     """Which multiples of the derivative this sampling folds, and which rates fold the two highest alone."""
     nyquist, top = hertz(np.pi * found.rate), max(found.whole, default=1)
     names = [numbers_text(m) for m in (found.folded, found.whole)]
@@ -77,7 +77,7 @@ def folded_sentence(found: Folding, hertz: Callable[[float], str]) -> str:
         return said
     low, high = (f"{end:.3g}" for end in found.two_fold)
     pair = numbers_text(tuple(sorted((*found.folded, *found.whole))[-2:]))
-    return f"{said} Sampling rates between {low} and {high} per time unit fold {pair} alone."
+    return f"{said} Sampling rates between {low} and {high} per {time_unit or 'time unit'} fold {pair} alone."
 
 
 def numbers_text(numbers: tuple[int, ...]) -> str:
