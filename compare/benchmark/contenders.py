@@ -182,6 +182,9 @@ class Verdict(Brief):
             )
         more = max(self.ratio, 1.0 / self.ratio)
         times = two_digits(more) if more < 1e5 else scientific(more)
+        if min(self.best.relative_rms_error or 0.0, self.rival.relative_rms_error or 0.0) < reference.floor:
+            times = f"at least {times}"
+            rival = f"{rival}, as far as omega0(t) itself is known: it is open by {relative(reference.floor)}"
         return f"{head}, {times} times {'less' if self.ratio > 1.0 else 'more'} than {rival}"
 
 

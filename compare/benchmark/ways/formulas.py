@@ -149,7 +149,7 @@ def fits(motion: Motion, rest: Oscillator, at: At) -> Iterator[Tried]:
 def fitted(rest: Oscillator, dynamics: Dynamics, largest: Fraction, degree: int) -> Fit:
     """The minimax fit of a degree; InputError where proving one would take minutes, or there is none."""
     if not is_smooth(dynamics, float(largest)):
-        raise InputError("the exact omega0 is not smooth enough over these amplitudes for a proved fit")
+        raise InputError("the exact omega0 is not smooth enough in A^2 over these amplitudes for a proved fit")
     return minimax(rest, largest, degree=degree)
 
 

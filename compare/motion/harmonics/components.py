@@ -5,7 +5,9 @@ Hann window, which is blind to every other multiple,
 
     c_m = 2 <w u exp(-i m phi)>,    a_m = Re(c_m exp(-i m arg c_1)),
 
-so that a_1 > 0 and a_m has the sign that it has when phi is counted from the peak of the fundamental.
+so that a_1 > 0 and a_m has the sign that it has when phi is counted from the peak of the fundamental.  The window sees
+a fundamental whose amplitude changes at other multiples, too: what it leaves there of a_1(t) cos(phi) alone is the
+floor of each, below which a component is not seen.
 """
 
 from __future__ import annotations
@@ -14,6 +16,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import make_interp_spline
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import relative
@@ -21,9 +25,10 @@ from ridgeback.common.show.displayed import Displayed
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.motion.harmonics.order_analysis import POINTS_PER_CYCLE, phase_clock
 from ridgeback.compare.motion.motion import Motion
-from ridgeback.numeric.arrays import Array, as_rows, freeze
+from ridgeback.numeric.arrays import Array, Mask, as_rows, freeze
 from ridgeback.numeric.orbits.waveform import orbit_harmonics
 
+Complex = NDArray[np.complex128]
 COUNT = 9
 MOST = POINTS_PER_CYCLE // 2 - 2
 REACH = 2
@@ -31,6 +36,10 @@ REACH = 2
 SHOWN = 6
 LEAST = 1e-3
 """Share of the fundamental below which the model is not held against what was measured."""
+SEEN = 10.0
+"""Times its floor from which on a component is seen."""
+ROUNDING = 1e-12
+"""Share of the fundamental that the floor is at least."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -49,6 +58,8 @@ class Components(Displayed):
         a_m(t) of the multiples m = 1 .. M, in the unit of u, as measured.
     model : array of float, shape (M, N), or None
         The same of the undamped orbit at the averaged action; None without a potential.
+    floor : array of float, shape (M, N)
+        What the analysis leaves at each multiple of the fundamental alone.
 
     Examples
     --------
@@ -65,16 +76,22 @@ class Components(Displayed):
     offset: Array
     amplitude: Array
     model: Array | None
+    floor: Array
 
     def __post_init__(self) -> None:
         freeze(self)
 
     @property
+    def seen(self) -> Mask:
+        """Which of the values stand clear of their floor."""
+        return np.asarray(np.abs(self.amplitude) > SEEN * self.floor)
+
+    @property
     def model_error(self) -> float | None:
-        """Largest relative difference of model and measurement, over multiples that hold a share; None without one."""
+        """Largest relative difference of model and measurement, where seen and more than a share; None without one."""
         if self.model is None:
             return None
-        held = np.abs(self.amplitude) > LEAST * self.amplitude[0]
+        held = self.seen & (np.abs(self.amplitude) > LEAST * self.amplitude[0])
         return float(np.abs(self.model[held] / self.amplitude[held] - 1.0).max())
 
     def rows(self) -> list[dict[str, float]]:
@@ -90,16 +107,24 @@ class Components(Displayed):
             "multiple": multiple,
             "amplitude": measured.ravel(),
             "orbit_amplitude": model.ravel(),
+            "floor": np.vstack((np.full((1, self.time.size), np.nan), self.floor)).ravel(),
         }
         return as_rows(columns)
 
     def headline(self) -> str:
         """The strongest components at both ends, and how the undamped orbit has them."""
-        strong = sorted(np.argsort(-np.abs(self.amplitude).max(axis=1))[:3])
-        parts = [f"a_{m + 1} from {self.amplitude[m, 0]:.4g} to {self.amplitude[m, -1]:.4g}" for m in strong]
+        size = np.where(self.seen, np.abs(self.amplitude), 0.0).max(axis=1)
+        strong = sorted(m for m in np.argsort(-size)[:3] if size[m] > 0.0)
+        parts = [f"a_{m + 1} from {self._value(m, 0)} to {self._value(m, -1)}" for m in strong]
         off = self.model_error
         model = "" if off is None else f"; the undamped orbit has them within {relative(off)} of their size"
         return f"{self.name}, components of (7): {', '.join(parts)}{model}"
+
+    def _value(self, m: int, at: int) -> str:
+        """A component at one time, or what it is below."""
+        if self.seen[m, at]:
+            return f"{self.amplitude[m, at]:.4g}"
+        return f"below {max(abs(self.amplitude[m, at]), SEEN * self.floor[m, at]):.2g}"
 
     def picture(self) -> Picture:
         """Magnitudes over time, logarithmic; dashed those of the undamped orbit."""
@@ -140,9 +165,21 @@ def components(motion: Motion, *, count: int = COUNT) -> Components:
     found = (u * window) @ waves.T
     turned = 2.0 * found * np.exp(-1j * np.outer(np.angle(found[:, 1]), np.arange(count + 1)))
     time = motion.rising[centre]
+    left = 2.0 * np.abs((_fundamental(found[:, 1], centre, phase) * window) @ waves.T)
+    left[:, 1] = 0.0
+    floor = left[:, 1:] + ROUNDING * np.abs(turned[:, 1:2])
     return Components(
-        motion.dynamics.name, time, found[:, 0].real, turned[:, 1:].real.T, _undamped(motion, time, count)
+        motion.dynamics.name, time, found[:, 0].real, turned[:, 1:].real.T, _undamped(motion, time, count), floor.T
     )
+
+
+def _fundamental(c: Complex, centre: Array, phase: Array) -> Array:
+    """2 Re(c exp(2 pi i phase)) with ln c between and beyond the cycles by a spline."""
+    size, turn = np.log(np.abs(c)), np.unwrap(np.angle(c))
+    if centre.size < 2:
+        return np.asarray(2.0 * np.abs(c) * np.cos(2.0 * np.pi * phase + turn))
+    slow = [make_interp_spline(centre, values, k=min(3, centre.size - 1))(phase) for values in (size, turn)]
+    return np.asarray(2.0 * np.exp(slow[0]) * np.cos(2.0 * np.pi * phase + slow[1]))
 
 
 def _undamped(motion: Motion, time: Array, count: int) -> Array | None:

@@ -35,6 +35,18 @@ def test_a_decay_keeps_the_harmonics_of_its_amplitude_to_first_order_in_the_damp
     assert errors[1] < 0.2 * errors[0] < 0.02
 
 
+@pytest.mark.parametrize(("mu", "seen"), [("0.05", [1, 3, 5]), ("0.3", [1])])
+def test_what_a_decay_leaks_into_other_multiples_is_no_component(mu: str, seen: list[int]) -> None:
+    """An odd force has odd multiples only: what the window finds at the even ones is within its floor."""
+    damped = find("damped-pendulum").with_parameters({"k": 3, "mu": mu})
+    found = components(integrate_motion(setting(damped, initial=(2.0, 0.0), duration=30.0), digits=None))
+    even = np.s_[1::2]
+    assert (np.abs(found.amplitude[even]) < 4 * found.floor[even]).all()
+    assert [m + 1 for m in range(9) if found.seen[m].any()][: len(seen)] == seen
+    assert "a_2" not in found.headline()
+    assert ("a_3" in found.headline()) == (3 in seen)
+
+
 def test_the_velocity_of_rayleigh_has_the_components_of_van_der_pol_and_no_model_is_claimed() -> None:
     found = components(integrate_motion(setting(find("van-der-pol"), initial=(2.0, 0.0), duration=120.0), digits=None))
     # u = 2 cos(t) - (eps/4) sin(3 t) + ...: the third harmonic is a sine, its cosine of second order
