@@ -71,10 +71,13 @@ def flat(row: Contender) -> Row:
 
 def readable(found: Benchmark) -> str:
     """The table of what is ranked, best first, then what is not, the crossings and the verdict."""
+    from ridgeback.compare.report.naming import parameters_line
+
     ranked = sorted(merged(found), key=lambda r: r[0].relative_rms_error or 0.0)
     begin, end = (number(x) for x in found.support)
     parts = [
         f"{found.case.title}: {found.case.equation}",
+        parameters_line(found.case),
         f"errors relative to the {found.reference.label}, over t = {begin} to {end}; it is open by "
         f"{relative(found.reference.floor)}",
         "",

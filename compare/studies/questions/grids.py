@@ -42,7 +42,7 @@ class Grid:
 
     def who(self) -> dict[str, str]:
         """The first columns of a row about it."""
-        return {"oscillator": self.system.name, "parameters": parameters_text(self.system), "method": self.method}
+        return {"oscillator": self.system.name, "parameters": backbone_text(self.system), "method": self.method}
 
 
 def grids(blocks: Iterable[Finished]) -> Iterator[Grid]:
@@ -104,6 +104,16 @@ def parameters_text(system: System) -> str:
     'mu = 0.01, k = 1'
     """
     return ", ".join(f"{name} = {value:.6g}" for name, value in system.numbers().items())
+
+
+def backbone_text(system: System) -> str:
+    """The same beside amplitudes: the small parameter of a limit cycle is left out, which these are values of.
+
+    >>> backbone_text(System("van-der-pol", "van-der-pol"))
+    'k = 1'
+    """
+    small = system.oscillator().small
+    return ", ".join(f"{name} = {value:.6g}" for name, value in system.numbers().items() if name != small)
 
 
 def thinned(count: int) -> Array:

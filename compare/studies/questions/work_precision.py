@@ -11,7 +11,7 @@ from ridgeback.common.numbers import relative
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, parameters_text
+from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, backbone_text
 from ridgeback.compare.studies.tasks import Column, Finished
 
 COLUMNS = (
@@ -43,7 +43,7 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
     failed = 0
     for block in blocks:
         failed += block.failures
-        who = {"oscillator": block.task.system.name, "parameters": parameters_text(block.task.system)}
+        who = {"oscillator": block.task.system.name, "parameters": backbone_text(block.task.system)}
         for (method, order), outcome in block.rows():
             if isinstance(outcome, tuple):
                 time, largest, _, count = outcome
