@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ridgeback.common.numbers import NONE, number, scientific
+from ridgeback.common.numbers import NONE, how_many, number, scientific
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.report.several.answered import Answered
 from ridgeback.compare.studies.answer import Answer
@@ -37,7 +37,7 @@ def study_sections(report: Report) -> Iterator[Section]:
     found = report.answered
     if found is None:
         return
-    yield Section("systems", "Oscillators", f"{len(found.subjects)} oscillators", (_subjects(found),))
+    yield Section("systems", "Oscillators", how_many(len(found.subjects), "oscillator"), (_subjects(found),))
     for i, answer in enumerate(found.answers):
         yield _answer(answer, first=i == 0, panels=bool(found.panels))
     if found.failures:

@@ -10,6 +10,8 @@ from ridgeback.common.numbers import relative
 from ridgeback.compare.benchmark.contenders import WAYS, Reference, Row, Verdict, Way
 from ridgeback.compare.benchmark.crossings import SOURCES, expansions, passing
 
+TOLD: Final = 1.05
+"""Ratio of two errors, both no less than the floor, from which on they are told apart."""
 YARDSTICKS: Final = ("closed-form", "averaged")
 """What the best way is held against where no other way could be ranked."""
 
@@ -30,7 +32,7 @@ def judge(rows: Sequence[Row], reference: Reference) -> Verdict:
         rival_way=others[0] if others else None,
         rival=rival,
         ratio=ratio,
-        decided=ratio is not None and ratio != 1.0,
+        decided=ratio is not None and max(ratio, 1.0 / ratio) >= TOLD,
         limit="; ".join((_limit(known[first]), *_ends(known[first], known.get("estimates"), rows, reference))),
     )
 

@@ -21,6 +21,8 @@ STYLES = tuple(f"{way}l {dash} nf".replace("  ", " ") for dash in ("", "d1", "d2
 WIDE_SPAN = 30.0
 """Ratio of largest to smallest from which on an axis of positive values goes by decades."""
 LEAST = 1e-17
+MOST_NAMES = 430.0
+"""Pixels that names at the side take at most."""
 FEW_DECADES = 3
 
 
@@ -127,7 +129,7 @@ def answer_figure(key: str, picture: Picture, caption: str = "", table: str = ""
         return None
     axes = axes_of([picture])
     names = max((text_width(stroke.label) for stroke in picture.strokes), default=0.0) + 34
-    wide = _panel(axes, 70.0, WIDE - min(names, 330.0) - 10, 30.0, 300.0)
+    wide = _panel(axes, 70.0, WIDE - min(names, MOST_NAMES) - 10, 30.0, 300.0)
     narrow = _panel(axes, 52.0, 356.0, 30.0, 250.0)
     label = f"{picture.y_label} against {picture.x_label}"
     series = [Series(stroke.label, floats(stroke.x), floats(stroke.y)) for stroke in picture.strokes]

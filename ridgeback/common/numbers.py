@@ -200,6 +200,15 @@ def uncertain(value: float | None, deviation: float | None, *, plain: bool = Fal
     return f"({text})e{exponent}" if plain else f"({text}) × {power_of_ten(exponent)}"
 
 
+def how_many(count: int, thing: str) -> str:
+    """How many there are of something.
+
+    >>> how_many(1, "oscillator"), how_many(5, "oscillator")
+    ('1 oscillator', '5 oscillators')
+    """
+    return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
 def listing(items: Sequence[str]) -> str:
     """Names joined as a sentence does.
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ridgeback.common.csv_text import csv_text
 from ridgeback.common.errors import InputError
-from ridgeback.common.numbers import listing, number, per_cent
+from ridgeback.common.numbers import how_many, listing, number, per_cent
 from ridgeback.common.progress import Progress, silent
 from ridgeback.common.quantities import symbol
 from ridgeback.common.show.picture import Picture
@@ -116,7 +116,7 @@ def _panels(plan: Plan, kept: Store) -> Iterator[Picture]:
 
 def study_title(found: StudyResult) -> str:
     """The finding of the first question: how the highest order errs on the best and on the worst oscillator."""
-    name = found.plan.title or f"{len(found.plan.subjects)} oscillators"
+    name = found.plan.title or how_many(len(found.plan.subjects), "oscillator")
     first = found.answers[0]
     verdict = _spread(first) if first.question == "error" else ""
     return f"{name}: {verdict or (first.sentences[0] if first.sentences else first.title)}"
@@ -138,7 +138,7 @@ def _spread(answer: Answer) -> str:
 def study_lead(found: StudyResult) -> str:
     """How large the study is, and what was asked."""
     count = len(found.plan.subjects)
-    text = f"{found.cells} cells over {count} oscillator{'s' if count != 1 else ''}; asked: {listing(found.plan.ask)}."
+    text = f"{found.cells} cells over {how_many(count, 'oscillator')}; asked: {listing(found.plan.ask)}."
     lost = f" {found.failed} cells have no value; the reasons are below." if found.failed else ""
     failed = [answer.question for answer in found.answers if answer.passed is False]
     return text + lost + (f" Not all that was tested holds: {listing(failed)}." if failed else "")

@@ -17,7 +17,6 @@ from typing import Any
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions.grids import SHOWN_STROKES
 from ridgeback.compare.studies.questions.motions import Pooled, pooled
 from ridgeback.compare.studies.tasks import Column, Finished
 
@@ -35,6 +34,10 @@ COLUMNS = (
 )
 CLEAN = math.inf
 SIGMAS = 2.0
+DRAWN = ("amplitude", "order", "snr_db")
+"""Axes that the figure shows."""
+SHOWN = 12
+"""Most curves in the figure."""
 Place = Mapping[str, float]
 
 
@@ -188,16 +191,30 @@ def pair_of(item: Duel) -> tuple[str, str, str]:
 
 
 def drawing(found: Sequence[Crossing], title: str) -> Picture:
-    """The order at which an expansion overtakes an estimate, over the amplitude, a curve for each pair and noise."""
-    lines: dict[str, list[tuple[float, float]]] = {}
-    for crossing in found:
-        if crossing.axis == "order" and crossing.after.ratio < 0:
-            one = crossing.after
-            noise = one.place["snr_db"]
-            label = f"{one.system}, {one.expansion}, {one.estimate}" + ("" if noise == CLEAN else f", {noise:g} dB")
-            lines.setdefault(label, []).append((one.place["amplitude"], one.place["order"]))
+    """The order from which an expansion stays ahead of an estimate, over the amplitude, by pair and noise.
+
+    Damping, length and other parameters stand at the first of their values, which the title says.
+    """
+    overtaken = [crossing.after for crossing in found if crossing.axis == "order" and crossing.after.ratio < 0]
+    first = {name: value for name, value in overtaken[0].place.items() if name not in DRAWN} if overtaken else {}
+    shown = [one for one in overtaken if all(one.place.get(name) == value for name, value in first.items())]
+    several = len({one.system for one in shown}) > 1
+    lines: dict[str, dict[float, float]] = {}
+    for one in shown:
+        line = lines.setdefault(label_of(one, named=several), {})
+        amplitude, order = one.place["amplitude"], one.place["order"]
+        line[amplitude] = max(order, line.get(amplitude, order))
     strokes = tuple(
-        Stroke([x for x, _ in sorted(points)], [y for _, y in sorted(points)], label, dots=len(points) == 1)
-        for label, points in list(lines.items())[:SHOWN_STROKES]
+        Stroke(sorted(line), [line[x] for x in sorted(line)], label, dots=len(line) == 1)
+        for label, line in list(lines.items())[:SHOWN]
     )
-    return Picture(title or "crossings", "amplitude", "order from which the expansion errs less", strokes)
+    at = ", ".join(f"{name} = {value:.6g}" for name, value in first.items())
+    name = ": ".join(part for part in (title or "crossings", at) if part)
+    return Picture(name, "amplitude", "order from which the expansion errs less", strokes)
+
+
+def label_of(one: Duel, *, named: bool) -> str:
+    """Which pair, in which noise."""
+    noise = one.place["snr_db"]
+    parts = (one.system if named else "", one.expansion, one.estimate, "" if noise == CLEAN else f"{noise:g} dB")
+    return ", ".join(part for part in parts if part)

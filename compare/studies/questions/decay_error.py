@@ -10,7 +10,7 @@ from ridgeback.common.numbers import relative
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, parameters_text
+from ridgeback.compare.studies.questions.grids import parameters_text
 from ridgeback.compare.studies.questions.motions import FLOOR, METHOD, WHERE, Pooled, of_motions
 from ridgeback.compare.studies.tasks import Column, Finished
 
@@ -24,6 +24,10 @@ COLUMNS = (
     Column("coverage", "1", "least share of the interior that has a value"),
     FLOOR,
 )
+
+
+SHOWN = 16
+"""Most curves in the figure."""
 
 
 def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
@@ -84,4 +88,4 @@ def drawing(rows: Sequence[Pooled], title: str) -> Picture:
         y = [mine[0].rms or 0.0] * len(orders) if mine[0].order is None else [row.rms or 0.0 for row in mine]
         strokes.append(Stroke(x, y, method, dashed=mine[0].order is None, dots=False))
     name = f"{first[0].system.name} from {first[0].amplitude:.4g}" if first else title
-    return Picture(name, "order", "relative error of omega0(t), rms", tuple(strokes[:SHOWN_STROKES]), None, True)
+    return Picture(name, "order", "relative error of omega0(t), rms", tuple(strokes[:SHOWN]), None, True)

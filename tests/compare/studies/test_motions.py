@@ -169,6 +169,21 @@ def test_crossings_lie_where_the_ratio_is_zero(ratios: tuple[float, ...], expect
     assert [crossing.at for crossing in crossings_along(duels, "order")] == pytest.approx(expected)
 
 
+def test_the_figure_of_crossings_has_one_order_for_each_amplitude_pair_and_noise() -> None:
+    """Other axes stand at the first of their values, which the title says; the last overtaking counts."""
+    ratios = {1.0: (1.0, -1.0, 1.0, -1.0), 2.0: (1.0, 1.0, 1.0, -1.0)}
+    duels = [
+        Duel("s", {"amplitude": a, "duration": d, "snr_db": n, "mu": 0.1, "order": float(i)}, "e", "w", r, True)
+        for a, line in ratios.items()
+        for d, n in itertools.product((20.0, 40.0), (math.inf, 20.0))
+        for i, r in enumerate(line, start=1)
+    ]
+    picture = crossings.drawing(list(crossings_along(duels, "order")), "mine")
+    assert picture.title == "mine: duration = 20, mu = 0.1"
+    assert [stroke.label for stroke in picture.strokes] == ["e, w", "e, w, 20 dB"]
+    assert all((list(stroke.x), list(stroke.y)) == ([1.0, 2.0], [4.0, 4.0]) for stroke in picture.strokes)
+
+
 def test_a_study_of_motions_resumes_to_the_same_bytes(tmp_path: Path) -> None:
     from ridgeback.interface.studies import run_study
 
