@@ -155,7 +155,7 @@ def components(motion: Motion, *, count: int = COUNT) -> Components:
     if not 1 <= count <= MOST:
         raise InputError(f"{count} components is outside 1 to {MOST}; use e.g. {COUNT}")
     clock, cycles = phase_clock(motion.rising), motion.rising.size - 1
-    centre = np.arange(REACH, cycles - REACH + 1)
+    centre = np.arange(REACH, cycles - REACH + 1, dtype=float)
     step = np.arange(-REACH * POINTS_PER_CYCLE, REACH * POINTS_PER_CYCLE) / POINTS_PER_CYCLE
     phase = centre[:, None] + step
     u = motion.trajectory.at(clock(phase.ravel()))[0].reshape(phase.shape)
@@ -164,7 +164,7 @@ def components(motion: Motion, *, count: int = COUNT) -> Components:
     waves = np.exp(-2j * np.pi * np.outer(np.arange(count + 1), step))
     found = (u * window) @ waves.T
     turned = 2.0 * found * np.exp(-1j * np.outer(np.angle(found[:, 1]), np.arange(count + 1)))
-    time = motion.rising[centre]
+    time = motion.rising[centre.astype(int)]
     left = 2.0 * np.abs((_fundamental(found[:, 1], centre, phase) * window) @ waves.T)
     left[:, 1] = 0.0
     floor = left[:, 1:] + ROUNDING * np.abs(turned[:, 1:2])
