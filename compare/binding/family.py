@@ -17,6 +17,7 @@ from ridgeback.symbolic.arithmetic.closures import evaluator
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 from ridgeback.symbolic.systems.parameters import symbol_of
+from ridgeback.symbolic.systems.sides import kinks_of
 
 START = 1.0
 """Where a free parameter begins that has no value."""
@@ -53,6 +54,11 @@ def family_of(oscillator: OscillatorLike, free: Sequence[str]) -> Family:
     _check(oscillator, free)
     fixed = {symbol_of(name): value for name, value in oscillator.parameters.items() if name not in free}
     force = oscillator.force.subs(fixed)
+    if any(isinstance(kink, sympy.sign) for kink in kinks_of(force)):
+        raise InputError(
+            f"{oscillator.name}: the force jumps (sign of u' or of a place in u), so a fit has no derivative there; "
+            "model-fit takes forces without jumps, abs, max and min among them"
+        )
     symbols = (U, V, *(symbol_of(name) for name in free))
     scalar, vector = evaluator(force, symbols, SCALAR), evaluator(force, symbols, ARRAY)
     slopes = [evaluator(sympy.diff(force, symbol), symbols, SCALAR) for symbol in symbols]

@@ -175,5 +175,5 @@ def brief(expression: sympy.Expr, limit: int = 60) -> str:
     >>> brief(sympy.Symbol("u") ** 3)
     'u**3'
     """
-    text = str(expression)
+    text = str(expression).replace("Abs(", "abs(")
     return text if len(text) <= limit else text[: limit - 3] + "..."

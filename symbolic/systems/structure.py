@@ -183,6 +183,8 @@ def rewritten(force: sympy.Expr, unknown: str) -> str:
 
     >>> rewritten(4 * U + V / 2, "x")
     "x'' + x'/2 + 4*x = 0"
+    >>> rewritten(U * abs(U), "x")  # in the words of the grammar
+    "x'' + x*abs(x) = 0"
     """
     turned = force.xreplace({U: sympy.Symbol(unknown, real=True), V: sympy.Symbol(unknown + "'", real=True)})
-    return f"{unknown}'' + {sympy.sstr(turned, order='rev-lex')} = 0".replace("+ -", "- ")
+    return f"{unknown}'' + {sympy.sstr(turned, order='rev-lex')} = 0".replace("+ -", "- ").replace("Abs(", "abs(")

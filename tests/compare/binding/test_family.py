@@ -40,3 +40,11 @@ def test_what_is_neither_free_nor_set_is_named() -> None:
     own = Oscillator.from_equation("x'' + x + b*x**3 + c*x**5 = 0")
     with pytest.raises(InputError, match="parameter c has no number"):
         family_of(own, ("b",))
+
+
+def test_a_force_that_jumps_has_no_derivative_and_one_with_a_kink_has() -> None:
+    for name in ("coulomb-damping", "bilinear-stops"):
+        with pytest.raises(InputError, match="the force jumps"):
+            family_of(find(name), tuple(find(name).parameters)[:1])
+    own = Oscillator.from_equation("u'' + u + c*max(u - 1, 0) = 0", parameters={"c": 3})
+    assert family_of(own, ("c",)).partials(2.0, 0.0, (3.0,)) == (4.0, 0.0, 1.0)
