@@ -230,7 +230,7 @@ def _numbers(which: Shown, panel: Panel, rows: Sequence[Row], style: str, *, lef
         if all(abs(x - a) > 20 or abs(y - b) > 12 for a, b in taken):
             taken.append((x, y))
             side = -1 if left else 1
-            crowded = any(0 < side * (a - x) < 32 and abs(b - y) < 10 for a, b, _ in everywhere)
+            crowded = any(0 < side * (a - x) < 32 and abs(b - y) < 5 for a, b, _ in everywhere)
             if crowded:
                 parts.append(text(x, y - 9, str(row.order), style, "middle"))
             else:
@@ -257,9 +257,9 @@ def _families(which: Shown, panel: Panel, line_at: float | None) -> Iterable[str
     own = [x for x, _, _ in _places(which, panel, which.estimates) if math.isfinite(x)]
     for x, y, _ in exact:
         aside = bool(own) and x > min(own) - 30
-        words.append(
-            text(x + (9 if aside else -9), y + 4, "exact ω₀ at A(t) by energy", "s", "start" if aside else "end")
-        )
+        struck = line_at is not None and abs(y - line_at) < 11
+        place = (x + (9 if aside else -9), (line_at or 0.0) + 17 if struck else y + 4)
+        words.append(text(*place, "exact ω₀ at A(t) by energy", "s", "start" if aside else "end"))
     yield group([*s, group(words, "halo")], "fS")
 
 

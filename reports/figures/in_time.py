@@ -164,7 +164,7 @@ def _within(panel: Panel, values: Array) -> Array:
 def _upper_names(
     found: Benchmark, decay: MotionComparison, drawn: Sequence[Drawn], panel: Panel, clock: Clock
 ) -> Iterable[str]:
-    """Names of the reference and of what stands clear of it; curves that coincide are named below only."""
+    """Names of the reference and of what stands clear of it, on the side away from it; the others are named below."""
     reference = shown(decay.reference) * clock.factor
     span = panel.y.high - panel.y.low
     where = int(0.42 * found.time.size)
@@ -179,7 +179,7 @@ def _upper_names(
         if not np.isfinite(values[at]) or not np.isfinite(reference[at]):
             continue
         if abs(values[at] - reference[at]) > 0.09 * span and panel.y.low < values[at] < panel.y.high:
-            y = panel.y(float(values[at])) - 7
+            y = panel.y(float(values[at])) + (-7 if values[at] > reference[at] else 17)
             if all(abs(y - other) > 13 for other in taken):
                 taken.append(y)
                 yield group([text(panel.x(found.time[at]), y, short_name(d.row), STYLE[d.letter])], f"f{d.letter}")
