@@ -66,9 +66,9 @@ def only(found: Benchmark, *kinds: str) -> Benchmark:
 def test_each_family_is_named_in_the_caption_only_where_it_is_drawn(found: Benchmark) -> None:
     whole = accuracy_cost(found, 1e-3).caption
     assert "averaged action, whose own cost" in whole
-    assert "Open: an estimate with the bias" in whole
+    assert "bias of its own track removed" in whole
     raw = replace(found, contenders=tuple(r for r in found.contenders if not r.corrected_by))
-    assert "Open: an estimate" not in accuracy_cost(raw, 1e-3).caption
+    assert "bias of its own track" not in accuracy_cost(raw, 1e-3).caption
     alone = accuracy_cost(only(found, "expansion"), 1e-9)
     assert "target" not in alone.wide
     assert "estimates from" not in alone.wide
