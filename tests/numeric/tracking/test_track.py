@@ -10,7 +10,15 @@ from numpy.polynomial.chebyshev import chebval
 from scipy.fft import hfft
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.distributions.bin_interpolation import DEGREE, derivative_weights, neighbour_weights, neighbours
+from ridgeback.numeric.distributions.bin_interpolation import (
+    DEGREE,
+    HALF,
+    derivative_weights,
+    maximum,
+    neighbour_weights,
+    neighbours,
+    slopes_around,
+)
 from ridgeback.numeric.distributions.lag_kernel import LagKernel
 from ridgeback.numeric.distributions.ridge import follow, highest
 from ridgeback.numeric.distributions.short_time import ShortTimeKernel
@@ -80,6 +88,13 @@ def test_refinement_finds_the_maximum_between_the_bins() -> None:
     turned = column * m * np.exp(-2j * ridge.omega[50] * m / rate)
     slope, bend = 2 / rate * 2 * turned.imag.sum(), -((2 / rate) ** 2) * 2 * (m * turned).real.sum()
     assert abs(slope / bend) < 1e-10
+
+
+@pytest.mark.parametrize(("place", "found"), [(5.0, 1.0), (-5.0, -1.0), (0.9, 0.9)])
+def test_a_maximum_is_sought_within_a_bin_of_the_highest_one(place: float, found: float) -> None:
+    """Further out the polynomial holds for nothing: a spectrum that rises past the next bin is followed up to it."""
+    around = np.cos(0.2 * (np.arange(-HALF, HALF + 1.0) - place))[None]
+    assert maximum(slopes_around(around), np.zeros(1))[0] == pytest.approx(found, abs=1e-9)
 
 
 @given(st.integers(0, 200))

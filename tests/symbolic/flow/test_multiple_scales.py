@@ -645,6 +645,23 @@ def test_a_flow_of_higher_degree_has_no_closed_form_but_steps() -> None:
     assert coarse.phase[1] == pytest.approx(fine.phase[-1], abs=1e-11)
 
 
+@pytest.mark.parametrize("eps", [-1e-6, -0.1, 0.1, 1e-6])
+@pytest.mark.parametrize("start", [0.01, 0.5, 1.99])
+def test_a_transient_of_any_speed_is_bernoullis(eps: float, start: float) -> None:
+    """a' = eps a (1 - a^2/4)/2: a^2/(4 - a^2) grows as exp(eps t), at rest and next to the cycle as well."""
+    flow, time = multiple_scales(find("van-der-pol"), 4), 2 / abs(eps)
+    found = transient(flow, [0.0, time], [eps], amplitude=start)
+    grown = start**2 / (4 - start**2) * math.exp(eps * time)
+    assert found.amplitude[1] == pytest.approx(math.sqrt(4 * grown / (1 + grown)), rel=1e-11)
+    assert found.phase[1] == pytest.approx((1 - eps**2 / 8) * time, rel=1e-11)
+
+
+def test_without_damping_a_transient_keeps_its_amplitude() -> None:
+    found = transient(multiple_scales(find("damped-pendulum"), 2), [0.0, 10.0], [0.0], amplitude=0.5)
+    assert found.amplitude == (0.5, 0.5)
+    assert found.phase[1] == pytest.approx(10.0 * (1 - 0.5**2 / 16), rel=1e-15)
+
+
 def test_bad_transients_are_refused() -> None:
     flow = multiple_scales(make("u'' + u + u'**3 - u'**5 = 0"), 4)
     with pytest.raises(InputError, match="runs away"):
