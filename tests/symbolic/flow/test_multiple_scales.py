@@ -628,11 +628,14 @@ def test_closed_forms_solve_the_slow_flow_and_meet_the_taylor_steps(name: str) -
         assert abs((amplitude.diff(TIME).subs(TIME, t) - rate[0]).evalf(40)) < 1e-35
         assert abs((phase.diff(TIME).subs(TIME, t) - rate[1]).evalf(40)) < 1e-35
     assert (amplitude.subs(TIME, 0), sympy.simplify(phase.subs(TIME, 0))) == (R(4, 5), R(1, 3))
-    times = [0.0, 3.0, 8.5, 50.0]
-    steps = transient(flow, times, [0.1] * len(small), amplitude=0.8, phase=1 / 3)
-    for t, size, angle in zip(times, steps.amplitude, steps.phase, strict=True):
-        assert size == pytest.approx(float(amplitude.subs(TIME, R(t)).evalf(30)), rel=1e-12)
-        assert angle == pytest.approx(float(phase.subs(TIME, R(t)).evalf(30)), abs=1e-11)
+    for part, first in ((0.1, 0.8), (1e-6, 0.03)):  # weak damping takes its time and is no smaller against the rest
+        numbers = {START: R(first), PHASE: R(1, 3), **{symbol(n): R(part) for n in flow.small_parameters}}
+        times = [0.0, *(t * 0.1 / part for t in (3.0, 8.5, 50.0, 600.0))]
+        steps = transient(flow, times, [part] * len(small), amplitude=first, phase=1 / 3)
+        for t, size, angle in zip(times, steps.amplitude, steps.phase, strict=True):
+            now = {**numbers, TIME: R(t)}
+            assert size == pytest.approx(float(found.amplitude.subs(now).evalf(30)), rel=1e-11)
+            assert angle == pytest.approx(float(found.phase.subs(now).evalf(30)), rel=1e-12, abs=1e-11)
     assert all(text.startswith(start) for text, start in zip(found.latex(), ("a(t) =", r"\varphi(t) ="), strict=True))
 
 
