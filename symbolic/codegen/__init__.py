@@ -12,7 +12,6 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TypeAlias
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.codegen.accurate import accurate
 from ridgeback.symbolic.codegen.fit.fit import Fit
 from ridgeback.symbolic.codegen.formulas.closed_forms import MeanForm, SineSeries
 from ridgeback.symbolic.codegen.formulas.flows import slow_flow_form
@@ -21,12 +20,11 @@ from ridgeback.symbolic.codegen.formulas.resummations import resummation_form
 from ridgeback.symbolic.codegen.formulas.series import expansion_form
 from ridgeback.symbolic.codegen.formulas.symbolic_mean import SymbolicMean
 from ridgeback.symbolic.codegen.languages.registry import find_language, languages
+from ridgeback.symbolic.codegen.modes.mode import in_mode
 from ridgeback.symbolic.codegen.naming import checked_identifier, identifier
 from ridgeback.symbolic.codegen.number import REALS
 from ridgeback.symbolic.codegen.program import MODES, Form, Mode
-from ridgeback.symbolic.codegen.proofs.notes import annotated
 from ridgeback.symbolic.codegen.request import CodeRequest
-from ridgeback.symbolic.codegen.splitting import split
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.flow.loss_flow import LossFlow
@@ -171,11 +169,7 @@ def finished(form: Form, request: CodeRequest) -> Form:
     """A form under its name and in its mode, with its proofs, the version and the hash of all that went into it."""
     name = checked_identifier(request.name) if request.name else identifier(form.name)
     plain = replace(form, name=name, mode=request.mode, real=request.real, version=_version())
-    if request.mode == "accurate":
-        plain = replace(plain, functions=tuple(accurate(plain, f) for f in plain.functions))
-    else:
-        plain = replace(plain, functions=tuple(map(split, plain.functions)))
-    made = annotated(plain)
+    made = replace(plain, functions=tuple(in_mode(plain, f) for f in plain.functions))
     return replace(made, digest=hashlib.sha256(repr(made).encode()).hexdigest()[:DIGEST])
 
 

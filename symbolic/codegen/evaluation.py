@@ -10,7 +10,7 @@ from functools import partial
 from typing import Final
 
 from ridgeback.symbolic.codegen.number import FLOAT32, FLOAT64, Number, Real, rounded
-from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operand, Operation, Step, lowered
+from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operation, Step, lowered
 
 
 def divided(a: float, b: float) -> float:
@@ -62,22 +62,33 @@ def single(value: float) -> float:
 def value_at(form: Form, function: Function, arguments: tuple[float, ...]) -> float:
     """The value of a function as every language computes it; not a number outside the domain."""
     given = dict(zip((a.name for a in function.arguments), arguments, strict=True))
-    domain = function.domain
+    domain, result = function.domain, function.result
     if not domain.low <= given[domain.argument] <= domain.high:
         return math.nan
+    known = values_at(form, function, arguments)
+    return result.nearest if isinstance(result, Number) else known[result]
+
+
+def values_at(form: Form, function: Function, arguments: tuple[float, ...]) -> dict[str, float]:
+    """Arguments and computed values by their names, wherever the arguments lie.
+
+    >>> from ridgeback.symbolic.codegen import form_of
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> form = form_of(lindstedt(find("pendulum"), 2))
+    >>> values_at(form, form.functions[0], (2.0, 1.0))
+    {'A': 2.0, 'k': 1.0, 'A_squared': 4.0, 'y': 0.75, 'result': 0.75}
+    """
     cut = single if form.real is FLOAT32 else float
-    known = {name: cut(value) for name, value in given.items()}
-
-    def of(operand: Operand) -> float:
-        return operand.nearest if isinstance(operand, Number) else known[operand]
-
+    known = {a.name: cut(value) for a, value in zip(function.arguments, arguments, strict=True)}
     for statement in function.body:
         if isinstance(statement, Horner) and form.real is FLOAT64 and not form.fused:
             known[statement.name] = _horner(statement, known[statement.at])
             continue
-        for step in lowered((statement,), form.real):
-            known[step.name] = _step(form, step, [of(o) for o in step.operands], cut)
-    return of(function.result)
+        for step in lowered((statement,), form.real, fused=form.fused):
+            given = [o.nearest if isinstance(o, Number) else known[o] for o in step.operands]
+            known[step.name] = _step(form, step, given, cut)
+    return known
 
 
 def _horner(statement: Horner, x: float) -> float:

@@ -45,6 +45,11 @@ class Operation(Enum):
     """Both exactly (Knuth; Handbook of Floating-Point Arithmetic, 2nd edition, 2018, algorithm 4.4)."""
     TWO_PRODUCT = "product and its rounding error"
     """Both exactly (Dekker; the same, algorithm 4.10), barring over- and underflow."""
+    SPLIT = "nearest multiple of a unit and the rest"
+    """Both exactly; the second operand is 1.5 2^(digits - 1) units, four times the first or more."""
+    SPLIT_SQUARE = "multiple of a unit near the square, and the rest"
+    """The multiple exactly; operands are a, the rounded a*a, and the constant as for ``SPLIT``: of the square in mode
+    ``fma``, where the rest is rounded once, else of a, where it is rounded twice."""
 
 
 @dataclass(frozen=True)
@@ -150,9 +155,14 @@ class Function:
         found = [o for statement in self.body for o in operands_of(statement)]
         return {o for o in (*found, self.result) if isinstance(o, str)}
 
-    def operations(self) -> Iterator[Step]:
-        """All single operations."""
-        return lowered(self.body)
+    @property
+    def compensated(self) -> bool:
+        """Whether what rounding loses is carried along: the value is then the sum of two, made by the last addition."""
+        return any(isinstance(statement, Step) and statement.rest for statement in self.body)
+
+    def operations(self, form: Form) -> Iterator[Step]:
+        """All single operations, as the form has them."""
+        return lowered(self.body, form.real, fused=form.fused)
 
 
 @dataclass(frozen=True)
@@ -176,11 +186,11 @@ class Form:
         return self.mode == "fma"
 
 
-def lowered(body: Iterable[Statement], real: Real = FLOAT64) -> Iterator[Step]:
+def lowered(body: Iterable[Statement], real: Real = FLOAT64, *, fused: bool = False) -> Iterator[Step]:
     """Statements as single operations of the languages."""
     for statement in body:
         for step in statement.steps() if isinstance(statement, Horner) else (statement,):
-            yield from lowered_step(step, real)
+            yield from lowered_step(step, real, fused=fused)
 
 
 def needed(body: Iterable[Statement], result: Operand) -> tuple[Statement, ...]:
@@ -206,16 +216,25 @@ SPLITTERS: Final = {53: 2**27 + 1, 24: 2**12 + 1}
 """Veltkamp's constant by the digits of the format."""
 
 
-def lowered_step(step: Step, real: Real) -> Iterator[Step]:
-    """A sum or product with its error in plain operations, under names of its own; other steps as they are."""
-    if step.operation is Operation.TWO_SUM:
-        yield from _two_sum(step)
-    elif step.operation is Operation.TWO_PRODUCT:
-        yield from _two_product(step, real)
-    elif step.operation is Operation.ROOT:
-        yield from _root(step, real)
-    else:
-        yield step
+def lowered_step(step: Step, real: Real, *, fused: bool = False) -> Iterator[Step]:
+    """What is made of several operations in those, under names of its own; other steps as they are."""
+    match step.operation:
+        case Operation.TWO_SUM:
+            yield from _two_sum(step)
+        case Operation.TWO_PRODUCT if fused:
+            yield from _fused_product(step, real)
+        case Operation.TWO_PRODUCT:
+            yield from _two_product(step, real)
+        case Operation.SPLIT:
+            yield from _split(step)
+        case Operation.SPLIT_SQUARE if fused:
+            yield from _fused_square(step)
+        case Operation.SPLIT_SQUARE:
+            yield from _split_square(step)
+        case Operation.ROOT:
+            yield from _root(step, real)
+        case _:
+            yield step
 
 
 FIRST_BITS: Final = 20
@@ -288,6 +307,41 @@ def _two_product(step: Step, real: Real) -> Iterator[Step]:
     for one, other in ((high_a, low_b), (low_a, high_b), (low_a, low_b)):
         yield Step(f"{rest}_p", Operation.MULTIPLY, (one, other))
         yield Step(rest, Operation.ADD, (rest, f"{rest}_p"))
+
+
+def _fused_product(step: Step, real: Real) -> Iterator[Step]:
+    """The product comes last, since it may take the name of a factor."""
+    (a, b), minus = step.operands, f"{step.rest}_minus"
+    yield Step(minus, Operation.MULTIPLY, (a, b))
+    yield Step(minus, Operation.MULTIPLY, (Number(fmpq(-1), real), minus))
+    yield Step(step.rest, Operation.MULTIPLY_ADD, (a, b, minus))
+    yield Step(step.name, Operation.MULTIPLY, (a, b))
+
+
+def _split(step: Step) -> Iterator[Step]:
+    """(a + m) - m: the sum is a multiple of its unit, the one wanted; the differences are exact."""
+    a, m = step.operands
+    yield Step(step.name, Operation.ADD, (a, m))
+    yield Step(step.name, Operation.SUBTRACT, (step.name, m))
+    yield Step(step.rest, Operation.SUBTRACT, (a, step.name))
+
+
+def _split_square(step: Step) -> Iterator[Step]:
+    """With h the multiple next to a: h^2 and (a - h)(a + h)."""
+    (a, _, m), part, both = step.operands, f"{step.rest}_part", f"{step.rest}_sum"
+    yield from _split(Step(part, Operation.SPLIT, (a, m), step.rest))
+    yield Step(both, Operation.ADD, (a, part))
+    yield Step(step.name, Operation.MULTIPLY, (part, part))
+    yield Step(step.rest, Operation.MULTIPLY, (step.rest, both))
+
+
+def _fused_square(step: Step) -> Iterator[Step]:
+    """With h the multiple next to the rounded square: h and a*a - h in one rounding."""
+    (a, square, m), minus = step.operands, f"{step.rest}_minus"
+    yield Step(step.name, Operation.ADD, (square, m))
+    yield Step(minus, Operation.SUBTRACT, (m, step.name))
+    yield Step(step.name, Operation.SUBTRACT, (step.name, m))
+    yield Step(step.rest, Operation.MULTIPLY_ADD, (a, a, minus))
 
 
 class Steps:

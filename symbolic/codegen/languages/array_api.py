@@ -50,10 +50,8 @@ class ArrayApi(Python):
 
     name = "array-api"
     modes = ("strict", "accurate")
+    in_place = False  # JAX's arrays do not change
     dependencies = 'dependencies = ["array-api-compat"]'
-
-    def assign(self, name: str, value: str, *, first: bool, form: Form) -> str:  # noqa: ARG002
-        return f"{name} = {value}"  # not in place: JAX's arrays do not change
 
     def loop(self, horner: Horner, table: str, *, first: bool, form: Form) -> list[str]:  # noqa: ARG002
         name = horner.name

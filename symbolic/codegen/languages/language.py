@@ -157,7 +157,7 @@ class Language(ABC):
 
     def _flat(self, statement: Statement, known: set[str], form: Form) -> Iterator[str]:
         for whole in statement.steps() if isinstance(statement, Horner) else (statement,):
-            for step in lowered_step(whole, form.real):
+            for step in lowered_step(whole, form.real, fused=form.fused):
                 line = self.assign(step.name, self.expression(step, form), first=step.name not in known, form=form)
                 known.add(step.name)
                 yield from self.noted(line, [o for o in step.operands if isinstance(o, Number)])

@@ -22,10 +22,8 @@ class Numba(Python):
 
     name = "numba"
     modes = ("strict", "accurate")
+    in_place = False
     dependencies = 'dependencies = ["numba", "numpy"]'
-
-    def assign(self, name: str, value: str, *, first: bool, form: Form) -> str:  # noqa: ARG002
-        return f"{name} = {value}"
 
     def loop(self, horner: Horner, table: str, *, first: bool, form: Form) -> list[str]:  # noqa: ARG002
         name = horner.name

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import ClassVar
 
 from ridgeback.symbolic.codegen.evaluation import test_points
-from ridgeback.symbolic.codegen.languages.language import Language
-from ridgeback.symbolic.codegen.program import Form, Function, Horner
+from ridgeback.symbolic.codegen.languages.in_place import changed_in_place, single_steps
+from ridgeback.symbolic.codegen.languages.language import Language, table_name
+from ridgeback.symbolic.codegen.number import Number
+from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operation, Step
 
 ARRAYS = '''\
 def _filled(function, lowest, highest, where, given, out=None):
@@ -14,7 +19,7 @@ def _filled(function, lowest, highest, where, given, out=None):
     import numpy
 
     given = [numpy.asarray(value, dtype=numpy.float64) for value in given]
-    shape = numpy.broadcast_shapes(*(value.shape for value in given))
+    shape = numpy.broadcast(*given).shape
     if out is None:
         out = numpy.empty(shape)
     elif out.shape != shape or out.dtype != numpy.float64:
@@ -22,14 +27,16 @@ def _filled(function, lowest, highest, where, given, out=None):
     flat = out if out.ndim == 1 else out.reshape(-1)
     if not numpy.shares_memory(flat, out):
         raise ValueError("out is not contiguous; give an array in one piece")
-    rows = [value if value.ndim == 0 else numpy.broadcast_to(value, shape).reshape(-1) for value in given]
+    rows = [v if v.ndim == 0 else (v if v.shape == shape else numpy.broadcast_to(v, shape)).reshape(-1) for v in given]
     with numpy.errstate(all="ignore"):
         for start in range(0, flat.size, BLOCK):
             block = [value if value.ndim == 0 else value[start : start + BLOCK] for value in rows]
-            inside = (block[where] >= lowest) & (block[where] <= highest)
+            at = block[where]
+            all_inside = lowest <= numpy.minimum.reduce(at) and numpy.maximum.reduce(at) <= highest
+            outside = None if all_inside else ~((at >= lowest) & (at <= highest))
             flat[start : start + BLOCK] = function(*(float(v) if v.ndim == 0 else v for v in block))
-            if not inside.all():
-                flat[start : start + BLOCK][~inside] = math.nan
+            if not all_inside:
+                flat[start : start + BLOCK][outside] = math.nan
     return out'''
 
 EMULATED = '''\
@@ -86,6 +93,8 @@ class Python(Language):
     name, suffix = "python", "py"
     comment, end = "#", ""
     tool = ("python3", "python")
+    in_place: ClassVar[bool] = True
+    """Whether values are changed in place."""
 
     def literal(self, value: float, form: Form) -> str:  # noqa: ARG002
         if math.isfinite(value):
@@ -102,12 +111,44 @@ class Python(Language):
         return f"_floor({a})"
 
     def assign(self, name: str, value: str, *, first: bool, form: Form) -> str:  # noqa: ARG002
-        """In place where the name is changed: an array is not copied at every step."""
-        for sign in "+-":
-            head, found, tail = value.partition(f" {sign} ")
-            if found and head == f"{name}*{head.partition('*')[2]}" and not first and "*" not in tail:
-                return f"{name} *= {head.partition('*')[2]}; {name} {sign}= {tail}"
         return f"{name} = {value}"
+
+    def body(self, function: Function, form: Form) -> Iterator[str]:
+        """In place where nothing reads the old value: an array is not copied at every step."""
+        if not self.in_place:
+            yield from super().body(function, form)
+            return
+        steps = single_steps(function, form)
+        for step, old in zip(steps, changed_in_place(function, steps), strict=True):
+            if isinstance(step, Horner):
+                yield from self.loop(step, table_name(function, step), first=True, form=form)
+                continue
+            line = self.changed(step, old, form) if old else self.made(step, form)
+            yield from self.noted(line, [o for o in step.operands if isinstance(o, Number)])
+
+    def made(self, step: Step, form: Form) -> str:
+        """A step whose result is new; a number is added to a product in its place."""
+        if step.operation is Operation.MULTIPLY_ADD and not form.fused and isinstance(step.operands[2], Number):
+            product = replace(step, operation=Operation.MULTIPLY, operands=step.operands[:2])
+            total = replace(step, operation=Operation.ADD, operands=(step.name, step.operands[2]))
+            return f"{step.name} = {self.expression(product, form)}; {self.changed(total, step.name, form)}"
+        return f"{step.name} = {self.expression(step, form)}"
+
+    def changed(self, step: Step, old: str, form: Form) -> str:
+        """A step whose result takes the place of one operand."""
+        fused = step.operation is Operation.MULTIPLY_ADD and form.fused
+        if fused or (step.operation is Operation.SUBTRACT and step.operands[0] != old):
+            return f"{step.name} = {self.expression(step, form)}"
+        lines, others = [], [o for o in step.operands if o != old]
+        if step.operation is Operation.MULTIPLY_ADD and step.operands[2] == old:
+            lines.append(f"{old} += {self.operand(others[0], form)}*{self.second(others[1], form)}")
+        else:
+            signs = {Operation.MULTIPLY: "*", Operation.SUBTRACT: "-", Operation.ADD: "+", Operation.MULTIPLY_ADD: "*+"}
+            for sign, other in zip(signs[step.operation], others, strict=True):
+                text = self.operand(other, form)
+                minus = sign == "+" and text.startswith("-")
+                lines.append(f"{old} {'-' if minus else sign}= {text.removeprefix('-') if minus else text}")
+        return "; ".join([*lines, *([f"{step.name} = {old}"] if step.name != old else [])])
 
     def loop(self, horner: Horner, table: str, *, first: bool, form: Form) -> list[str]:  # noqa: ARG002
         name, at = horner.name, horner.at
@@ -139,7 +180,7 @@ class Python(Language):
         return ["import math", *(["from fractions import Fraction"] if form.fused else [])]
 
     def _helpers(self, form: Form) -> list[str]:
-        steps = [step.operation.value for f in form.functions for step in f.operations()]
+        steps = [step.operation.value for f in form.functions for step in f.operations(form)]
         parts = ["BLOCK = 4096", ARRAYS, *([EMULATED] if form.fused else [])]
         for word in ("sqrt", "floor"):
             if word in steps:

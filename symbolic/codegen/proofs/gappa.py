@@ -9,16 +9,23 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import Final
 
+from flint import arb, ctx
+
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.balls import ball
 from ridgeback.symbolic.codegen.comments import comment_text
 from ridgeback.symbolic.codegen.languages.c import shorter_hex
 from ridgeback.symbolic.codegen.number import FLOAT32, Number
-from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operand, Operation, Statement
-from ridgeback.symbolic.codegen.proofs.bounds import bound
+from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operand, Operation, Step
+from ridgeback.symbolic.codegen.proofs.analysis import half_spacing
+from ridgeback.symbolic.codegen.proofs.bounds import BITS, Bound, bound, upper
 from ridgeback.symbolic.codegen.proofs.notes import upwards
 
 ROOM: Final = Fraction(5, 4)
 """Gappa's goal over the bound in balls."""
+BEYOND: Final = arb(1.001)
+"""How far above the exact values Gappa's intervals may reach."""
+CARRIED: Final = (Operation.TWO_SUM, Operation.TWO_PRODUCT)
 PARTS: Final = 64
 """Into how many pieces Gappa cuts the range: its intervals know nothing of cancellation within one."""
 
@@ -26,9 +33,11 @@ PARTS: Final = 64
 def gappa_script(form: Form, name: str = "omega0") -> str:
     """The script for one function of a form, with k = 1.
 
-    The error of the coefficients is part of what is proved: the exact values hold the rationals themselves.
+    The error of the coefficients is part of what is proved: the exact values hold the rationals themselves.  Where the
+    first terms are exact, Gappa proves that they are, and checks that their sum with the rest is the polynomial.
 
-    Raises InputError for a function that is no polynomial in one variable with a known domain, and in mode accurate.
+    Raises InputError for a function that is no polynomial in one variable with a known domain, and where compensated
+    steps carry rounding errors along.
 
     >>> from ridgeback.symbolic.codegen import form_of
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -37,15 +46,20 @@ def gappa_script(form: Form, name: str = "omega0") -> str:
     @rnd = float<ieee_64, ne>;
     """
     function = next((f for f in form.functions if f.name == name), None)
-    if function is None or function.polynomial is None or not function.domain.known or form.mode == "accurate":
-        raise InputError("a Gappa script is written for polynomials with a domain, in the modes strict and fma")
+    if function is None or function.polynomial is None or not function.domain.known:
+        raise InputError("a Gappa script is written for polynomials with a domain; this formula is none, or has none")
+    if any(isinstance(s, Step) and s.operation in CARRIED for s in function.body):
+        raise InputError(
+            f"a Gappa script has no rule for the compensated steps of mode {form.mode} here; use another mode or a "
+            "shorter range"
+        )
     if any(a.name not in (function.domain.argument, "k") for a in function.arguments):
         raise InputError(f"a Gappa script is written for functions of one variable, and {name} has parameters")
     if any(a.default not in (None, 1.0) for a in function.arguments):
         raise InputError("a Gappa script is written for k = 1, where the last product is exact; derive with k = 1")
     found = bound(form, function)
     assert found is not None  # noqa: S101 - the domain is known
-    return "\n".join([*_heading(form, function), *_lines(form, function), *_goal(function, found.absolute)]) + "\n"
+    return "\n".join([*_heading(form, function), *_lines(form, function), *_goal(form, function, found)]) + "\n"
 
 
 def _heading(form: Form, function: Function) -> list[str]:
@@ -76,22 +90,46 @@ class _Writer:
             return f"({shorter_hex(operand.nearest)})", f"({operand.exact})"
         return self.names[operand]
 
-    def define(self, name: str, operation: Operation, operands: tuple[Operand, ...]) -> None:
+    def define(self, step: Step) -> None:
         """One operation; k is 1."""
-        self.count += 1
-        computed, exact = (list(side) for side in zip(*(self.pair(o) for o in operands), strict=True))
-        mine, true = f"v{self.count}_{name}", f"V{self.count}_{name}"
-        match operation:
+        computed, exact = (list(side) for side in zip(*(self.pair(o) for o in step.operands), strict=True))
+        match step.operation:
+            case Operation.ADD:
+                self.add(step.name, f"rnd({' + '.join(computed)})", " + ".join(exact))
             case Operation.MULTIPLY:
-                shown, meant = f"rnd({computed[0]} * {computed[1]})", f"{exact[0]} * {exact[1]}"
+                self.add(step.name, f"rnd({' * '.join(computed)})", " * ".join(exact))
             case Operation.MULTIPLY_ADD:
                 inner = f"{computed[0]} * {computed[1]}"
                 inner = inner if self.form.fused else f"rnd({inner})"
-                shown, meant = f"rnd({inner} + {computed[2]})", f"{exact[0]} * {exact[1]} + {exact[2]}"
+                self.add(step.name, f"rnd({inner} + {computed[2]})", f"{exact[0]} * {exact[1]} + {exact[2]}")
+            case Operation.SPLIT:
+                head = self.cut(step.name, computed[0], computed[1])
+                self.add(step.rest, f"rnd({computed[0]} - {head})", f"{exact[0]} - {head}")
+            case Operation.SPLIT_SQUARE if self.form.fused:
+                head = self.cut(step.name, computed[1], computed[2])
+                self.add(step.rest, f"rnd({computed[0]} * {computed[0]} - {head})", f"{exact[0]} * {exact[0]} - {head}")
+            case Operation.SPLIT_SQUARE:
+                part = self.cut(f"{step.rest}_part", computed[0], computed[2])
+                self.add(step.name, f"rnd({part} * {part})", f"{part} * {part}")
+                shown = f"rnd(rnd({computed[0]} - {part}) * rnd({computed[0]} + {part}))"
+                self.add(step.rest, shown, f"({exact[0]} - {part}) * ({exact[0]} + {part})")
             case _:
-                raise InputError(f"a Gappa script has no rule for {operation.value} here")
-        self.lines += [f"{mine} = {shown};", f"{true} = {meant};"]
+                raise InputError(f"a Gappa script has no rule for {step.operation.value} here")
+
+    def add(self, name: str, computed: str, exact: str) -> None:
+        """A value under names of its own."""
+        self.count += 1
+        mine, true = f"v{self.count}_{name}", f"V{self.count}_{name}"
+        self.lines += [f"{mine} = {computed};", f"{true} = {exact};"]
         self.names[name] = (mine, true)
+
+    def cut(self, name: str, value: str, constant: str) -> str:
+        """The multiple of a unit next to a value: it is what is computed, and the rest is made for it."""
+        self.count += 1
+        mine = f"v{self.count}_{name}"
+        self.lines.append(f"{mine} = rnd(rnd({value} + {constant}) - {constant});")
+        self.names[name] = (mine, mine)
+        return mine
 
 
 def _lines(form: Form, function: Function) -> list[str]:
@@ -99,24 +137,35 @@ def _lines(form: Form, function: Function) -> list[str]:
     writer.given(function.domain.argument)
     writer.names["k"] = ("1", "1")
     for statement in function.body:
-        for step in steps_of(statement):
-            writer.define(step[0], step[1], step[2])
+        for step in statement.steps() if isinstance(statement, Horner) else (statement,):
+            writer.define(step)
     mine, true = writer.pair(function.result)
-    return [*writer.lines, f"computed = {mine};", f"exact = {true};"]
+    if not function.compensated:
+        return [*writer.lines, f"computed = {mine};", f"exact = {true};"]
+    return [*writer.lines, f"computed = {mine};", f"exact = {_polynomial(function)};", f"together = {true};"]
 
 
-def steps_of(statement: Statement) -> list[tuple[str, Operation, tuple[Operand, ...]]]:
-    """A statement as named operations."""
-    steps = statement.steps() if isinstance(statement, Horner) else (statement,)
-    return [(step.name, step.operation, step.operands) for step in steps]
+def _polynomial(function: Function) -> str:
+    """The exact polynomial by Horner's rule in the variable or its square."""
+    assert function.polynomial is not None  # noqa: S101 - asked for polynomials only
+    terms = {p[0]: c.exact for p, c in function.polynomial.terms.items()}
+    at, stride = f"v_{function.domain.argument}", 2 if all(p % 2 == 0 for p in terms) else 1
+    text = "0"
+    for p in range(max(terms), -1, -stride):
+        text = f"{f'{at} * {at}' if stride == 2 else at} * ({text}) + ({terms.get(p, 0)})"
+    return text
 
 
-def _goal(function: Function, absolute: Fraction) -> list[str]:
+def _goal(form: Form, function: Function, found: Bound) -> list[str]:
+    """The bound with some room; where values just above a power of two are not ruled out, with the unit there."""
     domain = function.domain
     low, high = shorter_hex(max(domain.low, -domain.high)), shorter_hex(domain.high)
     name = f"v_{domain.argument}"
-    goal = upwards(ROOM * absolute, 3)
+    with ctx.workprec(BITS):
+        edge = upper(half_spacing(BEYOND * ball(found.size), form.real))
+    goal = upwards(max(ROOM * found.absolute, edge + ROOM * found.before), 3)
     return [
         f"{{ {name} in [{low}, {high}] -> |computed - exact| <= {goal} }}",
+        *(["exact -> together;"] if function.compensated else []),
         f"|computed - exact| $ {name} in {PARTS};",
     ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from typing import Final
@@ -11,28 +10,14 @@ from typing import Final
 from flint import arb
 from sympy import Add
 
-from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real
 from ridgeback.symbolic.codegen.program import Form, Function, Operand, Operation, Statement, Step, lowered
-from ridgeback.symbolic.codegen.proofs.bounds import Bound, bound
+from ridgeback.symbolic.codegen.proofs.bounds import Bound
 from ridgeback.symbolic.enclosure.enclosure import rounded_down
 
 
-def annotated(form: Form) -> Form:
-    """The form with what is proved about each of its functions."""
-    return replace(
-        form, functions=tuple(replace(f, notes=(*f.notes, *rounding_notes(form, f))) for f in form.functions)
-    )
-
-
-def rounding_notes(form: Form, function: Function) -> tuple[str, ...]:
+def rounding_notes(form: Form, function: Function, found: Bound | None) -> tuple[str, ...]:
     """The bound over the domain where one is known; for a polynomial without one, in terms of its terms."""
-    try:
-        found = bound(form, function)
-    except InputError:
-        if function.bounded:
-            raise
-        return ()
     if found is not None:
         return (bound_note(function, found),)
     if function.polynomial is None or form.mode == "accurate":
@@ -47,7 +32,8 @@ def bound_note(function: Function, found: Bound) -> str:
     domain = function.domain
     name, end = domain.argument, domain.high
     inside = f"|{name}| <= {end!r}" if domain.low == -end else f"0 <= {name} <= {end!r}"
-    inside += "".join(f" and {a.name} = {a.default!r}" for a in function.arguments if a.default not in (None, 1.0))
+    others = (a for a in function.arguments if a.name != name and a.name in function.read())
+    inside += "".join(f" and {a.name} = {f'{a.default!r}'.removesuffix('.0')}" for a in others if a.default is not None)
     if found.relative is None or found.ulps is None:
         return f"Rounding: for {inside} the error is at most {upwards(found.absolute)}, proved in ball arithmetic."
     return (

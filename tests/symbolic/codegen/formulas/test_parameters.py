@@ -15,7 +15,7 @@ from ridgeback.symbolic.codegen import form_of, generate
 from ridgeback.symbolic.codegen.evaluation import value_at
 from ridgeback.symbolic.codegen.number import FLOAT32, FLOAT64, Number, Real
 from ridgeback.symbolic.codegen.program import Argument, Domain, Form, Function, Operation, Step
-from ridgeback.symbolic.codegen.proofs.bounds import Computed, any_root
+from ridgeback.symbolic.codegen.proofs.analysis import Computed, any_root
 from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.averaged_losses import averaged_losses

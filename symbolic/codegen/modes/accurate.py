@@ -1,4 +1,4 @@
-r"""Mode ``accurate``: the last steps of Horner's rule with their rounding errors carried along.
+r"""Horner's rule whose last steps carry their rounding errors along.
 
 A value is the unevaluated sum H + L.  With p + e = H x and s + t = p + c exactly (``TWO_PRODUCT``, ``TWO_SUM``),
 
@@ -14,7 +14,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
-from typing import Final
 
 from flint import fmpq
 
@@ -31,30 +30,26 @@ from ridgeback.symbolic.codegen.program import (
     Steps,
     needed,
 )
-from ridgeback.symbolic.codegen.proofs.bounds import bound
-
-GOAL: Final = Fraction(51, 100)
-"""Units in the last place that the bound should come to."""
 
 
-def accurate(form: Form, function: Function) -> Function:
-    """The function with as few compensated steps as bring its bound to ``GOAL``, or all of them.
+def compensated(form: Form, function: Function) -> Iterator[Function]:
+    """The function with one compensated step, two, three, four, six, and so on up to all of them.
 
-    Raises InputError for a function that is not Horner's rule in one variable, times powers and k.
+    Nothing for a function that is not Horner's rule in one variable, times powers and k; in mode accurate, which has no
+    other evaluation, InputError.
     """
     function = _with_horner(function)
     place = _place(function)
+    if place is None:
+        if form.mode == "accurate":
+            raise InputError(
+                f"mode accurate is written for polynomials in one variable, and {function.name} is none; use strict"
+            )
+        return
     length = len(function.body[place].coefficients)  # type: ignore[union-attr]
-    count = min(1, length - 1)
-    while True:
-        made = _compensated(function, place, count, form.real)
-        if count == length - 1:
-            break
-        found = bound(form, made)
-        if found is not None and found.ulps is not None and found.ulps <= GOAL:
-            break
-        count = min(2 * count, length - 1) if found is not None and found.ulps is not None else length - 1
-    return made
+    counts = sorted({1, *(share * 2**i for i in range(length.bit_length()) for share in (2, 3))})
+    for count in dict.fromkeys(min(count, length - 1) for count in counts):
+        yield _compensated(function, place, count, form.real)
 
 
 def _with_horner(function: Function) -> Function:
@@ -73,16 +68,12 @@ def _with_horner(function: Function) -> Function:
     return replace(function, body=tuple(body))
 
 
-def _place(function: Function) -> int:
-    """Where Horner's rule is."""
+def _place(function: Function) -> int | None:
+    """Where Horner's rule is; None where there is another one, or more than products behind it."""
     places = [i for i, statement in enumerate(function.body) if isinstance(statement, Horner)]
     rest = function.body[places[0] + 1 :] if len(places) == 1 else ()
     plain = all(isinstance(s, Step) and s.operation is Operation.MULTIPLY for s in rest)
-    if len(places) != 1 or not plain or function.polynomial is None:
-        raise InputError(
-            f"mode accurate is written for polynomials in one variable, and {function.name} is none; use strict"
-        )
-    return places[0]
+    return places[0] if len(places) == 1 and plain and function.polynomial is not None else None
 
 
 class _Pair:

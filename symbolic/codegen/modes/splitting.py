@@ -32,19 +32,23 @@ def split(function: Function) -> Function:
 def _split(horner: Horner) -> list[Statement]:
     number = next(c for c in horner.coefficients if c is not None)
     steps, name, x = Steps(number.real), horner.name, horner.at
-    square = steps.multiply(f"{name}_square", x, x)
-    fourth = steps.multiply(f"{name}_fourth", square, square)
-    tail = horner.coefficients[HEAD:]
-    parts = [_part(steps, f"{name}_part{r}", fourth, tail[r::PARTS]) for r in range(PARTS)]
-    low = _joined(steps, f"{name}_low", parts[0], x, parts[1])
-    high = _joined(steps, f"{name}_high", parts[2], x, parts[3])
-    value = _joined(steps, name, low, square, high)
+    _, value = split_tail(steps, name, x, horner.coefficients[HEAD:])
     for coefficient in reversed(horner.coefficients[:HEAD]):
         if coefficient is None:
             value = steps.multiply(name, value, x)
         else:
             value = steps.assign(name, Operation.MULTIPLY_ADD, value, x, coefficient)
     return steps.taken
+
+
+def split_tail(steps: Steps, name: str, x: str, tail: tuple[Number | None, ...]) -> tuple[str, Operand]:
+    """T of the coefficients given; the names of x^2 and of T."""
+    square = steps.multiply(f"{name}_square", x, x)
+    fourth = steps.multiply(f"{name}_fourth", square, square)
+    parts = [_part(steps, f"{name}_part{r}", fourth, tail[r::PARTS]) for r in range(PARTS)]
+    low = _joined(steps, f"{name}_low", parts[0], x, parts[1])
+    high = _joined(steps, f"{name}_high", parts[2], x, parts[3])
+    return square, _joined(steps, name, low, square, high)
 
 
 def _part(steps: Steps, name: str, at: str, coefficients: tuple[Number | None, ...]) -> Operand:
