@@ -18,7 +18,7 @@ from ridgeback.symbolic.arithmetic.balls import ball
 from ridgeback.symbolic.codegen.fit.over_range import balls, largest_error
 from ridgeback.symbolic.codegen.fit.remez import Best, remez
 from ridgeback.symbolic.codegen.fit.surrogate import Surrogate, surrogate
-from ridgeback.symbolic.codegen.formulas.wording import OMEGA0, SCALING, frequency_argument, limit_fact
+from ridgeback.symbolic.codegen.formulas.wording import OMEGA0, SCALING, frequency_argument, limit_fact, titled
 from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real, fraction, rounded
 from ridgeback.symbolic.codegen.polynomial import K, derivative, polynomial_function
 from ridgeback.symbolic.codegen.program import Argument, Form, Terms
@@ -108,7 +108,7 @@ class Fit:
             *limit_fact("A", request.limit),
             *request.more,
         )
-        return Form(self.system, f"Fundamental frequency of '{self.system}', fitted", facts, functions)
+        return Form(self.system, f"Fundamental frequency of {titled(self.system)}, fitted", facts, functions)
 
 
 def minimax(

@@ -22,6 +22,7 @@ from ridgeback.symbolic.codegen.formulas.wording import (
     SCALING,
     frequency_argument,
     limit_fact,
+    titled,
     variable_meaning,
 )
 from ridgeback.symbolic.codegen.motions.trigonometry import sine_of_small
@@ -157,7 +158,7 @@ def _form(
     )
     made = Function("omega0", OMEGA0, arguments, needed(steps.taken, result), result, domain)
     functions = (made, slope_of(made, request.real))
-    return Form(source.system, f"Fundamental frequency of '{source.system}'", facts, functions)
+    return Form(source.system, f"Fundamental frequency of {titled(source.system)}", facts, functions)
 
 
 def mean_steps(means: Means, end: float, digits: int) -> int:

@@ -17,6 +17,7 @@ from ridgeback.symbolic.codegen.formulas.wording import (
     SMALL,
     common_facts,
     limit_fact,
+    titled,
 )
 from ridgeback.symbolic.codegen.motions.motion import flow_motion
 from ridgeback.symbolic.codegen.motions.transient import transient_functions
@@ -52,7 +53,7 @@ def slow_flow_form(flow: SlowFlow, request: CodeRequest) -> Form:
         *limit_fact("a", request.limit),
         *request.more,
     )
-    return Form(flow.system, f"Slow flow of '{flow.system}'", facts, functions)
+    return Form(flow.system, f"Slow flow of {titled(flow.system)}", facts, functions)
 
 
 def order_fact(flow: SlowFlow) -> str:

@@ -27,6 +27,7 @@ from ridgeback.symbolic.codegen.formulas.wording import (
     SMALL,
     common_facts,
     limit_fact,
+    titled,
     variable_meaning,
 )
 from ridgeback.symbolic.codegen.motions.transient import transient_functions
@@ -75,7 +76,7 @@ def power_form(series: PowerExpansion, request: CodeRequest) -> Form:
         *limit_fact(series.variable, request.limit),
         *request.more,
     )
-    return Form(series.system, f"Fundamental frequency of '{series.system}'", facts, functions)
+    return Form(series.system, f"Fundamental frequency of {titled(series.system)}", facts, functions)
 
 
 def loss_form(flow: LossFlow, request: CodeRequest) -> Form:
@@ -100,7 +101,7 @@ def loss_form(flow: LossFlow, request: CodeRequest) -> Form:
         *limit_fact("a", request.limit),
         *request.more,
     )
-    return Form(flow.system, f"Slow flow of '{flow.system}', averaged", facts, (*functions, *after))
+    return Form(flow.system, f"Slow flow of {titled(flow.system)}, averaged", facts, (*functions, *after))
 
 
 def _sum(terms: Iterable[LossTerm]) -> Sum:

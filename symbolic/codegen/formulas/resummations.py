@@ -15,6 +15,7 @@ from ridgeback.symbolic.codegen.formulas.wording import (
     common_facts,
     frequency_argument,
     limit_fact,
+    titled,
     variable_meaning,
 )
 from ridgeback.symbolic.codegen.motions.trigonometry import cosine_to_quarter
@@ -45,7 +46,7 @@ def resummation_form(formula: Resummation, request: CodeRequest) -> Form:
         *(() if pole is None else (f"Not to be used from {formula.variable} = {rounded_down_text(pole)} on: a pole.",)),
         *request.more,
     )
-    title = f"Fundamental frequency of '{formula.system}', resummed"
+    title = f"Fundamental frequency of {titled(formula.system)}, resummed"
     omega = _function(formula, request)
     return Form(formula.system, title, facts, (omega, slope_of(omega, request.real)))
 

@@ -10,7 +10,14 @@ from sympy import Expr, Integer
 
 from ridgeback.symbolic.arithmetic.rendering import as_sympy
 from ridgeback.symbolic.codegen.formulas.frequency import Symbols
-from ridgeback.symbolic.codegen.formulas.wording import OMEGA0, SCALING, common_facts, limit_fact, variable_meaning
+from ridgeback.symbolic.codegen.formulas.wording import (
+    OMEGA0,
+    SCALING,
+    common_facts,
+    limit_fact,
+    titled,
+    variable_meaning,
+)
 from ridgeback.symbolic.codegen.motions.motion import motion_functions
 from ridgeback.symbolic.codegen.naming import variable_name
 from ridgeback.symbolic.codegen.number import Number
@@ -45,7 +52,7 @@ def expansion_form(expansion: Expansion, request: CodeRequest) -> Form:
         *limit_fact(expansion.variable, request.limit),
         *request.more,
     )
-    return Form(expansion.system, f"Fundamental frequency of '{expansion.system}'", facts, tuple(functions))
+    return Form(expansion.system, f"Fundamental frequency of {titled(expansion.system)}", facts, tuple(functions))
 
 
 class _Series:

@@ -21,7 +21,7 @@ from ridgeback.symbolic.codegen.expressions import valued
 from ridgeback.symbolic.codegen.formulas.closed_forms import MeanForm, mean_form, mean_steps
 from ridgeback.symbolic.codegen.formulas.frequency import under
 from ridgeback.symbolic.codegen.formulas.resummations import means_steps, number_of, slope_of
-from ridgeback.symbolic.codegen.formulas.wording import OMEGA0, PARAMETER
+from ridgeback.symbolic.codegen.formulas.wording import OMEGA0, PARAMETER, titled
 from ridgeback.symbolic.codegen.naming import argument_names
 from ridgeback.symbolic.codegen.program import Argument, Domain, Form, Function, Operand, Steps, needed
 from ridgeback.symbolic.codegen.request import CodeRequest
@@ -71,7 +71,7 @@ class SymbolicMean:
             f"Variable A: {meaning}.",
             *request.more,
         )
-        title = f"Fundamental frequency of '{self.system}'"
+        title = f"Fundamental frequency of {titled(self.system)}"
         return Form(self.system, title, facts, (made, slope_of(made, request.real)))
 
     def _sine(self, steps: Steps, domain: Domain) -> tuple[Operand, Operand, int]:

@@ -26,6 +26,19 @@ GROWTH = "Relative rate of change of the amplitude, a'/a, per unit of time."
 A_RATE = "Rate of change of the amplitude, a', per unit of time; with omega0 the slow flow's right side."
 
 
+UNNAMED = "equation"
+"""The name of an oscillator that was given as an equation."""
+
+
+def titled(system: str) -> str:
+    """An oscillator in a title: by its name, where it has one.
+
+    >>> titled("pendulum"), titled(UNNAMED)
+    ("'pendulum'", 'an oscillator given by its equation')
+    """
+    return "an oscillator given by its equation" if system == UNNAMED else f"'{system}'"
+
+
 def frequency_argument(scale: Expr, real: Real = FLOAT64) -> Argument:
     """The natural frequency, by default the one that the expansion was derived with; without, where it has symbols."""
     meaning = "natural (small-amplitude) angular frequency"

@@ -34,7 +34,7 @@ def changed_in_place(function: Function, steps: tuple[Statement, ...]) -> Iterat
     """For each statement the operand that its result may take the place of, or None.
 
     That is a computed value, not read afterwards, read here once, and of the shape of the result: depending on every
-    argument that the other operands depend on.
+    argument that the other operands depend on; under another name only where a product and a sum would make two arrays.
 
     >>> from ridgeback.symbolic.codegen import form_of
     >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -50,11 +50,9 @@ def changed_in_place(function: Function, steps: tuple[Statement, ...]) -> Iterat
         read = [o for o in operands_of(step) if isinstance(o, str)]
         shape = frozenset[str]().union(*(shapes[name] for name in read))
         own = [name for name in read if name == step.name]
-        dead = (
-            name
-            for name in (*own, *reversed(read))
-            if name not in arguments and (name == step.name or name not in live)
-        )
+        double = isinstance(step, Step) and step.operation is Operation.MULTIPLY_ADD
+        factors = [o for o in operands_of(step)[1::-1] if isinstance(o, str) and o not in live] if double else []
+        dead = (name for name in (*own, *factors) if name not in arguments)
         fitting = (name for name in dead if shapes[name] == shape and read.count(name) == 1)
         yield next(fitting, None) if isinstance(step, Step) and step.operation in CHANGING else None
         shapes[step.name] = shape

@@ -19,7 +19,8 @@ def _filled(function, lowest, highest, where, given, out=None):
     import numpy
 
     given = [numpy.asarray(value, dtype=numpy.float64) for value in given]
-    shape = numpy.broadcast(*given).shape
+    shapes = {value.shape for value in given} - {()}
+    shape = shapes.pop() if len(shapes) == 1 else numpy.broadcast_shapes(*shapes)
     if out is None:
         out = numpy.empty(shape)
     elif out.shape != shape or out.dtype != numpy.float64:

@@ -13,12 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from fractions import Fraction
 
 from flint import fmpq
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.codegen.number import Number, Real, fraction
+from ridgeback.symbolic.codegen.number import Number, Real
 from ridgeback.symbolic.codegen.program import (
     Form,
     Function,
@@ -98,18 +97,24 @@ class _Pair:
     def plus(self, c: Number) -> None:
         """(H + L) + c, after a product."""
         steps = self.steps
-        nearest = Fraction(c.nearest)
-        high = steps.number(fmpq(nearest.numerator, nearest.denominator))
-        self.high = steps.assign("sum", Operation.TWO_SUM, self.high, high, rest="sum_low")
+        self.high = steps.assign("sum", Operation.TWO_SUM, self.high, _held(c), rest="sum_low")
         self.low = steps.add("sum_low", "sum_low", self.low or steps.number(0))
-        if rest := _rest(c):
-            steps.add("sum_low", self.low, steps.number(rest))
+        if rest := _cut_off(c):
+            steps.add("sum_low", self.low, rest)
 
 
-def _rest(c: Number) -> fmpq:
-    """What an exact coefficient has beyond the nearest number; 0 for an irrational one."""
-    rest = fraction(c.exact) - Fraction(c.nearest) if isinstance(c.exact, fmpq) else Fraction(0)
-    return fmpq(rest.numerator, rest.denominator)
+def _held(c: Number) -> Number:
+    """The number of the format next to a rational coefficient, as an exact one; an irrational one as it is."""
+    if not isinstance(c.exact, fmpq):
+        return c
+    return Number(fmpq(*c.nearest.as_integer_ratio()), c.real)
+
+
+def _cut_off(c: Number) -> Number | None:
+    """What rounding takes from a rational coefficient; None where that is nothing."""
+    if not isinstance(c.exact, fmpq) or c.representable:
+        return None
+    return Number(c.exact - _held(c).exact, c.real)
 
 
 def _compensated(function: Function, place: int, count: int, real: Real) -> Function:
@@ -121,33 +126,18 @@ def _compensated(function: Function, place: int, count: int, real: Real) -> Func
     if len(kept) > 1:
         steps.taken.append(replace(horner, coefficients=kept))
     else:
-        steps.multiply(horner.name, kept[0] or steps.number(0), steps.number(1))
+        steps.multiply(horner.name, _held(kept[0]) if kept[0] else steps.number(0), steps.number(1))
     pair = _Pair(steps, horner.name)
-    if not last and kept[0] is not None:
-        pair.low = steps.number(_rest(kept[0]))
+    pair.low = _cut_off(kept[0]) if len(kept) == 1 and kept[0] is not None else None
     for coefficient in reversed(last):
         pair.times(horner.at, x_low)
         if coefficient is not None:
             pair.plus(coefficient)
-    held = {horner.at} if x_low is not None else set()
-    for factor in _factors(function, place, held):
-        pair.times(factor, x_low if factor in held else None)
+    for statement in function.body[place + 1 :]:
+        factor = statement.operands[0] if isinstance(statement, Step) else horner.at
+        pair.times(factor, x_low if factor == horner.at else None)
     result = steps.add("rounded", pair.high, pair.low or steps.number(0))
     return replace(function, body=needed(steps.taken, result), result=result)
-
-
-def _factors(function: Function, place: int, held: set[str]) -> Iterator[Operand]:
-    """What Horner's value is multiplied by, powers factor by factor, so that none of their roundings is lost."""
-    chain, powers = function.body[place].name, dict[Operand, tuple[Operand, ...]]()
-    for i, statement in enumerate(function.body):
-        if i == place or not isinstance(statement, Step) or statement.name in held:
-            continue
-        factors = tuple(f for o in statement.operands if o != chain for f in powers.get(o, (o,)))
-        if i > place and chain in statement.operands:
-            chain = statement.name
-            yield from factors
-        else:
-            powers[statement.name] = factors
 
 
 def _before(steps: Steps, body: tuple[Statement, ...], at: str) -> str | None:

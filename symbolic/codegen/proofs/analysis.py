@@ -164,6 +164,8 @@ class Analysis:
                 grid = of_product(x[0], x[1])
                 inner = Computed(exact, error, grid=grid) if self.fused else self.rounded(exact, error, grid)
                 return self.rounded(exact + x[2].exact, inner.error + x[2].error, of_sum(inner, x[2]))
+            case Operation.DIVIDE if is_power_of_two(x[1]):
+                return self._value(Operation.MULTIPLY, [x[0], Computed(1 / x[1].exact, arb(0))])
             case Operation.DIVIDE:
                 return self.rounded(*quotient(x[0], x[1]))
             case Operation.SQUARE_ROOT:

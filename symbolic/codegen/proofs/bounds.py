@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final, TypeAlias
 
-from flint import arb, ctx
+from flint import arb, arb_poly, ctx
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import ball, whole_power
@@ -22,6 +22,8 @@ WORK: Final = 12000
 FEWEST: Final = 8
 SHARP: Final = arb(1.02)
 """A box whose bound is so near to that at its middle is not halved."""
+EXPANDED: Final = 64
+"""The highest degree of a polynomial whose exact values are found by expanding it."""
 PROBES: Final = 12
 """Points at which a bound is tried before it is proved."""
 
@@ -87,12 +89,19 @@ def _runner(form: Form, function: Function) -> Run | None:
 
 
 def exact_value(function: Function, box: arb) -> arb:
-    """A polynomial in one variable on a ball, by its exact coefficients and without its factor."""
+    """A polynomial in one variable on a ball, by its exact coefficients and without its factor.
+
+    Where it is not too long it is expanded about the middle, |p(m + r z) - p(m)| <= sum |p_i| r^i for |z| <= 1.
+    """
     polynomial = function.polynomial
     assert polynomial is not None  # noqa: S101 - asked only where there is one
     powers = {p[0]: c for p, c in polynomial.terms.items()}
-    total = arb(0)
     low, high = min(powers, default=0), max(powers, default=0)
+    if high <= EXPANDED:
+        dense = arb_poly([powers[p].ball if p in powers else 0 for p in range(high + 1)])
+        middle, *others = dense(arb_poly([box.mid(), box.rad()])).coeffs() or [arb(0)]
+        return middle + arb(0, sum(map(abs, others), arb(0)).upper())
+    total = arb(0)
     stride = 2 if all((p - low) % 2 == 0 for p in powers) else 1
     for p in range(high, low - 1, -stride):
         total = total * whole_power(box, stride) + (powers[p].ball if p in powers else 0)
