@@ -28,7 +28,7 @@ from ridgeback.symbolic.codegen.fit.truncation import _in_step, bits_of
 from ridgeback.symbolic.codegen.formulas.closed_forms import MOST_TERMS, mean_steps, sine_series
 from ridgeback.symbolic.codegen.number import FLOAT64, Number, rounded
 from ridgeback.symbolic.codegen.program import Steps
-from ridgeback.symbolic.codegen.proofs.bounds import half_spacing
+from ridgeback.symbolic.codegen.proofs.analysis import half_spacing
 from ridgeback.symbolic.cycles import passage, search, taylor_step
 from ridgeback.symbolic.cycles.averaged import averaged_loss
 from ridgeback.symbolic.enclosure import analytic_strip, quadrature, separatrix, turning_points, walk

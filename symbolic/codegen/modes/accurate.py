@@ -133,9 +133,9 @@ def _compensated(function: Function, place: int, count: int, real: Real) -> Func
         pair.times(horner.at, x_low)
         if coefficient is not None:
             pair.plus(coefficient)
-    for statement in function.body[place + 1 :]:
-        factor = statement.operands[0] if isinstance(statement, Step) else horner.at
-        pair.times(factor, x_low if factor == horner.at else None)
+    held = {horner.at} if x_low is not None else set()
+    for factor in _factors(function, place, held):
+        pair.times(factor, x_low if factor in held else None)
     result = steps.add("rounded", pair.high, pair.low or steps.number(0))
     return replace(function, body=needed(steps.taken, result), result=result)
 
@@ -150,3 +150,17 @@ def _before(steps: Steps, body: tuple[Statement, ...], at: str) -> str | None:
         else:
             steps.taken.append(statement)
     return rest
+
+
+def _factors(function: Function, place: int, held: set[str]) -> Iterator[Operand]:
+    """What Horner's value is multiplied by, powers factor by factor, so that none of their roundings is lost."""
+    chain, powers = function.body[place].name, dict[Operand, tuple[Operand, ...]]()
+    for i, statement in enumerate(function.body):
+        if i == place or not isinstance(statement, Step) or statement.name in held:
+            continue
+        factors = tuple(f for o in statement.operands if o != chain for f in powers.get(o, (o,)))
+        if i > place and chain in statement.operands:
+            chain = statement.name
+            yield from factors
+        else:
+            powers[statement.name] = factors
