@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import ClassVar
 
 from ridgeback.symbolic.codegen.evaluation import test_points
-from ridgeback.symbolic.codegen.languages.in_place import changed_in_place, single_steps
+from ridgeback.symbolic.codegen.in_place import changed_in_place, single_steps
 from ridgeback.symbolic.codegen.languages.language import Language, table_name
 from ridgeback.symbolic.codegen.number import Number
 from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operation, Step
