@@ -9,8 +9,9 @@ from fractions import Fraction
 from functools import partial
 from typing import Final
 
+from ridgeback.symbolic.codegen.lowering import lowered
 from ridgeback.symbolic.codegen.number import FLOAT32, FLOAT64, Number, Real, rounded
-from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operation, Step, lowered
+from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operation, Step
 
 
 def divided(a: float, b: float) -> float:

@@ -4,16 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ridgeback.symbolic.codegen.program import (
-    Form,
-    Function,
-    Horner,
-    Operation,
-    Statement,
-    Step,
-    lowered_step,
-    operands_of,
-)
+from ridgeback.symbolic.codegen.lowering import lowered_step
+from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operation, Statement, Step, operands_of
 
 CHANGING = (Operation.ADD, Operation.SUBTRACT, Operation.MULTIPLY, Operation.MULTIPLY_ADD)
 

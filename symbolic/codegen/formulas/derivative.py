@@ -15,8 +15,9 @@ from typing import Final
 from flint import fmpq
 
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.codegen.lowering import lowered
 from ridgeback.symbolic.codegen.number import Real
-from ridgeback.symbolic.codegen.program import Function, Operand, Operation, Step, Steps, lowered, needed
+from ridgeback.symbolic.codegen.program import Function, Operand, Operation, Step, Steps, needed
 
 TAIL: Final = "_rise"
 """Ends the name of a derivative."""

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 
 from ridgeback.symbolic.codegen.evaluation import test_points
 from ridgeback.symbolic.codegen.languages.language import Language
+from ridgeback.symbolic.codegen.lowering import operations
 from ridgeback.symbolic.codegen.program import Form, Function, Horner
 
 FLAGS = ("-std=f2008", "-O3", "-ffp-contract=off", "-fprotect-parens", "-Wall", "-Wextra", "-pedantic")
@@ -94,7 +95,7 @@ class Fortran(Language):
         listed, domain = ", ".join(names), function.domain
         about = [f"  {self.remark(line)}" for line in self.about(function)]
         declared = [f"    real(wp), intent(in) :: {', '.join(names)}"]
-        local = sorted({step.name for step in function.operations(form)} - set(names), key=str.lower)
+        local = sorted({step.name for step in operations(function, form)} - set(names), key=str.lower)
         loops = any(True for _ in self.tables(function))
         body = [f"    {line}" for line in self.body(function, form)]
         unread = [f"    if (.false.) value = {n}" for n in self.unread(function)]
@@ -145,7 +146,7 @@ class Fortran(Language):
         ]
 
     def _lower(self, form: Form) -> Iterator[str]:
-        if any(step.operation.value == "floor" for f in form.functions for step in f.operations(form)):
+        if any(step.operation.value == "floor" for f in form.functions for step in operations(f, form)):
             yield (
                 "  ! The next lower whole number, of any size.\n  pure elemental function lower(x) result(value)\n"
                 "    real(wp), intent(in) :: x\n    real(wp) :: value\n    value = aint(x)\n"

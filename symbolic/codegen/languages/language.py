@@ -15,6 +15,7 @@ from flint import fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen.comments import comment_text
+from ridgeback.symbolic.codegen.lowering import lowered_step
 from ridgeback.symbolic.codegen.number import FLOAT32, Number
 from ridgeback.symbolic.codegen.program import (
     MODES,
@@ -26,7 +27,6 @@ from ridgeback.symbolic.codegen.program import (
     Operation,
     Statement,
     Step,
-    lowered_step,
 )
 
 WIDTH = 100

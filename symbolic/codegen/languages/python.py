@@ -10,6 +10,7 @@ from typing import ClassVar
 from ridgeback.symbolic.codegen.evaluation import test_points
 from ridgeback.symbolic.codegen.in_place import changed_in_place, single_steps
 from ridgeback.symbolic.codegen.languages.language import Language, table_name
+from ridgeback.symbolic.codegen.lowering import operations
 from ridgeback.symbolic.codegen.number import Number
 from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operation, Step
 
@@ -181,7 +182,7 @@ class Python(Language):
         return ["import math", *(["from fractions import Fraction"] if form.fused else [])]
 
     def _helpers(self, form: Form) -> list[str]:
-        steps = [step.operation.value for f in form.functions for step in f.operations(form)]
+        steps = [step.operation.value for f in form.functions for step in operations(f, form)]
         parts = ["BLOCK = 4096", ARRAYS, *([EMULATED] if form.fused else [])]
         for word in ("sqrt", "floor"):
             if word in steps:

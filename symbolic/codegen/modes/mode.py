@@ -10,6 +10,7 @@ from itertools import chain, takewhile
 from typing import Final
 
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.codegen.lowering import operations
 from ridgeback.symbolic.codegen.modes.accurate import compensated
 from ridgeback.symbolic.codegen.modes.leading import leading
 from ridgeback.symbolic.codegen.modes.splitting import split
@@ -74,10 +75,10 @@ def _size(found: Bound | None) -> tuple[float, float]:
 def _carried(form: Form, function: Function) -> Iterator[Function]:
     """What carries errors along, from cheap to costly."""
     within = MOST if form.mode != "accurate" else math.inf
-    return takewhile(lambda made: operations(form, made) <= within, compensated(form, function))
+    return takewhile(lambda made: cost(form, made) <= within, compensated(form, function))
 
 
-def operations(form: Form, function: Function) -> int:
+def cost(form: Form, function: Function) -> int:
     """How many single operations a function comes to."""
     double = () if form.fused else (Operation.MULTIPLY_ADD,)
-    return sum(2 if step.operation in double else 1 for step in function.operations(form))
+    return sum(2 if step.operation in double else 1 for step in operations(function, form))

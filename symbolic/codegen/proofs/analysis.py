@@ -266,7 +266,7 @@ def square_root(x: Computed) -> tuple[arb, arb]:
 
 
 def any_root(x: Computed, degree: int, real: Real) -> Computed:
-    """The root that ``program._root`` computes: besides what x' - x does, its last step errs by 2 units of roundoff.
+    """The root that ``lowering._root`` computes: besides what x' - x does, its last step errs by 2 units of roundoff.
 
     With d - 1 products y^d errs by the share (d - 1) u, its correction so by u y, and the last difference by u y more;
     what is left of Newton's error and the roundings of a correction of that size are in the last quarter.

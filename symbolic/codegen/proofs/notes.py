@@ -10,8 +10,9 @@ from typing import Final
 from flint import arb
 from sympy import Add
 
+from ridgeback.symbolic.codegen.lowering import lowered
 from ridgeback.symbolic.codegen.number import FLOAT64, Number, Real
-from ridgeback.symbolic.codegen.program import Form, Function, Operand, Operation, Statement, Step, lowered
+from ridgeback.symbolic.codegen.program import Form, Function, Operand, Operation, Statement, Step
 from ridgeback.symbolic.codegen.proofs.bounds import Bound
 from ridgeback.symbolic.enclosure.enclosure import rounded_down
 
