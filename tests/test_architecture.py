@@ -38,8 +38,8 @@ ALLOWED: dict[str, frozenset[str]] = {
 # The folders of each room in their order: each may import those before it, never one behind it.
 ORDER: dict[str, tuple[str, ...]] = {
     "symbolic": (
-        *("arithmetic", "grammar", "systems", "series", "expansion", "singularities", "resummation", "enclosure"),
-        *("cycles", "flow", "certificates", "codegen", "high_order"),
+        *("arithmetic", "grammar", "systems", "series", "expansion", "high_order", "singularities", "resummation"),
+        *("enclosure", "cycles", "flow", "certificates", "codegen"),
     ),
     "numeric": (
         *(

@@ -11,8 +11,9 @@ import sympy
 from flint import arb, ctx, fmpq
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.arithmetic.balls import natural_frequency, polynomial_at
+from ridgeback.symbolic.arithmetic.balls import natural_frequency, polynomial_at, scalar_ball
 from ridgeback.symbolic.expansion.expansion import Expansion
+from ridgeback.symbolic.series.spaces import Scalar
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -98,9 +99,19 @@ class BallExpansion:
         pairs = [(self.coefficients, exact.coefficients)]
         pairs += [(self.amplitude_coefficients or (), exact.amplitude_coefficients or ())]
         found = [
-            n for mine, yours in pairs for n, (x, c) in enumerate(zip(mine, yours, strict=False)) if not holds(x, c)
+            n
+            for mine, yours in pairs
+            for n, (x, c) in enumerate(zip(mine, yours, strict=False))
+            if not self._meets(x, c, exact)
         ]
         return sorted(set(found))
+
+    def _meets(self, x: arb, c: Scalar, exact: Expansion) -> bool:
+        """Whether an exact coefficient lies in a ball; the ball of an irrational one overlaps it."""
+        if not exact.names:
+            return holds(x, c)
+        with ctx.workprec(self.bits):
+            return bool(x.overlaps(scalar_ball(c, exact.names, exact.constants)))
 
     def to_dict(self) -> dict[str, object]:
         """The public JSON form: balls as text, exact zeros left out.

@@ -20,7 +20,7 @@ coefficients, sooner.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Final
 
 import sympy
@@ -28,6 +28,7 @@ from flint import fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, Wanted, showing
+from ridgeback.common.recurrences import Element
 from ridgeback.symbolic.expansion.amplitude import DEFINITIONS, check_amplitude
 from ridgeback.symbolic.expansion.cost import Budget, check, effort_of
 from ridgeback.symbolic.expansion.expansion import Expansion, check_order
@@ -38,6 +39,7 @@ from ridgeback.symbolic.series.spaces import Scalar, Space, is_zero, space_for
 from ridgeback.symbolic.series.trigonometric import Trig, constant, cosine, solve_oscillator
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
+from ridgeback.symbolic.systems.parameters import symbol_of
 from ridgeback.symbolic.systems.structure import free_names
 
 DIRECT = ("peak", "fundamental")
@@ -175,7 +177,13 @@ def _by_theta_series(force: sympy.Expr, order: int, progress: Progress) -> tuple
 
 
 def conservative_recursion(
-    oscillator: Oscillator, order: int, amplitude: str, space: Space, *, watch: BetweenOrders = no_watch
+    oscillator: Oscillator,
+    order: int,
+    amplitude: str,
+    space: Space,
+    *,
+    watch: BetweenOrders = no_watch,
+    constants: Mapping[str, Scalar] | None = None,
 ) -> Recursion:
     """Run Lindstedt's recursion for a conservative oscillator over a given coefficient space.
 
@@ -191,6 +199,8 @@ def conservative_recursion(
         What the coefficients are: rationals, polynomials in parameters, balls.
     watch : callable, optional
         Called before each order with the recursion and the order.
+    constants : mapping of str to coefficient, optional
+        Values of names in the force that are none of the space's: what is irrational, in balls.
 
     Returns
     -------
@@ -209,7 +219,10 @@ def conservative_recursion(
     [1, 0, 3/8]
     """
     force = oscillator.normalised.rational
-    program = compiled(force, space.names, constant(space, fmpq(0)))
+    fixed: dict[sympy.Symbol, list[Element]] = {
+        symbol_of(name): [constant(space, value)] for name, value in (constants or {}).items()
+    }
+    program = compiled(force, space.names, constant(space, fmpq(0)), fixed)
     if program.root.slopes()[1]:
         raise InputError(_no_family(oscillator))
     recursion = Recursion(program, [constant(space, fmpq(0)), cosine(space)], space)

@@ -21,6 +21,7 @@ from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, Wanted, showing, silent
+from ridgeback.symbolic.arithmetic.balls import number_ball
 from ridgeback.symbolic.expansion.amplitude import check_amplitude
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, log2, missing_bits
 from ridgeback.symbolic.expansion.cost import Budget, balls_of, check
@@ -174,11 +175,9 @@ class _Run:
 
     def result(self) -> BallExpansion:
         """Run all orders; save what there is on an interrupt."""
-        run = cycle_recursion if self.task.cycle else conservative_recursion
         with ctx.workprec(self.bits):
             try:
-                space = Balls(self.task.order + 1)
-                recursion = run(self.task.oscillator, self.task.order, self.task.amplitude, space, watch=self.watch)
+                recursion = self.recursion()
             except KeyboardInterrupt:
                 self.save()
                 raise
@@ -193,6 +192,16 @@ class _Run:
             self.save()
         with ctx.workprec(self.bits):
             return _expansion(self.task, self.bits, recursion)
+
+    def recursion(self) -> Recursion:
+        """All orders, with what is irrational in balls of the present precision."""
+        task, space = self.task, Balls(self.task.order + 1)
+        if task.cycle:
+            return cycle_recursion(task.oscillator, task.order, task.amplitude, space, watch=self.watch)
+        constants = {name: number_ball(value) for name, value in task.oscillator.normalised.constants.items()}
+        return conservative_recursion(
+            task.oscillator, task.order, task.amplitude, space, watch=self.watch, constants=constants
+        )
 
     def watch(self, recursion: Recursion, n: int) -> None:
         """Between two orders: replay, remember, save, and drop the bits that are lost."""

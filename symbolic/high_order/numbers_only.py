@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.roots import root_in
 from ridgeback.symbolic.systems.oscillator import Oscillator
 from ridgeback.symbolic.systems.structure import free_names
 
 
 def require_numbers(oscillator: Oscillator, needed_by: str) -> None:
-    """Refuse an oscillator with a parameter that is symbolic or irrational.
+    """Refuse an oscillator with a symbolic parameter; what is irrational has a name and a value.
 
     Parameters
     ----------
@@ -22,12 +23,9 @@ def require_numbers(oscillator: Oscillator, needed_by: str) -> None:
     InputError
         Names the parameters.
     """
-    natural = oscillator.normalised
-    force = natural.force if oscillator.kind == "limit-cycle" else natural.rational
-    names = sorted(set(free_names(force)) - {oscillator.small})
+    names = sorted(set(free_names(oscillator.substituted_force)) - {oscillator.small})
     if names:
-        unset = ", ".join(str(natural.constants.get(name, name)) for name in names)
-        raise InputError(f"{oscillator.name}: {unset} is no rational number; {needed_by} one for each parameter")
+        raise InputError(f"{oscillator.name}: {', '.join(names)} is no number; {needed_by} one for each parameter")
 
 
 def identity(oscillator: Oscillator, order: int, amplitude: str) -> dict[str, str]:
@@ -39,9 +37,10 @@ def identity(oscillator: Oscillator, order: int, amplitude: str) -> dict[str, st
     """
     natural = oscillator.normalised
     force = natural.force if oscillator.kind == "limit-cycle" else natural.bound
+    root = root_in(force)
     return {
         "oscillator": oscillator.name,
-        "equation": f"u'' + {force} = 0 in units where k = 1",
+        "equation": f"u'' + {force} = 0 in units where k = 1" + (f", {root.told}" if root else ""),
         "order": str(order),
         "amplitude": amplitude,
     }

@@ -8,14 +8,17 @@ from ridgeback.common.progress import Wanted
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
 from ridgeback.symbolic.expansion.energy_integral import ALLOWED, energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
-from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.expansion.lindstedt import DIRECT, lindstedt
 from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
 from ridgeback.symbolic.singularities.limits import ONE_POWER, Limits, limits, nowhere
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, V
 
 _SETTLING: Final = 48
 """The same for any amplitude definition and for limit cycles."""
+_DIGITS: Final = 60
+"""Of irrational coefficients; extrapolation loses some."""
 
 
 def settled_limits(
@@ -51,15 +54,21 @@ def settled_limits(
     if isinstance(expansion, PowerExpansion):
         return _of_powers(expansion)
     oscillator = as_oscillator(oscillator)
-    if expansion.names or expansion.order >= _SETTLING:
+    unsettled = expansion.names if oscillator.by_sides else getattr(expansion, "symbolic_names", ())
+    if unsettled or expansion.order >= _SETTLING:
         found = limits(expansion)
         if found.radius is not None or isinstance(expansion, Expansion):
             return found
     return limits(expansion, longer=_longer(oscillator, expansion.amplitude, progress))
 
 
-def _longer(oscillator: Oscillator, amplitude: str, progress: Wanted) -> Expansion:
-    """The frequency alone is enough: by the energy integral where there is one, which takes the least."""
+def _longer(oscillator: Oscillator, amplitude: str, progress: Wanted) -> Expansion | BallExpansion:
+    """The frequency alone is enough: by the energy integral where there is one, which takes the least.
+
+    With irrational coefficients in balls, since exact ones are polynomials in all of them.
+    """
+    if oscillator.closes and oscillator.normalised.constants and amplitude in DIRECT:
+        return lindstedt_in_balls(oscillator, _SETTLING, digits=_DIGITS, amplitude=amplitude, progress=progress)
     conserved = oscillator.is_conservative and not oscillator.by_sides and not oscillator.normalised.rational.has(V)
     derive = energy_integral if conserved and amplitude in ALLOWED else lindstedt
     return derive(oscillator, _SETTLING, amplitude=amplitude, progress=progress)

@@ -156,7 +156,28 @@ def _opened(force: sympy.Expr) -> sympy.Expr:
     if not any(_irrational(atom) for atom in force.atoms(sympy.Pow, sympy.NumberSymbol, sympy.Function)):
         return force
     apart = force.replace(lambda e: e.func in _ADDITION and e.args[0].is_Add, _apart)
-    return sympy.Add(*_collected(sympy.expand(apart, power_base=False, log=False)))
+    return sympy.Add(*_collected(_multiplied_out(apart)))
+
+
+HIGH: Final = 8
+"""Powers beyond this of what is no polynomial stay as they are: multiplied out they may have millions of terms."""
+
+
+def _multiplied_out(e: sympy.Expr) -> sympy.Expr:
+    kept: dict[sympy.Dummy, sympy.Expr] = {}
+
+    def held(power: sympy.Expr) -> sympy.Dummy:
+        mark = sympy.Dummy(real=True)
+        kept[mark] = power
+        return mark
+
+    apart = e.replace(_is_high, held)
+    return sympy.expand(apart, power_base=False, log=False).xreplace(kept)
+
+
+def _is_high(e: sympy.Expr) -> bool:
+    high = e.is_Pow and e.exp.is_Rational and abs(e.exp) > HIGH and e.base.has(U, V)
+    return bool(high and not e.base.is_polynomial(U, V))
 
 
 def _irrational(e: sympy.Expr) -> bool:

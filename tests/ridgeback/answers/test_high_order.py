@@ -172,7 +172,7 @@ def test_work_over_the_budget_is_refused_beforehand_and_allowed_when_asked_for(r
         (["pendulum", "--budget", "2 parsecs"], "not a budget"),
         (["pendulum", "--budget", "0h"], "not a budget"),
         (["pendulum", "--budget", "1h,2h"], "not a budget"),
-        (["--equation", "u'' + u + c*u**3 = 0", "--digits", "5"], "c is no rational number"),
+        (["--equation", "u'' + u + c*u**3 = 0", "--digits", "5"], "c is no number"),
     ],
 )
 def test_what_balls_cannot_do_is_said_in_one_line(ridgeback: Ridgeback, words: list[str], said: str) -> None:

@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from ridgeback.common.errors import InputError
 from ridgeback.common.hashed_lines import write_signed
 from ridgeback.common.progress import Progress
+from ridgeback.symbolic.arithmetic.balls import number_ball
 from ridgeback.symbolic.expansion.ball_expansion import BallExpansion, holds, missing_bits
 from ridgeback.symbolic.expansion.cost import Budget, predict
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -42,6 +43,8 @@ from ridgeback.symbolic.series.trigonometric import (
     sine,
     solve_oscillator,
 )
+from ridgeback.symbolic.singularities.settled import settled_limits
+from ridgeback.symbolic.systems.any_form import as_oscillator
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -58,6 +61,25 @@ def test_every_exact_coefficient_lies_in_its_ball(name: str, amplitude: str) -> 
     found = lindstedt_in_balls(find(name), 20, amplitude=amplitude, digits=25)
     assert found.misses(lindstedt(find(name), 20, amplitude=amplitude)) == []
     assert missing_bits((*found.coefficients, *(found.amplitude_coefficients or ())), 25) == 0
+
+
+@pytest.mark.parametrize(
+    ("equation", "place"),
+    [
+        ("u'' - 2 + u**3 = 0", "2**(1/3)"),
+        ("u'' - 1 + u**5 + u = 0", "0.7549"),  # a root that radicals do not give
+        ("u'' + sin(u) - 1/2 = 0", "pi/6"),
+        ("u'' + 2*u + u**2 = 0", None),
+    ],
+)
+def test_irrational_coefficients_lie_in_their_balls(equation: str, place: str | None) -> None:
+    own = Oscillator.from_equation(equation) if place is None else as_oscillator(equation, about=place)
+    exact, found = lindstedt(own, 8), lindstedt_in_balls(own, 8, digits=30)
+    assert missing_bits(found.coefficients, 30) == 0
+    with ctx.workprec(200):
+        for n, c in enumerate(exact.frequency):
+            assert found.frequency[n].overlaps(number_ball(c)), n
+    assert settled_limits(own, exact).radius == pytest.approx(settled_limits(own, found).radius)
 
 
 def test_van_der_pol_to_order_40_keeps_its_digits_and_needs_a_predicted_precision() -> None:
@@ -362,7 +384,7 @@ def test_a_ball_is_written_and_read_exactly(mid: int, exponent: int, radius: int
 
 
 def test_what_balls_cannot_do_is_refused_in_one_line() -> None:
-    with pytest.raises(InputError, match="c is no rational number; balls need one"):
+    with pytest.raises(InputError, match="c is no number; balls need one"):
         lindstedt_in_balls(Oscillator.from_equation("u'' + u + c*u**3"), 4)
     with pytest.raises(InputError, match="digits 0"):
         lindstedt_in_balls(find(VDP), 4, digits=0)

@@ -58,3 +58,9 @@ def test_functions_without_a_number_in_their_sum_are_left_closed() -> None:
     """Opening sinh of 27 u' or so would never end."""
     own = Oscillator.from_equation("u'' + 2*u + u**3 + asinh(sinh(u'**27)**9) = 0")
     assert list(own.normalised.constants.values()) == [sympy.sqrt(2)]
+
+
+def test_high_powers_of_functions_are_not_multiplied_out() -> None:
+    """tanh(asinh(z)) is z/sqrt(1 + z^2), and the 21st power of that beside 1/pi had millions of terms."""
+    own = Oscillator.from_equation("u'' + 2*u + ((tanh(asinh(tanh(u)/pi + u))/pi + u)**7)**3 = 0")
+    assert lindstedt(own, 4).frequency == (sympy.sqrt(2), 0, 0, 0, 0)
