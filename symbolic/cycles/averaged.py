@@ -60,8 +60,7 @@ def averaged_loss(force: sympy.Expr, k: float, a: float) -> float | None:
         values = [_value(force, a * math.cos(p), -a * k * math.sin(p)) * -math.sin(p) for p in phases]
     except (InputError, OverflowError, ZeroDivisionError):
         return None
-    mean = math.fsum(values) / POINTS
-    return mean if math.isfinite(mean) else None
+    return math.fsum(values) / POINTS if all(map(math.isfinite, values)) else None
 
 
 def _value(force: sympy.Expr, u: float, v: float) -> float:
