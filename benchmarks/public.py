@@ -1,7 +1,7 @@
 """Our estimators in the public benchmark ``mcsm-benchs`` (task ``inst_frequency``), beside ``ssqueezepy``'s ridges.
 
     pip install mcsm-benchs ssqueezepy
-    python -m benchmarks.public [--trials 20] [--plot public.svg]
+    python -m benchmarks.public [--trials 20] [--signals LinearChirp,ToneDamped] [--plot public.svg]
 
 Signals are those of its bank, cut to where they are not zero; it adds noise, calls the methods and compares.  Prints
 the rms error of the frequency in cycles per sample, and the Cramer-Rao bound of a polynomial phase and amplitude of the
@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import argparse
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from importlib import import_module
 from typing import Any
@@ -68,12 +68,12 @@ def methods() -> Mapping[str, Method]:
     return known | {f"ssqueezepy ssq_{way}": partial(theirs, transform=way) for way in ("cwt", "stft")}
 
 
-def bank() -> dict[str, Any]:
+def bank(wanted: Sequence[str]) -> dict[str, Any]:
     """The signals with their frequencies, of an odd number of samples."""
     own = import_module("mcsm_benchs.SignalBank")
     found = {}
     for name, signal in own.SignalBank(N=512, return_signal=True).signalDict.items():
-        if name in SIGNALS:
+        if name in wanted:
             frequency = np.asarray(signal.instf[0])
             inside = np.flatnonzero(np.abs(frequency) > 0)
             keep = inside[: inside.size - 1 + inside.size % 2]
@@ -110,9 +110,9 @@ def degree(time: Array, values: Array, scale: float) -> int:
     return MOST_DEGREE
 
 
-def rows(trials: int) -> list[dict[str, Any]]:
+def rows(trials: int, wanted: Sequence[str]) -> list[dict[str, Any]]:
     """One row for each signal, ratio and method."""
-    signals, known = bank(), methods()
+    signals, known = bank(wanted), methods()
     count = len(next(iter(signals.values())))
     made = import_module("mcsm_benchs.Benchmark").Benchmark(
         task="inst_frequency",
@@ -152,8 +152,12 @@ def rms(errors: list[float]) -> float:
 
 def draw(table: list[dict[str, Any]], path: str) -> None:
     """Error over the noise, a panel for each signal, the bound dashed."""
-    figure, panels = pyplot.subplots(1, len(SIGNALS), figsize=(13, 4.2), sharey=True, layout="constrained")
-    for panel, name in zip(panels, SIGNALS, strict=True):
+    names = list(dict.fromkeys(row["signal"] for row in table))
+    figure, grid = pyplot.subplots(
+        1, len(names), figsize=(1 + 4 * len(names), 4.2), sharey=True, layout="constrained", squeeze=False
+    )
+    panels = grid[0]
+    for panel, name in zip(panels, names, strict=True):
         mine = [row for row in table if row["signal"] == name]
         for method in methods():
             panel.semilogy(RATIOS, [row["rms"] for row in mine if row["method"] == method], "o-", label=method)
@@ -168,10 +172,11 @@ def main() -> None:
     """Run, print, and draw where that is asked for."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--trials", type=int, default=20)
+    parser.add_argument("--signals", default=",".join(SIGNALS))
     parser.add_argument("--plot")
     asked = parser.parse_args()
     np.random.seed(1)  # noqa: NPY002 - the benchmark draws its noise from NumPy's global generator
-    table = rows(asked.trials)
+    table = rows(asked.trials, asked.signals.split(","))
     shown = [{**row, "rms": f"{row['rms']:.2e}", "bound": f"{row['bound']:.2e}"} for row in table]
     print(aligned(list(table[0]), shown))
     if asked.plot:
