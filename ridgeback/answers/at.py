@@ -61,7 +61,12 @@ def read_at(
 
         held, precision = None if isinstance(formula, SlowFlow) else formula, bits(demand, CYCLE_DIGITS)
         return certified_cycles(oscillator, demand.at or (), small=small, formula=held, bits=precision)
-    if isinstance(formula, SlowFlow | LossFlow):
+    if isinstance(formula, LossFlow):
+        raise click.UsageError(
+            "--at belongs to a series in the amplitude or to a limit cycle of a smooth law, and averaged losses give "
+            "neither: leave the losses out, or follow the motion by simulate"
+        )
+    if isinstance(formula, SlowFlow):
         raise click.UsageError(
             "--at belongs to a series in the amplitude, and a slow flow is none: set the damping to 0 "
             "(--set mu=0), or use --transient"

@@ -266,3 +266,8 @@ def test_a_potential_beside_the_equation_is_checked(ridgeback: Ridgeback) -> Non
     wrong = ridgeback(*words, "u**2/2 + u**4/3")
     assert (wrong.code, "does not differentiate to the restoring force" in wrong.err) == (2, True)
     assert ridgeback("derive", "pendulum", "--potential", "1 - cos(theta)").code == 2
+
+
+def test_averaged_losses_are_sent_to_what_they_have(ridgeback: Ridgeback) -> None:
+    done = ridgeback("derive", "--equation", "u'' + u + F*sign(u') = 0", "--at", "1")
+    assert (done.code, "averaged losses give neither" in done.err, "--transient" in done.err) == (2, True, False)
