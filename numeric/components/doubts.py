@@ -29,6 +29,8 @@ NEAR = 1.45
 """Factor from the oscillation within which a line is in its band."""
 WINDOW_CYCLES, FEWEST_WINDOWS, MOST_WINDOWS = 4.0, 5, 200
 """Of short stretches whose noise is held against that of the whole: their length, and how many of them."""
+FINE = 3.0
+"""Cycles between knots below which a model is at its finest, and what it leaves in one stretch no knots can follow."""
 STRETCH_CYCLES, AROUND, CHANCE = 3.0, (0.5, 1.5), 1e-4
 """Cycles of a stretch that is held against the others, the band about the oscillation in which it is, and the
 probability in white noise of one that leaves so much."""
@@ -52,7 +54,7 @@ def doubt(models: SignalModels, x: Array, left: Array, rate: float, guide: Array
 # In white noise the energy of a window of L samples in a band of width B, rad per sample, over the noise's variance is
 # distributed as chi^2 with L B / pi degrees of freedom.
 def somewhere(model: SplineModel, left: Array, rate: float, sound: Mask) -> str:
-    """Why a model cannot be trusted that leaves far more in one stretch than elsewhere: the motion jumps there.
+    """Why a model on its finest knots cannot be trusted that leaves far more in one stretch than elsewhere: a jump.
 
     >>> from ridgeback.numeric.harmonics.signal_model import signal_models
     >>> t, noise = np.arange(480) / 16.0, 0.01 * np.random.default_rng(1).normal(size=480)
@@ -65,6 +67,8 @@ def somewhere(model: SplineModel, left: Array, rate: float, sound: Mask) -> str:
     <BLANKLINE>
     a model of the whole leaves 4.1
     """
+    if model.cycles > FINE:
+        return ""
     clear = model.size > LEAST * float(model.size.max())
     low, high = AROUND[0] * float(model.omega[clear].min()), AROUND[1] * float(model.omega[clear].max())
     width = min(high, math.pi * rate) - low
