@@ -173,7 +173,9 @@ class _Powers:
         result = _polynomial(steps, names, rows) if rows else steps.number(0)
         where = (*((ROOT, Symbol(self.variable) ** Rational(1, self.degree)),) * (self.degree > 1), *parts.where)
         told = Polynomial(names, rows, "", where)
-        return Function(name, summary, self.arguments, needed(steps.taken, result), result, self.domain, (), told)
+        body = needed(steps.taken, result)
+        whole = self.degree == 1 and all(powers[0] >= 0 for powers in rows)  # else a root or quotient at rest
+        return Function(name, summary, self.arguments, body, result, self.domain, (), told, bounded=whole)
 
 
 @dataclass

@@ -45,7 +45,7 @@ def in_mode(form: Form, function: Function) -> Function:
     except InputError:
         if function.bounded or form.mode == "accurate":
             raise
-        return split(function)
+        made, found = split(function), None
     return replace(made, notes=(*made.notes, *rounding_notes(form, made, found)))
 
 

@@ -20,6 +20,7 @@ from ridgeback.symbolic.codegen.number import FLOAT32, FLOAT64, Number, Real
 from ridgeback.symbolic.codegen.polynomial import polynomial_function
 from ridgeback.symbolic.codegen.program import Argument, Domain, Form, Function, Mode, Operation
 from ridgeback.symbolic.codegen.proofs.bounds import bound, exact_value
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.systems.catalogue import find
 
@@ -115,3 +116,10 @@ def test_nothing_is_taken_that_is_not_needed() -> None:
     assert in_mode(form, function).body == function.body
     free = replace(function, domain=replace(function.domain, known=False))
     assert in_mode(form, free).body == function.body
+
+
+def test_a_range_that_begins_at_a_pole_has_code_without_a_bound_over_it() -> None:
+    form = form_of(energy_on_each_side(find("cube-root"), 2), up_to=Fraction(3))
+    value = value_at(form, form.functions[0], (1.0,))
+    assert "times the sum of the absolute values" in form.functions[0].notes[-1]
+    assert value == pytest.approx(1.0704505140376157, rel=1e-12)  # R. E. Mickens: 1.070451
