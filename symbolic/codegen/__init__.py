@@ -89,7 +89,7 @@ def generate(
     def omega0_unchecked(A, k=1.0):
         ...
         A_squared = A*A
-        y = 0.0003255208333333333*A_squared - 0.0625  # 1/3072, -1/16
+        y = 0.0003255208333333333*A_squared; y -= 0.0625  # 1/3072, -1/16
         y *= A_squared; y += 1.0
         result = k*y
         return result
