@@ -48,15 +48,15 @@ def gappa_script(form: Form, name: str = "omega0") -> str:
     function = next((f for f in form.functions if f.name == name), None)
     if function is None or function.polynomial is None or not function.domain.known:
         raise InputError("a Gappa script is written for polynomials with a domain; this formula is none, or has none")
+    if any(a.name not in (function.domain.argument, "k") for a in function.arguments):
+        raise InputError(f"a Gappa script is written for functions of one variable, and {name} has parameters")
+    if any(a.default not in (None, 1.0) for a in function.arguments):
+        raise InputError("a Gappa script is written for k = 1, where the last product is exact; derive with k = 1")
     if any(isinstance(s, Step) and s.operation in CARRIED for s in function.body):
         raise InputError(
             f"a Gappa script has no rule for the compensated steps of mode {form.mode} here; use another mode or a "
             "shorter range"
         )
-    if any(a.name not in (function.domain.argument, "k") for a in function.arguments):
-        raise InputError(f"a Gappa script is written for functions of one variable, and {name} has parameters")
-    if any(a.default not in (None, 1.0) for a in function.arguments):
-        raise InputError("a Gappa script is written for k = 1, where the last product is exact; derive with k = 1")
     found = bound(form, function)
     assert found is not None  # noqa: S101 - the domain is known
     return "\n".join([*_heading(form, function), *_lines(form, function), *_goal(form, function, found)]) + "\n"
