@@ -298,7 +298,7 @@ def hold(masks: list[Mask]) -> tuple[float, float, float]:
 
     Neighbouring samples of a trial share their error, so that the trials are the independent draws: n is taken as
     p (1 - p) / s^2, with s the standard error of the share over trials, in the exact interval of Clopper and Pearson
-    (Korn and Graubard 1998, Survey Methodology 24, 193).
+    (Korn and Graubard 1998, Survey Methodology 24, 193, without their allowance for few trials, 4 % of n for 60).
     """
     counts = np.array([one.size for one in masks], dtype=float)
     held = np.array([one.sum() for one in masks], dtype=float)

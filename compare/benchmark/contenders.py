@@ -166,7 +166,7 @@ class Verdict(Brief):
     ratio: float | None
     """The rival's error over the best's, both no less than the reference's floor; below 1 for a better yardstick."""
     decided: bool
-    """Whether the difference is more than the reference leaves open."""
+    """Whether the errors differ by more than the reference leaves open, and by more than 5 %."""
     limit: str
     """Where the best way ends, in words made from its numbers."""
 
@@ -176,13 +176,16 @@ class Verdict(Brief):
         if self.rival is None or self.ratio is None:
             return f"{head}; nothing of another way could be ranked"
         rival = f"{self.rival.label} ({_error(self.rival)}{_cost(self.rival)})"
+        least = min(self.best.relative_rms_error or 0.0, self.rival.relative_rms_error or 0.0)
+        if not self.decided and least > reference.floor:
+            return f"{head}, and {rival} does as well, within 5 %"
         if not self.decided:
             return (
                 f"{head}, and {rival} cannot be told from it: omega0(t) itself is open by {relative(reference.floor)}"
             )
         more = max(self.ratio, 1.0 / self.ratio)
         times = two_digits(more) if more < 1e5 else scientific(more)
-        if min(self.best.relative_rms_error or 0.0, self.rival.relative_rms_error or 0.0) < reference.floor:
+        if least < reference.floor:
             times = f"at least {times}"
             rival = f"{rival}, as far as omega0(t) itself is known: it is open by {relative(reference.floor)}"
         return f"{head}, {times} times {'less' if self.ratio > 1.0 else 'more'} than {rival}"

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ctypes
 import shutil
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +17,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.generated_code import OWN, omega0_alone
 from ridgeback.compare.binding.programs import finished
 from ridgeback.numeric.arrays import Array
@@ -60,28 +61,43 @@ def compiled(formula: OfAmplitude) -> Iterator[Vectorised | NotCompiled]:
 @contextmanager
 def compiled_together(formulas: Sequence[OfAmplitude]) -> Iterator[tuple[Vectorised | NotCompiled, ...]]:
     """The same of several in one library, which takes half the time of one for each."""
+    names = [f"{OWN}_{i}" for i in range(len(formulas))]
+    written_out = [_source_or_why(formula, name) for formula, name in zip(formulas, names, strict=True)]
+    sources = {name: text for name, text in zip(names, written_out, strict=True) if isinstance(text, str)}
+    scales = {name: float(formula.scale) for name, formula in zip(names, formulas, strict=True)}
     with ExitStack() as stack:
-        found = _compiled(formulas, stack) if formulas else ()
-        yield (found,) * len(formulas) if isinstance(found, NotCompiled) else found
+        found = _compiled(sources, scales, stack) if sources else {}
+        yield tuple(
+            text if isinstance(text, NotCompiled) else found if isinstance(found, NotCompiled) else found[name]
+            for name, text in zip(names, written_out, strict=True)
+        )
 
 
-def _compiled(formulas: Sequence[OfAmplitude], stack: ExitStack) -> tuple[Vectorised, ...] | NotCompiled:
+def _source_or_why(formula: OfAmplitude, name: str) -> str | NotCompiled:
+    try:
+        return source_of(formula, name)
+    except InputError as refusal:
+        return NotCompiled(str(refusal))
+
+
+def _compiled(
+    sources: Mapping[str, str], scales: Mapping[str, float], stack: ExitStack
+) -> dict[str, Vectorised] | NotCompiled:
     program = compiler()
     if program is None:
         return NotCompiled("there is no C compiler")
-    names = [f"{OWN}_{i}" for i in range(len(formulas))]
     try:
         folder = Path(stack.enter_context(TemporaryDirectory(prefix="ridgeback-", ignore_cleanup_errors=True)))
-        sources, library = [str(folder / f"{name}.c") for name in names], folder / f"{OWN}.so"
-        for source, name, formula in zip(sources, names, formulas, strict=True):
-            Path(source).write_text(source_of(formula, name), encoding="utf-8")
-        patience = PATIENCE * len(formulas)
-        done = finished([program, *_FLAGS, *sources, "-o", str(library), "-lm"], patience)
+        files, library = [folder / f"{name}.c" for name in sources], folder / f"{OWN}.so"
+        for file, text in zip(files, sources.values(), strict=True):
+            file.write_text(text, encoding="utf-8")
+        patience = PATIENCE * len(sources)
+        done = finished([program, *_FLAGS, *map(str, files), "-o", str(library), "-lm"], patience)
         if done is None:
             return NotCompiled(f"the C compiler did not finish within {patience:g} s")
         if done.code != 0:
             return NotCompiled("the C compiler failed")
-        return tuple(_loaded(library, name, float(f.scale)) for name, f in zip(names, formulas, strict=True))
+        return {name: _loaded(library, name, scales[name]) for name in sources}
     except (OSError, AttributeError, ValueError) as error:
         return NotCompiled(f"the temporary folder does not serve for compiled code ({' '.join(str(error).split())})")
 

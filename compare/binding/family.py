@@ -56,8 +56,8 @@ def family_of(oscillator: OscillatorLike, free: Sequence[str]) -> Family:
     force = oscillator.force.subs(fixed)
     if any(isinstance(kink, sympy.sign) for kink in kinks_of(force)):
         raise InputError(
-            f"{oscillator.name}: the force jumps (sign of u' or of a place in u), so a fit has no derivative there; "
-            "model-fit takes forces without jumps, abs, max and min among them"
+            f"{oscillator.name}: the force holds a sign or a root of |u|, which may jump or have no derivative; "
+            "model-fit takes abs, max and min, and functions that are smooth"
         )
     symbols = (U, V, *(symbol_of(name) for name in free))
     scalar, vector = evaluator(force, symbols, SCALAR), evaluator(force, symbols, ARRAY)

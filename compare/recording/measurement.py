@@ -47,6 +47,8 @@ class Measurement(Brief):
     """The amplitude of a higher harmonic."""
     component: int = 0
     """Counts the oscillations of one signal from 1, the strongest; 0 where only that is asked for."""
+    unmeasured: str = ""
+    """Why there is no backbone along a track; empty where there is one."""
 
     @property
     def track(self) -> Track | None:
@@ -184,10 +186,12 @@ def measured(recording: Recording, found: Estimation, harmonic: int, band: objec
         return of_harmonic(recording, found, harmonic, band)
     told = (*beside_notes(track.used.tones, track.used.spikes), *recording.notes)
     if track.used.doubt:
-        return Measurement(recording, track, None, (f"No interval and no amplitude: {track.used.doubt}.", *told))
+        said = f"No interval and no amplitude: {track.used.doubt}."
+        return Measurement(recording, track, None, (said, *told), unmeasured=track.used.doubt)
     wanted = found.request is not None and found.request.options.bias and track.no_interval is not None
     if wanted and not found.modelled:
-        return Measurement(recording, track, None, (f"No amplitude: {track.no_interval}.", *told))
+        reason = track.no_interval or "no model of one oscillation holds"
+        return Measurement(recording, track, None, (f"No amplitude: {reason}.", *told), unmeasured=reason)
     try:
         used = as_tracked(recording, found.samples)
         curve = backbone(
@@ -200,7 +204,7 @@ def measured(recording: Recording, found: Estimation, harmonic: int, band: objec
         )
     except InputError as error:
         reason = str(error) if track.presence is None or track.presence.found else track.presence.reason
-        return Measurement(recording, track, None, (*told, f"No amplitude: {reason}."))
+        return Measurement(recording, track, None, (*told, f"No amplitude: {reason}."), unmeasured=reason)
     curve = replace(curve, units=recording.units)
     return Measurement(recording, track, curve, (*hum_notes(curve), *told, *curve.notes))
 

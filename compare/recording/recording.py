@@ -92,12 +92,8 @@ def compare_recording(
     first = measured(recording, found[0], 1, None)
     curve, doubt = first.backbone, ""
     if curve is None:
-        track = found[0].track
-        why = track.used.doubt or track.no_interval or first.notes[0].removesuffix(".")
-        curve, doubt = (
-            in_windows(track, recording),
-            f"No uncertainty is claimed: {why}; what is drawn is of short windows",
-        )
+        curve = in_windows(found[0].track, recording)
+        doubt = f"No uncertainty is claimed: {first.unmeasured}; what is drawn is of short windows"
     progress(0.9, "spectrogram")
     tracks = [one.track for one in found]
     return _assembled(recording, tracks, curve, [*first.notes, *failed], oscillator, doubt)
@@ -165,7 +161,7 @@ def _assembled(
         fit=None if fit is None else formula_of(fit),
         notes=tuple(_notes(curves, said)),
         theory=() if oscillator is None else (theory_curve(oscillator, curve),),
-        over=None if oscillator is None else over_measured(oscillator, curve),
+        over=None if oscillator is None else over_measured(oscillator, curve, known=not doubt),
         doubt=doubt,
     )
 

@@ -30,6 +30,8 @@ class Agreement(Enum):
 
     AGREES = "agrees"
     DIFFERS = "differs"
+    UNTOLD = "untold"
+    """No deviation of the measured one is known."""
     UNCOVERED = "uncovered"
     """The theory oscillates at none of the measured amplitudes."""
 
@@ -52,7 +54,7 @@ class TheoryBackbone:
     """Mean of measured / theory - 1."""
     rms: float
     deviations: float
-    """Size of the mean in standard deviations of a point."""
+    """Size of the mean in standard deviations of a point; NaN where none are known."""
     covered: float
     """Share of the points at which the theory oscillates."""
 
@@ -64,6 +66,8 @@ class TheoryBackbone:
         """The judgement."""
         if not self.covered:
             return Agreement.UNCOVERED
+        if np.isnan(self.deviations):
+            return Agreement.UNTOLD
         return Agreement.DIFFERS if self.deviations > APART else Agreement.AGREES
 
     def sentence(self) -> str:
@@ -77,10 +81,12 @@ class TheoryBackbone:
         if self.agreement is Agreement.DIFFERS:
             many = number(self.deviations, 2) if self.deviations < MANY else f"over {MANY:g}"
             return f"The measured backbone lies {size} against {self.title}, {many} of its deviations: they differ."
+        if self.agreement is Agreement.UNTOLD:
+            return f"The measured backbone, whose uncertainty is not known, lies {size} against {self.title}."
         return f"The measured backbone lies {size} against {self.title}, within {APART:g} of its standard deviations."
 
 
-def over_measured(oscillator: Oscillator, measured: Backbone) -> TheoryBackbone:
+def over_measured(oscillator: Oscillator, measured: Backbone, *, known: bool = True) -> TheoryBackbone:
     """Hold the exact backbone of an oscillator against a measured one.
 
     The exact frequency belongs to the peak amplitude; the first harmonic of the same orbit gives the fundamental one.
@@ -91,8 +97,11 @@ def over_measured(oscillator: Oscillator, measured: Backbone) -> TheoryBackbone:
         Its parameters in the recording's units.
     measured
         The backbone of the recording.
+    known
+        Whether its deviations can be trusted.
     """
-    return over_curve(oscillator, measured.curve_amplitude, measured.curve_omega, measured.curve_omega_sd)
+    deviation = measured.curve_omega_sd if known else np.full_like(measured.curve_omega_sd, np.nan)
+    return over_curve(oscillator, measured.curve_amplitude, measured.curve_omega, deviation)
 
 
 def over_curve(oscillator: Oscillator, amplitude: Array, omega: Array, omega_sd: Array) -> TheoryBackbone:
@@ -111,7 +120,7 @@ def over_curve(oscillator: Oscillator, amplitude: Array, omega: Array, omega_sd:
         omega=expected,
         mean=mean,
         rms=float(np.sqrt(np.mean(error**2))),
-        deviations=abs(mean) / spread if spread > 0 else float("inf"),
+        deviations=abs(mean) / spread if spread != 0 else float("inf"),
         covered=float(np.mean(inside)),
     )
 

@@ -51,14 +51,19 @@ def title_of(verdict: Verdict, reference: Reference) -> str:
     if verdict.rival is None or verdict.ratio is None:
         return f"{followed} within {error}"
     rival = short_name(verdict.rival)
+    least = min(float(row.relative_rms_error or 0.0) for row in (verdict.best, verdict.rival) if row is not None)
     if verdict.decided and verdict.ratio < 1.0:
-        return f"{followed} within {error}; {rival} is {two_digits(1.0 / verdict.ratio)} times closer"
+        times = f"{'' if least > reference.floor else 'at least '}{two_digits(1.0 / verdict.ratio)} times"
+        return f"{followed} within {error}; {rival} is {times} closer"
     if verdict.decided and float(verdict.best.relative_rms_error or 0.0) <= reference.floor:
         within = f"as closely as it is defined ({per_cent(reference.floor)})"
         return f"{followed} {within}, at least {two_digits(verdict.ratio)} times closer than {rival}"
     if verdict.decided:
         return f"{followed} within {error}, {two_digits(verdict.ratio)} times closer than {rival}"
-    return f"{capital(named)} and {rival} both follow ω₀(t) as closely as it is defined, to {per_cent(reference.floor)}"
+    both = f"{capital(named)} and {rival} both follow ω₀(t)"
+    if least > reference.floor:
+        return f"{both} within {per_cent(verdict.rival.relative_rms_error)}"
+    return f"{both} as closely as it is defined, to {per_cent(reference.floor)}"
 
 
 def lead_of(found: Benchmark, *, timed: bool) -> str:

@@ -6,8 +6,8 @@ import re
 
 from ridgeback.common.errors import InputError
 
-LEVEL = re.compile(r"dB *[ _(/]? *(m|W|m?V|[uµμ]V|FS|c|A|Z|SPL|Pa|g)?\)?( *rms)?", re.IGNORECASE)
-"""Units of levels: dB, dBm, dBV, dBµV, dB(A), ..."""
+LEVEL = re.compile(r"dB *[ _(/]? *(m|u|i|r|W|m?V|[uµμ][VA]|FS|c|A|Z|SPL|Pa|g)?\)?( *rms)?( *re .*)?", re.IGNORECASE)
+"""Units of levels: dB, dBm, dBu, dBV, dBµV, dB(A), dB re 20 µPa, ..."""
 TAIL = re.compile(rf"(?:^|.*[ _([]){LEVEL.pattern}[])]?", re.IGNORECASE)
 
 
@@ -16,6 +16,8 @@ def is_level(name: str, unit: str) -> bool:
 
     >>> [is_level(name, "") for name in ("envelope_dB", "S21 dB", "L [dB(A)]")], is_level("P", "dBm")
     ([True, True, True], True)
+    >>> is_level("p", "dB re 20 µPa"), is_level("gain [dB re 1]", ""), is_level("level", "dBu")
+    (True, True, True)
     >>> is_level("u", "mm"), is_level("dBase", ""), is_level("mdb", ""), is_level("envelope_dB", "V")
     (False, False, False, False)
     """

@@ -255,8 +255,7 @@ def recordings_of(signal: Signal, rate: float | None, treatment: Treatment) -> l
     header = columns.names[signal.index]
     name, units = name_and_units(header)
     units = treatment.unit or units or columns.units
-    if not treatment.unit:
-        refuse_level(name, units, f"{columns.source}, column {header}")
+    refuse_level("" if treatment.unit else name, units, f"{columns.source}, column {header}")
     values, units, turned = in_radians(columns.values(signal.index), units)
     time, note = stamps(signal, values.size, rate)
     names = (header if signal.clock is None else columns.names[signal.clock], header)

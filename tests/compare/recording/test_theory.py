@@ -32,6 +32,14 @@ def test_the_right_oscillator_agrees_and_a_wrong_one_differs(measured):
     assert "they differ" in wrong.sentence()
 
 
+def test_where_no_deviation_is_known_nothing_is_judged(measured):
+    found = over_measured(find("linear").with_parameters({"k": "2.1"}), measured, known=False)
+    assert found.agreement is Agreement.UNTOLD
+    assert found.mean == pytest.approx(2 / 2.1 - 1, abs=1e-4)
+    assert "deviations" not in found.sentence()
+    assert "differ" not in found.sentence()
+
+
 def test_a_theory_that_has_no_such_orbits_says_so(measured):
     """The softening Duffing oscillator with a weak spring has its separatrix far below the measured amplitudes."""
     small = find("duffing-softening").with_parameters({"k": "2", "eps": "-400"})

@@ -21,6 +21,13 @@ CLEAR, OPEN = Reference("", 1e-9, 1e-6), Reference("", 1e-9, 2e-3)
         (replace(DECIDED, rival=None, ratio=None), CLEAR, "within 0.10 %", "nothing of another way could be ranked"),
         (DECIDED, OPEN, "as closely as it is defined", "10 times less than order 2"),
         (replace(DECIDED, decided=False), OPEN, "order 2", "cannot be told from it: omega0(t) itself is open by"),
+        (replace(DECIDED, decided=False), CLEAR, "both follow ω₀(t) within 1.0 %", "does as well, within 5 %"),
+        (
+            replace(DECIDED, ratio=0.1),
+            OPEN,
+            "order 2 is at least 10 times closer",
+            "at least 10 times more than order 2",
+        ),
         (replace(DECIDED, ratio=2e7), CLEAR, "times closer than order 2", "times less than order 2"),
     ],
 )
