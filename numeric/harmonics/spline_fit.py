@@ -309,15 +309,18 @@ def harmonic_splines(
 def falling(phase: Array, amplitude: Array) -> Array:
     """A rising function of time whose equal steps hold as many cycles, or as great a fall of the amplitude.
 
-    A loss that grows with the amplitude makes most of its changes early, in a few cycles.
+    A loss that grows with the amplitude makes most of its changes early, in a few cycles.  A fall from which the
+    amplitude comes back, as in beats or before a swell, counts for nothing.
 
     >>> t = np.linspace(0.0, 60.0, 7)
     >>> falling(t, np.ones(7)).tolist() == (t / 60.0).tolist(), np.allclose(falling(t, np.exp(-t / 20)), t / 30.0)
     (True, True)
+    >>> np.allclose(falling(t, np.exp(t / 20)), t / 60.0), np.allclose(falling(t, 1 - (t % 20) / 20), t / 60.0)
+    (True, True)
     """
-    fallen = np.maximum.accumulate(
-        np.log(float(amplitude.max()) / np.maximum(amplitude, FLOOR * float(amplitude.max())))
-    )
+    largest = float(amplitude.max())
+    yet_to_come = np.maximum.accumulate(amplitude[::-1])[::-1]
+    fallen = np.log(largest / np.maximum(yet_to_come, FLOOR * largest))
     most = float(fallen[-1])
     cycles = (phase - phase[0]) / float(phase[-1] - phase[0])
     return np.asarray(cycles + min(1.0, most / MUCH) ** 2 * fallen / max(most, 1e-300), dtype=np.float64)

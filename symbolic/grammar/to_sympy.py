@@ -51,6 +51,7 @@ def to_sympy(node: Node) -> sympy.Expr:
     called ``u`` beside another unknown (it is the name of ``U``) or ``t`` (time does not occur in an autonomous
     equation), and for what is not finite, real and analytic on each side of the origin.
 
+    >>> from ridgeback.symbolic.grammar.nodes import Call
     >>> to_sympy(Call("sin", Negate(Unknown(0))))
     -sin(u)
     """

@@ -43,6 +43,7 @@ QUANTITIES: Final[Mapping[str, Quantity]] = MappingProxyType(
         "ambiguous": Quantity("", "whether the definition itself leaves more room than the interval"),
         "amplitude": Quantity(OF_SIGNAL, "amplitude"),
         "orbit_amplitude": Quantity(OF_SIGNAL, "the same of the undamped orbit at the amplitude of that time"),
+        "floor": Quantity(OF_SIGNAL, "what the decay alone leaks into the multiple; smaller amplitudes say nothing"),
         "multiple": Quantity("1", "multiple of the fundamental"),
         "amplitude_standard_deviation": Quantity(OF_SIGNAL, "standard deviation of the amplitude"),
         "amplitude_low_95": Quantity(OF_SIGNAL, "lower end of the 95 % interval of the amplitude"),
