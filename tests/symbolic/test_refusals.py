@@ -95,7 +95,10 @@ DAMPED = of("u'' + u + c*abs(u')*u' = 0", "c")
         (lambda: from_text("u'' + sin(u) = 0", about="pi/7", potential=1 - sympy.cos(U)), "cannot be given together"),
         (lambda: minimax(find("pendulum"), up_to=Fraction(-1), degree=2), "the range up to -1 is empty"),
         (lambda: gappa_script(form_of(pendulum()), "motion"), "for polynomials with a domain"),
-        (lambda: gappa_script(form_of(pendulum(2), up_to=1, mode="accurate")), "no rule for the compensated steps of mode accurate"),
+        (
+            lambda: gappa_script(form_of(pendulum(2), up_to=1, mode="accurate")),
+            "no rule for the compensated steps of mode accurate",
+        ),
         (
             lambda: gappa_script(form_of(energy_integral(of("u'' + u + c*u**3 = 0", "c"), 4), up_to=1)),
             "functions of one variable, and omega0 has parameters",

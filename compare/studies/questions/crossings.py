@@ -193,24 +193,47 @@ def pair_of(item: Duel) -> tuple[str, str, str]:
 def drawing(found: Sequence[Crossing], title: str) -> Picture:
     """The order from which an expansion stays ahead of an estimate, over the amplitude, by pair and noise.
 
-    Damping, length and other parameters stand at the first of their values, which the title says.
+    Damping, length and other parameters stand at the first of their values for each oscillator; the title says them.
     """
-    overtaken = [crossing.after for crossing in found if crossing.axis == "order" and crossing.after.ratio < 0]
-    first = {name: value for name, value in overtaken[0].place.items() if name not in DRAWN} if overtaken else {}
-    shown = [one for one in overtaken if all(one.place.get(name) == value for name, value in first.items())]
+    last = last_along_order(found)
+    first: dict[str, Place] = {}
+    for one in last:
+        first.setdefault(one.system, standing(one))
+    shown = [one for one in last if one.ratio < 0 and standing(one) == first[one.system]]
     several = len({one.system for one in shown}) > 1
     lines: dict[str, dict[float, float]] = {}
     for one in shown:
-        line = lines.setdefault(label_of(one, named=several), {})
-        amplitude, order = one.place["amplitude"], one.place["order"]
-        line[amplitude] = max(order, line.get(amplitude, order))
+        lines.setdefault(label_of(one, named=several), {})[one.place["amplitude"]] = one.place["order"]
     strokes = tuple(
         Stroke(sorted(line), [line[x] for x in sorted(line)], label, dots=len(line) == 1)
         for label, line in list(lines.items())[:SHOWN]
     )
-    at = ", ".join(f"{name} = {value:.6g}" for name, value in first.items())
+    places = list(dict.fromkeys(said(first[one.system]) for one in shown))
+    at = "; ".join(place for place in places if place)
     name = ": ".join(part for part in (title or "crossings", at) if part)
     return Picture(name, "amplitude", "order from which the expansion errs less", strokes)
+
+
+def last_along_order(found: Sequence[Crossing]) -> list[Duel]:
+    """What lies behind the last crossing along the order, for each pair at each place, in the order of ``found``."""
+    last: dict[tuple[object, ...], Duel] = {}
+    for crossing in found:
+        if crossing.axis == "order":
+            still = tuple((name, value) for name, value in crossing.after.place.items() if name != "order")
+            key = (pair_of(crossing.after), still)
+            if key not in last or last[key].place["order"] < crossing.after.place["order"]:
+                last[key] = crossing.after
+    return list(last.values())
+
+
+def standing(one: Duel) -> Place:
+    """The value of each axis that the figure does not show."""
+    return {name: value for name, value in one.place.items() if name not in DRAWN}
+
+
+def said(place: Place) -> str:
+    """The values of a place in words."""
+    return ", ".join(f"{name} = {value:.6g}" for name, value in place.items())
 
 
 def label_of(one: Duel, *, named: bool) -> str:

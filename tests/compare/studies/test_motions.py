@@ -184,6 +184,19 @@ def test_the_figure_of_crossings_has_one_order_for_each_amplitude_pair_and_noise
     assert all((list(stroke.x), list(stroke.y)) == ([1.0, 2.0], [4.0, 4.0]) for stroke in picture.strokes)
 
 
+def test_an_order_from_which_an_expansion_does_not_stay_ahead_is_not_drawn() -> None:
+    """Ahead at 2 and behind again at 3: nothing; another oscillator's parameters are its own."""
+    lines = {("s", "mu"): (1.0, -1.0, 1.0), ("other", "eps"): (1.0, -1.0, -1.0)}
+    duels = [
+        Duel(system, {"amplitude": 1.0, name: 0.1, "snr_db": math.inf, "order": float(i)}, "e", "w", r, True)
+        for (system, name), line in lines.items()
+        for i, r in enumerate(line, start=1)
+    ]
+    picture = crossings.drawing(list(crossings_along(duels, "order")), "mine")
+    assert picture.title == "mine: eps = 0.1"
+    assert [(list(stroke.x), list(stroke.y)) for stroke in picture.strokes] == [([1.0], [2.0])]
+
+
 def test_a_study_of_motions_resumes_to_the_same_bytes(tmp_path: Path) -> None:
     from ridgeback.interface.studies import run_study
 
