@@ -65,7 +65,8 @@ class Trial:
         """Note what came of a run; what was left ``before`` it by one that was killed goes when state is saved."""
         code, error = process.returncode, (self.folder / "error").read_text(encoding="utf-8", errors="replace")
         allowed = {0, -signal.SIGKILL} if stop == signal.SIGKILL else {0, 130, -signal.SIGINT, -signal.SIGTERM}
-        if code not in (allowed if stop else {0}):
+        met = stop is not None and (code in allowed or (code == 1 and before_it_began(error)))
+        if not met and code != 0:
             self.faults.append(f"exit code {code} after {stop.name if stop else 'nothing'}: {error[-300:]}")
         self.counts["finished first" if code == 0 and stop else "stopped" if stop else "resumed"] += 1
         output = self.folder / "output"
@@ -81,6 +82,11 @@ class Trial:
     def parts(self) -> frozenset[str]:
         """Files that are neither state nor output."""
         return frozenset(path.name for path in self.folder.iterdir()) - {"state", "output", "error"}
+
+
+def before_it_began(error: str) -> bool:
+    """Whether an interrupt met the interpreter itself, before it had read a line of a file."""
+    return "<frozen site>" in error and 'File "/' not in error and error.rstrip().endswith("KeyboardInterrupt")
 
 
 def said_partial(output: Path) -> bool:
