@@ -84,7 +84,7 @@ def rough_losses(system: Oscillator, order: int, *, amplitude: str | None, weigh
     from ridgeback.symbolic.flow.averaged_losses import averaged_losses
 
     if weighted:
-        raise InputError("losses with abs or sign are averaged to first order and have no weights; leave them out")
+        raise InputError("losses with abs or sign are averaged and have no weights; leave them out")
     return averaged_losses(system, order, amplitude=amplitude)
 
 

@@ -74,7 +74,7 @@ def derive(
     -------
     Expansion, PowerExpansion, SlowFlow or LossFlow
         The series; one in rational powers of A for a force that begins with another power than the first; a slow flow
-        (phi' and a'/a) by multiple scales, to first order in losses that are not analytic at rest.
+        (phi' and a'/a) by multiple scales, averaged where losses are not analytic at rest.
 
     Raises
     ------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import sympy
 from flint import acb, arb, ctx
@@ -12,10 +12,9 @@ from ridgeback.symbolic.arithmetic.balls import number_ball, rational
 from ridgeback.symbolic.enclosure.ball_functions import ball_function
 from ridgeback.symbolic.enclosure.enclosure import enclose
 from ridgeback.symbolic.enclosure.half_wells import MAX_EVALUATIONS, HalfWell, two_sided
-from ridgeback.symbolic.flow.averaged_losses import averaged_losses, losses_of, undamped
+from ridgeback.symbolic.flow.averaged_losses import averaged_losses, loss_names, losses_of, undamped
 from ridgeback.symbolic.flow.loss_flow import LossFlow
 from ridgeback.symbolic.systems.oscillator import Oscillator
-from ridgeback.symbolic.systems.structure import dissipative_names
 
 
 def enclosed_growth_rate(oscillator: Oscillator, peak: sympy.Rational, bits: int) -> arb:
@@ -88,16 +87,23 @@ def averaged_at(flow: LossFlow, amplitude: arb, values: Mapping[str, sympy.Ratio
     return total
 
 
+def _alone(oscillator: Oscillator, names: Sequence[str], alone: str) -> dict[str, sympy.Rational]:
+    """1 for one loss and 0 for the others; 1 for all where it is none without them, as in c d abs(u') u'."""
+    values = {name: sympy.Integer(int(name == alone)) for name in names}
+    own = oscillator.with_parameters(values)
+    return values if losses_of(own.name, own.substituted_force) else dict.fromkeys(names, sympy.S.One)
+
+
 def worst_difference(oscillator: Oscillator, order: int, peak: sympy.Rational, bits: int) -> tuple[arb, arb, str]:
     """The largest difference of averaging from the quadrature, over the losses each alone, and whose it is.
 
     It comes over the first power of A that is left out, which it should be of the size of, and over the rate itself.
     """
-    names = dissipative_names(oscillator.force)
+    names = loss_names(oscillator.force)
     flow = averaged_losses(oscillator, order, amplitude="peak")
     found: list[tuple[arb, arb, str]] = []
     for alone in names or ("",):
-        values = {name: sympy.Integer(int(name == alone)) for name in names}
+        values = _alone(oscillator, names, alone)
         own = oscillator.with_parameters(values)
         lowest = min(loss.exponent for loss in losses_of(own.name, own.substituted_force))
         exact = enclosed_growth_rate(own, peak, bits)

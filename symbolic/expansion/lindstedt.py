@@ -56,7 +56,8 @@ def lindstedt(
 ) -> Expansion:
     """Expand omega0 in the amplitude (conservative) or in eps (limit cycle) by Lindstedt's recursion.
 
-    From order 50 on, motions that are theta series, of c sin(b u) and a u + e u^3 with numbers, are taken from those.
+    From order 50 on, motions in the peak amplitude that are theta series, of c sin(b u) and a u + e u^3 with rational
+    coefficients once k = 1, are taken from those.
 
     Parameters
     ----------

@@ -17,8 +17,9 @@ section 3.2).  What the losses change of phi' is of second order in them; see ``
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import sympy
 from flint import fmpq
@@ -31,6 +32,7 @@ from ridgeback.symbolic.expansion.expansion import check_order
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.expansion.quarter_cycles import Travel, TwoSides
 from ridgeback.symbolic.flow.loss_flow import LossFlow, LossTerm, Power, SecondOrder
+from ridgeback.symbolic.flow.loss_terms import by_losses, merged
 from ridgeback.symbolic.flow.second_order import parts_of, phase_terms
 from ridgeback.symbolic.series.spaces import Scalar
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
@@ -42,6 +44,8 @@ from ridgeback.symbolic.systems.structure import dissipative_names, free_names, 
 
 LEADING = 2
 """Powers of the amplitude that the leading terms of a'/a count, as mu does in multiple scales."""
+Growth: TypeAlias = "Mapping[sympy.Rational, list[LossTerm]]"
+"""The terms of a'/a by r - 1 of the loss c(u) |u'|^r that they are of."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +65,7 @@ def averaged_losses(oscillator: OscillatorLike, order: int, *, amplitude: str | 
     oscillator : Oscillator, str, path, sympy.Eq or sympy.Expr
         u'' + f(u) + sum of c(u) |u'|^r sign(u') = 0, f and c analytic on each side of u = 0 and f linear at first.
     order : int
-        phi' through this power of the amplitude, a'/a through the power order - 2 above its leading terms'.
+        phi' through this power of the amplitude, a'/a of a loss c(u) |u'|^r through the power order - 2 above r - 1.
     amplitude : str, optional
         ``fundamental`` (default) or ``peak``, of the undamped orbit; where the force has a kink at u = 0 ``peak`` only.
 
@@ -83,7 +87,7 @@ def averaged_losses(oscillator: OscillatorLike, order: int, *, amplitude: str | 
     oscillator = as_oscillator(oscillator)
     order = check_order(order)
     check_name(oscillator, "a")
-    names = dissipative_names(oscillator.force)
+    names = loss_names(oscillator.force)
     force = _with_values(oscillator, names)
     require_one_law(oscillator.name, force)
     losses = losses_of(oscillator.name, force)
@@ -97,13 +101,15 @@ def averaged_losses(oscillator: OscillatorLike, order: int, *, amplitude: str | 
         frequency, growth = _in_first_harmonic(rest, order, growth)
     none = tuple(0 for _ in names)
     second, more = average.second_order()
+    undamped_terms = merged(LossTerm((n, *none), c) for n, c in enumerate(frequency))
     return LossFlow(
         system=oscillator.name,
         order=order,
         amplitude=definition,
         losses=names,
-        phase_terms=_sorted([*(LossTerm((n, *none), c) for n, c in enumerate(frequency) if c != 0), *more]),
-        growth_terms=_sorted(growth),
+        undamped_terms=undamped_terms,
+        phase_terms=merged([*undamped_terms, *more]),
+        growth_terms=merged(term for terms in growth.values() for term in terms),
         second=second,
     )
 
@@ -112,6 +118,17 @@ def _definition(rest: Oscillator, amplitude: str | None) -> str:
     """The amplitude asked for, or the one that there is."""
     known = ("peak",) if rest.is_kinked else ("fundamental", "peak")
     return check_definition(amplitude or known[0], known)
+
+
+def loss_names(force: sympy.Expr) -> tuple[str, ...]:
+    """The parameters that the losses vanish with and are polynomials in, sorted; of the b of F/(1 + b) they are none.
+
+    >>> F, b = (symbol_of(name) for name in "Fb")
+    >>> loss_names(F * sympy.sign(V) / (1 + b) + V**3 * b**2 + V * symbol_of("mu"))
+    ('F', 'mu')
+    """
+    lost = force - without_velocity(force)
+    return tuple(name for name in dissipative_names(force) if lost.is_polynomial(symbol_of(name)))
 
 
 def undamped(oscillator: Oscillator, names: Sequence[str]) -> Oscillator:
@@ -167,19 +184,23 @@ class _Average:
         if self.both.d != 1:
             raise InputError(f"{rest.name}: averaging is of forces in whole powers of u on each side")
 
-    def rates(self) -> tuple[tuple[sympy.Expr, ...], list[LossTerm]]:
+    def rates(self) -> tuple[tuple[sympy.Expr, ...], Growth]:
         """omega0 by powers of A, and the terms of A'/A."""
         here, there = self.both.travels(self.order)
         omega = self.both.frequency(here, there)
         common = truncated.multiply(omega, truncated.reciprocal(here.force))
         k, mean = positive_root(self.both.near.coefficient), self.rest.natural_frequency
-        growth: list[LossTerm] = []
+        growth: dict[sympy.Rational, list[LossTerm]] = {}
         for i, loss in enumerate(self.losses):
             lifted = truncated.power(here.stretch, _fraction(loss.exponent + 1))
             series = truncated.multiply(common, truncated.multiply(lifted, self._lost(i, here, there)))
             unit = -mean * k ** (loss.exponent - 2)
-            for j, value in enumerate(series[: max(0, self.order - LEADING + 1)]):
-                growth += self._terms(value, loss.exponent - 1 + j, unit)
+            first = loss.exponent - 1
+            growth[first] = [
+                term
+                for j, value in enumerate(series[: max(0, self.order - LEADING + 1)])
+                for term in by_losses(_whole(first + j), unit * self._exact(value), self.names)
+            ]
         return tuple(mean * self._exact(value) for value in omega), growth
 
     def second_order(self) -> tuple[SecondOrder, list[LossTerm]]:
@@ -214,19 +235,6 @@ class _Average:
         value = self.betas[i, n]
         return _fraction(value) if value.is_Rational else self.both.parameter(_beta_name(i, n))
 
-    def _terms(self, value: Scalar, power: sympy.Rational, unit: sympy.Expr) -> list[LossTerm]:
-        """The parts of a coefficient by the powers of the losses' parameters, which come first in a term."""
-        rows: dict[tuple[int, ...], sympy.Expr] = {}
-        for monomial, number in _monomials(value, self.both.names):
-            small = tuple(monomial.get(name, 0) for name in self.names)
-            others = (self._value(name) ** n for name, n in monomial.items() if name not in self.names)
-            rows[small] = rows.get(small, sympy.S.Zero) + number * sympy.Mul(*others)
-        exact = {small: sympy.expand(unit * c) for small, c in rows.items()}
-        return [LossTerm((_whole(power), *small), c) for small, c in exact.items() if c != 0]
-
-    def _value(self, name: str) -> sympy.Expr:
-        return self.both.known.get(name, symbol_of(name))
-
     def _exact(self, value: Scalar) -> sympy.Expr:
         values = {symbol_of(name): constant for name, constant in self.both.known.items()}
         return sympy.expand(as_sympy(value, self.both.names).subs(values))
@@ -257,40 +265,19 @@ def _whole(power: Power) -> Power:
     return int(power) if sympy.Rational(power).is_Integer else power
 
 
-def _monomials(value: Scalar, names: Sequence[str]) -> Iterator[tuple[dict[str, int], sympy.Rational]]:
-    """The terms of a polynomial: the powers of its names, and the rational before them."""
-    if isinstance(value, int | fmpq):
-        yield {}, sympy.Rational(int(fmpq(value).p), int(fmpq(value).q))
-        return
-    for powers, number in value.to_dict().items():
-        present = {name: int(n) for name, n in zip(names, powers[1:], strict=True) if n}
-        yield present, sympy.Rational(int(number.p), int(number.q))
-
-
-def _in_first_harmonic(
-    rest: Oscillator, order: int, growth: Sequence[LossTerm]
-) -> tuple[tuple[sympy.Expr, ...], list[LossTerm]]:
+def _in_first_harmonic(rest: Oscillator, order: int, growth: Growth) -> tuple[tuple[sympy.Expr, ...], Growth]:
     """omega0 and the growth rate in the first harmonic a: a'/a = G(A(a)) * (A/a) / (dA/da) of the peak A."""
     series = lindstedt(rest, order, amplitude="fundamental")
     peak = series.amplitude_as("peak")[1:]  # A/a
     slope = [c * (n + 1) for n, c in enumerate(peak)]
     change = _product(peak, _power(slope, sympy.S.NegativeOne))
-    rows: dict[tuple[Power, ...], sympy.Expr] = {}
-    for term in growth:
-        p, small = sympy.Rational(term.powers[0]), term.powers[1:]
-        shape = _product(change, _power(peak, p))
-        above = order - LEADING - _above(term, growth)
-        for n, c in enumerate(shape[: above + 1]):
-            key = (_whole(p + n), *small)
-            rows[key] = sympy.expand(rows.get(key, sympy.S.Zero) + term.coefficient * c)
-    return series.frequency, [LossTerm(powers, c) for powers, c in rows.items() if c != 0]
-
-
-def _above(term: LossTerm, growth: Sequence[LossTerm]) -> int:
-    """How many powers of a whole number of steps a term stands above the first of its loss."""
-    powers = [other.powers[0] for other in growth if other.powers[1:] == term.powers[1:]]
-    same = [p for p in powers if sympy.Rational(term.powers[0] - p).is_Integer]
-    return int(term.powers[0] - min(same))
+    rows: dict[sympy.Rational, list[LossTerm]] = {first: [] for first in growth}
+    for first, terms in growth.items():
+        for term in terms:
+            p, small = sympy.Rational(term.powers[0]), term.powers[1:]
+            shape = _product(change, _power(peak, p))[: order - LEADING - int(p - first) + 1]
+            rows[first] += [LossTerm((_whole(p + n), *small), term.coefficient * c) for n, c in enumerate(shape)]
+    return series.frequency, rows
 
 
 def _product(x: Sequence[sympy.Expr], y: Sequence[sympy.Expr]) -> list[sympy.Expr]:
@@ -304,7 +291,3 @@ def _power(x: Sequence[sympy.Expr], r: sympy.Rational) -> list[sympy.Expr]:
         inner = sympy.Add(*(((r + 1) * j - n) * x[j] * result[n - j] for j in range(1, n + 1)))
         result.append(sympy.expand(inner / n))
     return result
-
-
-def _sorted(terms: Sequence[LossTerm]) -> tuple[LossTerm, ...]:
-    return tuple(sorted(terms, key=lambda term: (float(term.powers[0]), term.powers[1:])))

@@ -54,14 +54,16 @@ class LossFlow(ShownSlowFlow):
     system : str
         Name of the oscillator.
     order : int
-        phi' is known through this power of the amplitude; a'/a through this many powers above that of its leading
-        terms, less 2.
+        phi' is known through this power of the amplitude; a'/a of a loss c(u) |u'|^r through this many powers above
+        r - 1, less 2.
     amplitude : str
         ``fundamental``, or ``peak`` where the force has a kink at u = 0.
     losses : tuple of str
         Parameters that the losses vanish with.
+    undamped_terms : tuple of LossTerm
+        Those of phi' without the losses, in rad per time unit.
     phase_terms, growth_terms : tuple of LossTerm
-        Terms of phi' (rad per time unit) and of a'/a (per time unit), in the oscillator's own units.
+        Terms of phi' (rad per time unit) and of a'/a (per time unit), in the oscillator's own units, each power once.
     second : SecondOrder
         What phi', the rate of the first harmonic's phase, has of the second order in the losses.
 
@@ -77,6 +79,7 @@ class LossFlow(ShownSlowFlow):
     order: int
     amplitude: str
     losses: tuple[str, ...]
+    undamped_terms: tuple[LossTerm, ...]
     phase_terms: tuple[LossTerm, ...]
     growth_terms: tuple[LossTerm, ...]
     second: SecondOrder
@@ -86,6 +89,11 @@ class LossFlow(ShownSlowFlow):
     def frequency(self) -> tuple[LossTerm, ...]:  # type: ignore[override]
         """The nonzero terms of phi', in rad per time unit."""
         return self.phase_terms
+
+    @property
+    def backbone(self) -> tuple[LossTerm, ...]:  # type: ignore[override]
+        """The terms of phi' without the losses."""
+        return self.undamped_terms
 
     @property
     def growth_rate(self) -> tuple[LossTerm, ...]:  # type: ignore[override]

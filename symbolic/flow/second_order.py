@@ -26,8 +26,8 @@ from typing import TypeAlias
 import sympy
 
 from ridgeback.symbolic.flow.loss_flow import LossTerm
+from ridgeback.symbolic.flow.loss_terms import by_losses
 from ridgeback.symbolic.systems.oscillator import U
-from ridgeback.symbolic.systems.parameters import symbol_of
 
 Waves: TypeAlias = dict[tuple[int, int], sympy.Expr]
 """The sum of c phi^m exp(i n phi), c by (m, n)."""
@@ -131,16 +131,7 @@ def phase_terms(parts: Sequence[Part], names: Sequence[str], k: sympy.Expr, abov
             unit = k ** (one.shape.exponent + other.shape.exponent - 3)
             value = one.factor * other.factor * unit * coefficient(one.shape, other.shape)
             sums[degree] = sums.get(degree, sympy.S.Zero) + value
-    return [term for degree, total in sorted(sums.items()) for term in _terms(degree, total, names)]
-
-
-def _terms(degree: int, total: sympy.Expr, names: Sequence[str]) -> list[LossTerm]:
-    """The monomials in the losses' parameters."""
-    if not names:
-        value = sympy.expand(total)
-        return [LossTerm((degree,), value)] if value != 0 else []
-    found = sympy.Poly(sympy.expand(total), *map(symbol_of, names))
-    return [LossTerm((degree, *powers), sympy.expand(c)) for powers, c in sorted(found.terms()) if c != 0]
+    return [term for degree, total in sorted(sums.items()) for term in by_losses(degree, total, names)]
 
 
 @dataclass(frozen=True)

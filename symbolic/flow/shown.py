@@ -22,6 +22,7 @@ class ShownSlowFlow(Displayed):
     system: str
     method: str
     order: int
+    amplitude: str
     weights: Mapping[str, int]
 
     @property
@@ -33,6 +34,11 @@ class ShownSlowFlow(Displayed):
     def frequency(self) -> tuple[Term, ...]:
         """The terms of phi'."""
         raise NotImplementedError
+
+    @property
+    def backbone(self) -> tuple[Term, ...]:
+        """The terms of phi' without small parameters."""
+        return tuple(term for term in self.frequency if not any(term.powers[1:]))
 
     @property
     def growth_rate(self) -> tuple[Term, ...]:
@@ -77,7 +83,7 @@ class ShownSlowFlow(Displayed):
 
     def picture(self) -> Picture:
         """phi' over a where every small parameter vanishes: the undamped backbone."""
-        terms = [(decimal(t.coefficient), t.powers[0]) for t in self.frequency if not any(t.powers[1:])]
+        terms = [(decimal(t.coefficient), t.powers[0]) for t in self.backbone]
         if any(math.isnan(c) for c, _ in terms):
             raise InputError(f"the flow of {self.system} holds parameters without a value; set them to draw it")
         first = next((c for c, power in terms if power == 0), 0.0)
@@ -85,6 +91,6 @@ class ShownSlowFlow(Displayed):
         reach = 0.5 * abs(first / last) ** (1.0 / top) if top and last else 1.0
         grid = [reach * i / POINTS for i in range(POINTS + 1)]
         curve = [sum(c * a**power for c, power in terms) for a in grid]
-        small = ", ".join(f"{name} = 0" for name in self.weights)
+        small = ", ".join(f"{name} = 0" for name in self.variables[1:])
         label = f"{self.system}, {self.method} to order {self.order}{f' ({small})' if small else ''}"
-        return Picture(label, "a (fundamental)", "phi', rad per time unit", (Stroke(grid, curve),))
+        return Picture(label, f"a ({self.amplitude})", "phi', rad per time unit", (Stroke(grid, curve),))

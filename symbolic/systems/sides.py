@@ -207,7 +207,7 @@ def kink_advice(force: sympy.Expr, *, conservative: bool) -> str:
     if not conservative:
         return (
             f"the losses in {brief(force)} are not analytic at rest, so no power series in u' holds them; derive "
-            "(averaged_losses) averages them along the undamped orbit, to first order"
+            "(averaged_losses) averages them along the undamped orbit"
         )
     if is_kinked(force, V):
         return f"{brief(force)} has a kink in u' that takes no energy, for which there is no method here; leave it out"

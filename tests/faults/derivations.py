@@ -141,7 +141,7 @@ CASES: tuple[Case, ...] = (
     refused("derive pendulum --at 1:2:1000000000", "'1000000000'", "from 2 to 10000"),
     refused(f"derive pendulum --at {MANY}", "amplitudes are more than", "give fewer"),
     refused("derive pendulum -o ''", "a file name cannot be empty", "use - for the screen"),
-    refused(f"derive {FRICTION} --weight 2", "averaged to first order and have no weights"),
+    refused(f"derive {FRICTION} --weight 2", "averaged and have no weights"),
     refused(f"derive {FRICTION} --transient 0.5 --until 10", "simulate integrates the motion"),
     done(f"derive {FRICTION} --format json", '"radius": null', "losses"),
     done("derive pendulum --resummed pade --format mathml", "<math"),

@@ -155,11 +155,13 @@ class _Powers:
     def function(self, name: str, summary: str, terms: Sum) -> Function:
         """One sum as a function."""
         steps, parts = Steps(self.real), _Parts(self.called)
-        inner: Terms = {}
+        sums: dict[tuple[int, ...], Expr] = {}
         for (power, *others), coefficient in terms:
             for factor, index in parts.split(coefficient):
                 rise = int(Rational(power) * self.degree)
-                inner[rise, *map(int, others), index] = Number(exact_number(factor), self.real)
+                key = (rise, *map(int, others), index)
+                sums[key] = sums.get(key, 0) + factor
+        inner: Terms = {key: Number(exact_number(total), self.real) for key, total in sums.items() if total != 0}
         for part, value in parts.where:
             under(steps, part, valued(steps, value, self.called))
         root = self.variable if self.degree == 1 else ROOT

@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 import ridgeback
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.certificates.certificate import certify
-from ridgeback.symbolic.flow.averaged_losses import averaged_losses
+from ridgeback.symbolic.flow.averaged_losses import averaged_losses, losses_of
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.systems.any_form import as_oscillator
 from ridgeback.symbolic.systems.oscillator import U, V
@@ -62,6 +62,53 @@ def test_the_leading_terms_are_the_textbook_s() -> None:
     }
 
 
+@pytest.mark.parametrize("amplitude", ["peak", "fundamental"])
+@pytest.mark.parametrize(
+    "equation",
+    [
+        "u'' + sign(u')/100 + abs(u')*u'/10 + sin(u) = 0",
+        "u'' + c*(sign(u') + abs(u')*u' + abs(u')**(1/2)*sign(u')) + u + u**3 = 0",
+        "u'' + d*abs(u)*u' + u - u**3/4 = 0",
+        "u'' + u**2*sign(u')/3 + d*u'**3 + sin(u) = 0",
+    ],
+)
+def test_a_higher_order_leaves_the_coefficients_of_a_loss_as_they_are(equation: str, amplitude: str) -> None:
+    """c(u) |u'|^r gives a'/a through a^(r + order - 3): through that of the lowest r a sum of losses is whole."""
+    low, high = (averaged_losses(equation, order, amplitude=amplitude) for order in (4, 6))
+    assert len({term.powers for term in low.growth_rate}) == len(low.growth_rate)
+    assert len({term.powers for term in low.frequency}) == len(low.frequency)
+    exponents = [loss.exponent for loss in losses_of("own", as_oscillator(equation).force)]
+    mine, other = ({term.powers: term.coefficient for term in flow.growth_rate} for flow in (low, high))
+    whole = min(exponents) + 1
+    assert {p: c for p, c in mine.items() if p[0] <= whole} == {p: c for p, c in other.items() if p[0] <= whole}
+    assert len(exponents) > 1 or mine.items() <= other.items()
+
+
+def test_the_picture_is_of_the_undamped_backbone() -> None:
+    given, named = (
+        averaged_losses(f"u'' + {F}*sign(u') + {c}*abs(u')*u' + sin(u) = 0", 4, amplitude="peak").picture()
+        for F, c in (("(1/10)", "(1/5)"), ("F", "c"))
+    )
+    assert given.strokes == named.strokes
+    assert "F = 0, c = 0" in named.title
+    assert given.x_label == "a (peak)"
+
+
+def test_losses_over_a_sum_of_other_parameters() -> None:
+    F, b = (sympy.Symbol(name, real=True) for name in "Fb")
+    flow = averaged_losses("u'' + F*sign(u')/(1+b) + u + u**3 = 0", 4)
+    plain = averaged_losses("u'' + F*sign(u') + u + u**3 = 0", 4)
+    assert flow.losses == ("F",)
+    for mine, other in (
+        (flow.frequency_expression(), plain.frequency_expression()),
+        (flow.growth_rate_expression(), plain.growth_rate_expression()),
+    ):
+        assert sympy.cancel(mine - other.subs(F, F / (1 + b))) == 0
+    given = averaged_losses(as_oscillator("u'' + F*sign(u')/(1+b) + u + u**3 = 0").with_parameters({"b": 1}), 4)
+    assert given.frequency_at(0.5, 0.02) == pytest.approx(plain.frequency_at(0.5, 0.01), rel=1e-14)
+    assert given.growth_rate_at(0.5, 0.02) == pytest.approx(plain.growth_rate_at(0.5, 0.01), rel=1e-14)
+
+
 @pytest.mark.parametrize("force", ["u + u**3", "sin(u) + u**2/3", "u + u**2/4 - u**3/5"])
 def test_analytic_losses_agree_with_multiple_scales_to_first_order(force: str) -> None:
     equation = f"u'' + 2*mu*u' + d*u'**3 + {force} = 0"
@@ -104,6 +151,7 @@ def test_dry_friction_takes_the_same_from_each_half_cycle() -> None:
         "u'' + F*sign(u') + 4*max(u, 0) + min(u, 0) + u*abs(u) = 0",
         "u'' + 0.1*u'*abs(u')*(1 + u) + u + u**2/3 = 0",
         "u'' + d*abs(u)*u' + u - u**3/4 = 0",
+        "u'' + c*d*abs(u')*u' + F*sign(u')/(1 + b) + u = 0",
     ],
 )
 def test_the_certificate_holds(equation: str) -> None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
+from typing import Any
 
 import pytest
 import sympy
@@ -19,6 +21,7 @@ from ridgeback.symbolic.codegen.proofs.analysis import Computed, any_root
 from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.averaged_losses import averaged_losses
+from ridgeback.symbolic.flow.loss_flow import LossTerm
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.reconstruction import PHI, Reconstruction
 from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -130,6 +133,32 @@ def test_averaged_losses(equation: str) -> None:
     form = form_of(flow)
     assert math.isclose(computed(form, "omega0"), exact(flow.frequency_expression()), rel_tol=1e-14)
     assert math.isclose(computed(form, "growth_rate"), exact(flow.growth_rate_expression()), rel_tol=1e-13)
+
+
+@pytest.mark.parametrize("amplitude", ["peak", "fundamental"])
+@pytest.mark.parametrize("force", ["u", "sin(u)"])
+@pytest.mark.parametrize("given", ["numbers", "one symbol", "symbols"])
+def test_code_of_losses_given_in_any_way_is_that_of_the_symbols(given: str, force: str, amplitude: str) -> None:
+    """Dry friction, quadratic damping and the force bring terms in the same powers of a."""
+    law, values = "u'' + {F}*sign(u') + {c}*abs(u')*u' + {force} = 0", {"F": Fraction(1, 100), "c": Fraction(1, 10)}
+    kept = {"numbers": "", "one symbol": "c", "symbols": "Fc"}[given]
+    told = {name: name if name in kept else f"({value})" for name, value in values.items()}
+    flow = averaged_losses(Oscillator.from_equation(law.format(**told, force=force)), 4, amplitude=amplitude)
+    whole = averaged_losses(Oscillator.from_equation(law.format(F="F", c="c", force=force)), 4, amplitude=amplitude)
+    code: dict[str, Any] = {}
+    exec(generate(flow, "python"), code)  # noqa: S102 - our own text
+    small, both = [float(values[name]) for name in flow.losses], [float(value) for value in values.values()]
+    for a in (0.5, 1.0, 2.0):
+        rates = whole.frequency_at(a, *both), whole.growth_rate_at(a, *both)
+        assert (flow.frequency_at(a, *small), flow.growth_rate_at(a, *small)) == pytest.approx(rates, rel=1e-13)
+        assert (code["omega0"](a, *small), code["growth_rate"](a, *small)) == pytest.approx(rates, rel=1e-13)
+
+
+def test_terms_in_the_same_powers_add_up_in_code() -> None:
+    flow = averaged_losses(Oscillator.from_equation("u'' + abs(u')*u'/10 + sin(u) = 0"), 4)
+    apart = tuple(LossTerm(term.powers, term.coefficient / 2) for term in flow.frequency for _ in range(2))
+    form = form_of(replace(flow, phase_terms=apart))
+    assert math.isclose(computed(form, "omega0"), exact(flow.frequency_expression()), rel_tol=1e-14)
 
 
 def test_dry_friction_brings_the_amplitude_to_rest() -> None:
