@@ -141,7 +141,7 @@ def test_averaged_losses(equation: str) -> None:
 def test_code_of_losses_given_in_any_way_is_that_of_the_symbols(given: str, force: str, amplitude: str) -> None:
     """Dry friction, quadratic damping and the force bring terms in the same powers of a."""
     law, values = "u'' + {F}*sign(u') + {c}*abs(u')*u' + {force} = 0", {"F": Fraction(1, 100), "c": Fraction(1, 10)}
-    kept = {"numbers": "", "one symbol": "c", "symbols": "Fc"}[given]
+    kept = {"numbers": "", "one symbol": "F", "symbols": "Fc"}[given]
     told = {name: name if name in kept else f"({value})" for name, value in values.items()}
     flow = averaged_losses(Oscillator.from_equation(law.format(**told, force=force)), 4, amplitude=amplitude)
     whole = averaged_losses(Oscillator.from_equation(law.format(F="F", c="c", force=force)), 4, amplitude=amplitude)
