@@ -31,9 +31,9 @@ from ridgeback.symbolic.expansion.amplitude import check_definition, check_name
 from ridgeback.symbolic.expansion.expansion import check_order
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.expansion.quarter_cycles import Travel, TwoSides
-from ridgeback.symbolic.flow.loss_flow import LossFlow, LossTerm, Power, SecondOrder
-from ridgeback.symbolic.flow.loss_terms import by_losses, merged
+from ridgeback.symbolic.flow.loss_flow import LossFlow, SecondOrder
 from ridgeback.symbolic.flow.second_order import parts_of, phase_terms
+from ridgeback.symbolic.flow.term import LossTerm, Power, by_losses, merged
 from ridgeback.symbolic.series.spaces import Scalar
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.natural_units import Natural, over_leading

@@ -9,15 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any
 
 import sympy
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.rendering import coefficient_row, long_integers, mathml, nearest, series_latex
 from ridgeback.symbolic.flow.shown import ShownSlowFlow
-
-Power: TypeAlias = int | sympy.Rational
+from ridgeback.symbolic.flow.term import LossTerm, Power
 
 
 class SecondOrder(Enum):
@@ -31,14 +30,6 @@ class SecondOrder(Enum):
     """None: it counts like a^4, which is above the order asked for."""
     UNKNOWN = "unknown"
     """None: of broken powers of u', and with another stiffness on each side of rest, no exact sum is known."""
-
-
-@dataclass(frozen=True)
-class LossTerm:
-    """One term ``coefficient * a^powers[0] * m_1^powers[1] ...``; a power that is no whole number is a Rational."""
-
-    powers: tuple[Power, ...]
-    coefficient: sympy.Expr
 
 
 @dataclass(frozen=True, repr=False)

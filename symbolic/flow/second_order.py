@@ -25,8 +25,7 @@ from typing import TypeAlias
 
 import sympy
 
-from ridgeback.symbolic.flow.loss_flow import LossTerm
-from ridgeback.symbolic.flow.loss_terms import by_losses
+from ridgeback.symbolic.flow.term import LossTerm, by_losses
 from ridgeback.symbolic.systems.oscillator import U
 
 Waves: TypeAlias = dict[tuple[int, int], sympy.Expr]

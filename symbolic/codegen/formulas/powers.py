@@ -50,7 +50,8 @@ from ridgeback.symbolic.expansion.amplitude import MEANINGS
 
 if TYPE_CHECKING:
     from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
-    from ridgeback.symbolic.flow.loss_flow import LossFlow, LossTerm
+    from ridgeback.symbolic.flow.loss_flow import LossFlow
+    from ridgeback.symbolic.flow.term import LossTerm
 
 Power: TypeAlias = "int | Rational"
 Sum: TypeAlias = "list[tuple[tuple[Power, ...], Expr]]"

@@ -21,9 +21,9 @@ from ridgeback.symbolic.codegen.proofs.analysis import Computed, any_root
 from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.averaged_losses import averaged_losses
-from ridgeback.symbolic.flow.loss_flow import LossTerm
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.reconstruction import PHI, Reconstruction
+from ridgeback.symbolic.flow.term import LossTerm
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 VALUES = {"m": 2.5, "k": 7.25, "k3": -0.75, "k5": 0.5, "c": 0.0625, "w": 1.75, "a2": 0.5, "mu": 0.03125, "L": 0.5}
