@@ -12,6 +12,8 @@ from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 
+import numpy as np
+
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.identification.candidates import BACKBONE, VAN_DER_POL, Model
@@ -28,6 +30,8 @@ NOTHING = 1e-3
 """Noise over amplitude below which an equation's slow flow, a series, is not held against it."""
 NEAR_BEST = 9.0
 """Times the least sum of squares, that an equation may leave which is tried for another quantity."""
+MOST = 0.8
+"""Of the width of the samples, that the first harmonic's amplitude can have: 2 / pi for a square wave, and some noise."""
 AS_OTHER = ("duffing-hardening", "duffing-softening", "pendulum", "helmholtz-duffing")
 """Smooth laws with harmonics, one of which the quantity must agree with."""
 
@@ -81,6 +85,8 @@ def fits_as(ready: Prepared, quantity: str, others: list[Model]) -> Iterator[Fit
     turned = replace(ready.recording, values=displaced(x, ready.models.best, quantity))
     with suppress(InputError):
         data = prepare(turned, ready.track, kept=ready.kept)
+        if data.length > MOST * float(np.ptp(turned.values)):
+            return
         for model in others:
             with suppress(InputError):
                 yield fit(model, data)

@@ -125,6 +125,8 @@ def _combined(expression: sympy.Expr, known: list[arb]) -> arb:
         return abs(known[0])
     if isinstance(expression, sympy.sign):
         return _sign(known[0], expression)
+    if isinstance(expression, sympy.DiracDelta) and not known[0].contains(0):
+        return arb(0)  # the slope of a sign, away from where it changes
     function = REAL_FUNCTIONS.get(type(expression).__name__)
     if function is None:
         raise InputError(f"{brief(expression)} is not a real function analytic at the origin; rewrite that term")

@@ -13,7 +13,7 @@ from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.preparation import prepared
 from ridgeback.compare.identification.results import Identification
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.motion.dynamics import duffing
+from ridgeback.numeric.motion.dynamics import duffing, pendulum
 from ridgeback.numeric.motion.trajectory import integrate
 from ridgeback.numeric.recording.quantity import as_displacement, as_said
 from ridgeback.numeric.recording.recording import Recording
@@ -99,6 +99,13 @@ def test_a_waveform_that_contradicts_a_displacement_is_refused(accelerated: Arra
     insisted = identify(as_displacement(recording, "displacement"), candidates=FEW)
     assert "No interval is claimed: the best candidate leaves" in insisted.verdict
     assert all(math.isnan(one.standard_deviation) for one in insisted.best.parameters)
+
+
+def test_a_swing_from_near_the_separatrix_is_a_displacement() -> None:
+    """Turned into that behind a velocity, its amplitude comes out beyond all measure: that speaks for nothing."""
+    run = integrate(pendulum(k=1.0, mu=0.01), (2.9845, 0.0), duration=120.0, rate=8.0, rtol=1e-9)
+    found = identify(of(run.u, 8.0), candidates=["linear", "pendulum"], damping="linear")
+    assert found.best.name == "pendulum"
 
 
 def test_a_name_that_says_another_quantity_is_believed(accelerated: Array) -> None:

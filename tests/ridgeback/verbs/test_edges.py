@@ -258,4 +258,4 @@ def test_small_refusals(ridgeback: Ridgeback, monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(sys, "stdout", None)
     from ridgeback.cli import main
 
-    assert main(["--version"]) in (0, 4)
+    assert main(["systems"]) == 4
