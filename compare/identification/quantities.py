@@ -31,7 +31,7 @@ NOTHING = 1e-3
 NEAR_BEST = 9.0
 """Times the least sum of squares, that an equation may leave which is tried for another quantity."""
 MOST = 0.8
-"""Of the width of the samples, that the first harmonic's amplitude can have: 2 / pi for a square wave, and some noise."""
+"""Of the width of the samples, that the amplitude of the first harmonic can have: 2 / pi for a square wave."""
 AS_OTHER = ("duffing-hardening", "duffing-softening", "pendulum", "helmholtz-duffing")
 """Smooth laws with harmonics, one of which the quantity must agree with."""
 

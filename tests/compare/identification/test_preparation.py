@@ -9,6 +9,7 @@ import pytest
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.identification import preparation
+from ridgeback.compare.identification.candidates import LAWS
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.preparation import prepared
 from ridgeback.compare.identification.results import Identification
@@ -104,7 +105,7 @@ def test_a_waveform_that_contradicts_a_displacement_is_refused(accelerated: Arra
 def test_a_swing_from_near_the_separatrix_is_a_displacement() -> None:
     """Turned into that behind a velocity, its amplitude comes out beyond all measure: that speaks for nothing."""
     run = integrate(pendulum(k=1.0, mu=0.01), (2.9845, 0.0), duration=120.0, rate=8.0, rtol=1e-9)
-    found = identify(of(run.u, 8.0), candidates=["linear", "pendulum"], damping="linear")
+    found = identify(of(run.u, 8.0), candidates=("linear", "pendulum"), laws=LAWS[:1])
     assert found.best.name == "pendulum"
 
 
@@ -119,7 +120,7 @@ def test_a_name_that_says_another_quantity_is_believed(accelerated: Array) -> No
 def test_no_interval_is_claimed_where_no_candidate_describes_the_samples() -> None:
     t = np.arange(240) / 8.0
     jumping = np.where(t < 15.0, np.cos(6.0 * t), np.cos(8.0 * t))
-    found = identify(of(jumping, 8.0), candidates=("linear",), laws=("linear",))
+    found = identify(of(jumping, 8.0), candidates=("linear",), laws=LAWS[:1])
     assert found.unclaimed
     assert found.unclaimed in found.verdict
     assert np.isnan(found.best.omega_low).all()
