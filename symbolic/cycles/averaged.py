@@ -18,10 +18,12 @@ POINTS: Final = 16
 """Phases of a cycle at which the force is taken."""
 OCTAVES: Final = 20
 PER_OCTAVE: Final = 2
+BISECTIONS: Final = 20
+"""From half an octave to 3e-7."""
 
 
 def balanced_amplitudes(force: sympy.Expr, k: float) -> tuple[float, ...]:
-    """Return the amplitudes at which the averaged loss changes its sign, in rising order, to half an octave.
+    """Return the amplitudes at which the averaged loss changes its sign, in rising order, to 3e-7.
 
     Parameters
     ----------
@@ -41,12 +43,27 @@ def balanced_amplitudes(force: sympy.Expr, k: float) -> tuple[float, ...]:
 
     Examples
     --------
-    >>> [round(math.log2(a)) for a in balanced_amplitudes(U - (1 - U**2) * V / 10, 1.0)]
-    [1]
+    >>> [round(a, 5) for a in balanced_amplitudes(U - (1 - U**2) * V / 10, 1.0)]
+    [2.0]
     """
     grid = [2.0 ** (n / PER_OCTAVE) for n in range(-OCTAVES * PER_OCTAVE, OCTAVES * PER_OCTAVE + 1)]
     losses = [(a, loss) for a in grid if (loss := averaged_loss(force, k, a)) is not None]
-    return tuple(math.sqrt(a * b) for (a, before), (b, after) in pairwise(losses) if (before > 0) != (after > 0))
+    return tuple(
+        _zero(force, k, a, b, falls=before > 0)
+        for (a, before), (b, after) in pairwise(losses)
+        if (before > 0) != (after > 0)
+    )
+
+
+def _zero(force: sympy.Expr, k: float, low: float, high: float, *, falls: bool) -> float:
+    """Where the averaged loss changes its sign between two amplitudes, by bisection while it is real there."""
+    for _ in range(BISECTIONS):
+        middle = math.sqrt(low * high)
+        loss = averaged_loss(force, k, middle)
+        if loss is None:
+            break
+        low, high = (middle, high) if (loss > 0) == falls else (low, middle)
+    return math.sqrt(low * high)
 
 
 def averaged_loss(force: sympy.Expr, k: float, a: float) -> float | None:

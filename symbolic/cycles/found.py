@@ -11,7 +11,7 @@ from ridgeback.common.progress import Wanted, showing
 from ridgeback.symbolic.arithmetic.balls import natural_frequency
 from ridgeback.symbolic.cycles.averaged import balanced_amplitudes
 from ridgeback.symbolic.cycles.enclose import Cycle, enclose_cycle, turns_of
-from ridgeback.symbolic.cycles.search import OCTAVES, peaks, runs_out
+from ridgeback.symbolic.cycles.search import MOST_STEPS, OCTAVES, runs_out, scan
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 from ridgeback.symbolic.systems.sides import require_one_law
@@ -63,14 +63,17 @@ def limit_cycles(
     ways = {backwards: in_time(force, backwards=backwards) for backwards in (False, True)}
     if all(runs_out(ways[False], peak, turns=turns) for peak in expected):
         raise InputError(
-            f"{own.name}: the motion is too stiff to be followed through a cycle (a relaxation oscillation, whose "
-            "loss is many times the natural frequency), so that no limit cycle is looked for; use a smaller one"
+            f"{own.name}: the motion from the peak {expected[0]:.4g} is not followed to its turning point within "
+            f"{MOST_STEPS} steps, so that no limit cycle is looked for; if its loss is many times the natural "
+            "frequency (a relaxation oscillation), use a smaller one"
         )
-    seen = sorted((a, backwards) for backwards, way in ways.items() for a in peaks(way, turns=turns, near=expected))
+    scans = {backwards: scan(way, turns=turns, near=expected) for backwards, way in ways.items()}
+    seen = sorted((a, backwards) for backwards, found in scans.items() for a in found.peaks)
     if not seen:
         low, high = expected[0] / 2**OCTAVES, expected[-1] * 2**OCTAVES
         raise InputError(
             f"{own.name}: a scan of the return map found no limit cycle with a peak in {low:.3g} .. {high:.3g}"
+            + _lost(sum(found.lost for found in scans.values()))
         )
     with showing(progress) as told:
         proved = []
@@ -78,6 +81,12 @@ def limit_cycles(
             told(done / len(seen), f"limit cycle near the peak {peak:.3g}")
             proved.append(_proved(ways[backwards], peak, k, bits, backwards=backwards))
         return tuple(proved)
+
+
+def _lost(count: int) -> str:
+    """What the refusal says of motions that the scan did not follow."""
+    motions = "1 motion was" if count == 1 else f"{count} motions were"
+    return f"; {motions} not followed to the turning point within {MOST_STEPS} steps" if count else ""
 
 
 def in_time(force: sympy.Expr, *, backwards: bool) -> sympy.Expr:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Final
 
 import sympy
@@ -18,13 +19,19 @@ DEGREE: Final = 12
 PART: Final = 0.2
 """The length of a step, as a part of the radius of convergence read off the last coefficients."""
 MOST_STEPS: Final = 1500
-"""Of a motion; van der Pol's with eps = 40 takes as many."""
+"""Of a motion; from the peak 2, van der Pol's with eps = 60 takes fewer, with eps = 80 more."""
 OCTAVES: Final = 3
 """How far from the amplitude that is expected the scan goes, up and down."""
 PER_OCTAVE: Final = 5
 LARGEST: Final = 1e7
 """How far a motion may swell or shrink before it is given up."""
 BISECTIONS: Final = 60
+RETREATS: Final = 5
+"""Halvings of the way back from a peak whose motion is not followed."""
+TOUCH: Final = 1e-6
+"""A growth that is less than so much of the one before is 0 to within the errors of the steps: its sign tells nothing."""
+FAR: Final = 2
+"""A motion that is farther out than so many times its peak has left the oscillation about the origin."""
 ENOUGH: Final = 1e-9
 """Relative accuracy of a place: the interval Newton step squares it."""
 
@@ -78,15 +85,19 @@ def _followed(force: sympy.Expr, peak: float, turns: int) -> float | None:
                 turned = _at(c, _zero(c, step))[0] * (1 if turns == 2 else -1)
                 return turned if turned > 0 else None  # else the motion is about another place
         u, v = u_end, v_end
-    raise _StepsError(f"more than {MOST_STEPS} steps from the peak {peak:.6g}")
+    raise _StepsError(u)
 
 
 class _StepsError(InputError):
-    """The motion is too stiff for the steps that are made."""
+    """All the steps are made before the turning point: the motion is stiff, or escapes to where it is."""
+
+    def __init__(self, u: float) -> None:
+        super().__init__(f"more than {MOST_STEPS} steps")
+        self.u = u
 
 
 def runs_out(force: sympy.Expr, peak: float, *, turns: int) -> bool:
-    """Return whether the motion from a peak is too stiff to be followed to its turning point.
+    """Return whether the motion from a peak stays about there and is not followed to its turning point.
 
     Parameters
     ----------
@@ -100,7 +111,7 @@ def runs_out(force: sympy.Expr, peak: float, *, turns: int) -> bool:
     Returns
     -------
     bool
-        Whether the steps run out.
+        Whether the steps run out with |u| below twice the peak; farther out the motion has escaped.
 
     Examples
     --------
@@ -109,8 +120,8 @@ def runs_out(force: sympy.Expr, peak: float, *, turns: int) -> bool:
     """
     try:
         _followed(force, peak, turns)
-    except _StepsError:
-        return True
+    except _StepsError as end:
+        return abs(end.u) < FAR * peak
     except (InputError, OverflowError, ZeroDivisionError):
         pass
     return False
@@ -145,8 +156,24 @@ def _zero(c: list[float], end: float) -> float:
     return low
 
 
-def peaks(force: sympy.Expr, *, turns: int, near: Sequence[float]) -> tuple[float, ...]:
-    """Return the peaks of the attracting limit cycles found, in rising order.
+@dataclass(frozen=True)
+class Scan:
+    """What a scan of the return map found.
+
+    Parameters
+    ----------
+    peaks : tuple of float
+        Of attracting limit cycles, in rising order.
+    lost : int
+        How many motions were not followed to their turning point within ``MOST_STEPS`` steps.
+    """
+
+    peaks: tuple[float, ...]
+    lost: int
+
+
+def scan(force: sympy.Expr, *, turns: int, near: Sequence[float]) -> Scan:
+    """Look for attracting limit cycles.
 
     Parameters
     ----------
@@ -159,22 +186,30 @@ def peaks(force: sympy.Expr, *, turns: int, near: Sequence[float]) -> tuple[floa
 
     Returns
     -------
-    tuple of float
-        Where ln(P(A)/A) falls through 0, from an eighth of the first to eight times the last; a double zero is
-        passed over.
+    Scan
+        The peaks are where ln(P(A)/A) falls through 0, from an eighth of the first to eight times the last; a double
+        zero is passed over.
 
     Examples
     --------
-    >>> [round(a, 6) for a in peaks(U - (1 - U**2) * V, turns=1, near=[2.0])]
+    >>> [round(a, 6) for a in scan(U - (1 - U**2) * V, turns=1, near=[2.0]).peaks]
     [2.00862]
     """
-    mapped = return_map(force, turns=turns)
+    lost = 0
 
     def growth(peak: float) -> float | None:
-        found = mapped(peak)
+        nonlocal lost
+        try:
+            found = _followed(force, peak, turns)
+        except _StepsError:
+            lost += 1
+            return None
+        except (InputError, OverflowError, ZeroDivisionError):
+            return None  # the motion meets a singularity
         return None if found is None else math.log(found / peak)
 
-    return tuple(sorted(_refined(growth, *bracket) for bracket in _brackets(growth, near)))
+    found = sorted(_refined(growth, *bracket) for bracket in _brackets(growth, near))
+    return Scan(tuple(found), lost)
 
 
 Growth = Callable[[float], "float | None"]
@@ -184,15 +219,31 @@ Bracket = tuple[float, float, float, float]
 def _brackets(growth: Growth, near: Sequence[float]) -> Iterator[Bracket]:
     """Neighbouring amplitudes between which ln(P(A)/A) falls through 0, with its values there."""
     count = math.ceil(math.log2(near[-1] / near[0]) * PER_OCTAVE) + 2 * OCTAVES * PER_OCTAVE
-    last, before = 0.0, None
+    last, before, previous = 0.0, None, 0.0
     for n in range(count + 1):
         here = near[0] * 2 ** (n / PER_OCTAVE - OCTAVES)
         value = growth(here)
+        if value is None and before is not None and before > 0:
+            here, value = _retreat(growth, previous, here)
+        previous = here
+        if value is not None and before is not None and abs(value) <= TOUCH * before:
+            continue
         if before is not None and value is not None and before > 0 >= value:
             yield last, here, before, value
         if value is None and here > near[-1]:
             return  # beyond a separatrix or a singularity
         last, before = here, value
+
+
+def _retreat(growth: Growth, last: float, here: float) -> tuple[float, float | None]:
+    """The first place on the way back at which there is a growth, halving the way; the last one tried where none is."""
+    value = None
+    for _ in range(RETREATS):
+        here = math.sqrt(last * here)
+        value = growth(here)
+        if value is not None:
+            break
+    return here, value
 
 
 def _refined(growth: Growth, a: float, b: float, at_a: float, at_b: float) -> float:

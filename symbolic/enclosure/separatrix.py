@@ -1,7 +1,9 @@
 """Where oscillation about the origin ends: the lower of the two barriers, and the amplitude whose energy it has.
 
 A barrier is an equilibrium (a saddle), the edge of where the force is defined, or the height at which V levels off far
-away.  Saddles are proved; where V ends at an edge or far away its height is extrapolated, to doubles.
+away.  Saddles are proved up to |u| = 64 or so; beyond, where balls of intervals do not go on, ``ends_of`` looks at the
+sign of the force in steps of 1 %, and two zeros within one step are not seen.  Where V ends at an edge or far
+away its height is extrapolated, to doubles.
 """
 
 from __future__ import annotations
@@ -53,9 +55,16 @@ SEARCHED: Final = 1024
 """How far saddles of a force that is not a polynomial are looked for, in the unit of u."""
 
 
+UNTOLD: Final = (
+    "the force touches 0 without crossing it, or decays so fast where V levels off that it cannot be told from 0, or "
+    "two barriers are of one height), so that where the oscillation ends is not found; enclose single amplitudes"
+)
+"""Why balls cannot decide where no amplitude is given."""
+
+
 def limits(well: Well, bits: int) -> Separatrix:
     """The separatrix of a well; see ``separatrix``."""
-    return decided(lambda working: _limits(well, working), well.name, bits)
+    return decided(lambda working: _limits(well, working), well.name, bits, why=UNTOLD)
 
 
 def _limits(well: Well, bits: int) -> Separatrix:
@@ -87,6 +96,8 @@ class Ends:
 def ends_of(oscillator: Oscillator) -> Ends:
     """Return where the oscillation about u = 0 ends, by saddles, edges of the force, and levels far away.
 
+    Saddles are proved up to |u| = 64 or so; beyond, the sign of the force is looked at in steps of 1 %.
+
     Parameters
     ----------
     oscillator : Oscillator
@@ -100,7 +111,7 @@ def ends_of(oscillator: Oscillator) -> Ends:
     Raises
     ------
     InputError
-        As ``separatrix`` does.
+        As ``separatrix`` does; where the force far out cannot be told from 0.
 
     Examples
     --------
@@ -112,7 +123,7 @@ def ends_of(oscillator: Oscillator) -> Ends:
     (-inf, 0.0)
     """
     well = well_of(oscillator)
-    return decided(lambda working: _ends(well, working), well.name, 64)
+    return decided(lambda working: _ends(well, working), well.name, 64, why=UNTOLD)
 
 
 def _ends(well: Well, bits: int) -> Ends:
@@ -164,8 +175,10 @@ def _followed(side: Curves) -> Walk:
         pull = side.force(place)
         if not pull.is_finite():
             return Walk("singular", here)
-        if not pull > 0:
+        if pull < 0:
             return Walk("zero", root(side.force, side.slope, here, place))
+        if not pull > 0:
+            raise UndecidedError
     return Walk("stopped", place)
 
 

@@ -36,13 +36,20 @@ class UndecidedError(ArithmeticError):
 
 T = TypeVar("T")
 
+AT_AN_AMPLITUDE: Final = (
+    "the force touches 0 without crossing it, or the orbit all but meets a separatrix or singularity); use a smaller "
+    "amplitude"
+)
 
-def decided(attempt: Callable[[int], T], name: str, working: int, progress: Progress = silent) -> T:
+
+def decided(
+    attempt: Callable[[int], T], name: str, working: int, progress: Progress = silent, *, why: str = AT_AN_AMPLITUDE
+) -> T:
     """The answer of ``attempt(bits)`` at the first precision, doubled a few times, at which balls can decide.
 
     ``progress`` is told each precision that is tried, whose cost about doubles from one to the next.
 
-    Raises InputError when none of them can.
+    Raises InputError when none of them can, with what may be ``why`` (it closes a bracket) and what would work.
     """
     for doubling in range(ATTEMPTS):
         precision = working << doubling
@@ -52,10 +59,7 @@ def decided(attempt: Callable[[int], T], name: str, working: int, progress: Prog
                 return attempt(precision)
         except UndecidedError:
             continue
-    raise InputError(
-        f"{name}: balls of {working << (ATTEMPTS - 1)} bits cannot decide here (the force touches 0 without crossing "
-        "it, or the orbit all but meets a separatrix or singularity); use a smaller amplitude"
-    )
+    raise InputError(f"{name}: balls of {working << (ATTEMPTS - 1)} bits cannot decide here ({why}")
 
 
 @dataclass(frozen=True)

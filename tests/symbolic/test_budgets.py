@@ -78,7 +78,7 @@ def started() -> object:
             lambda: in_balls.lindstedt_in_balls(find("duffing"), 6, digits=20),
             "do not give 20 digits",
         ),
-        (search, "MOST_STEPS", 1, found, "found no limit cycle"),
+        (search, "MOST_STEPS", 1, found, "not followed to its turning point"),
         (transient, "MOST_STEPS", 1, settling, "takes more than 1 steps"),
         (reconstruction, "MOST_ITERATIONS", 1, started, "start closer to rest"),
     ],

@@ -185,9 +185,19 @@ class Analysis:
         else:
             exact, error = product(x, y)
             error = error + arb(2) ** (self.real.low + self.real.digits + 6)  # should a partial product underflow
+            if not self.fused and not all(self._splits(one) for one in (x, y, Computed(exact, error))):
+                error = arb("inf")
         lost = half_spacing(abs(exact) + error, self.real)
         rest = arb(0, lost.upper())
         return Computed(exact - rest, error.upper()), Computed(rest, arb(0))
+
+    def _splits(self, x: Computed) -> bool:
+        """Whether Veltkamp's splitting of a value by 2^s + 1, s half of the digits, surely does not overflow.
+
+        S. Boldo, Pitfalls of a full floating-point proof, IJCAR 2006, LNCS 4130, 52-66.
+        """
+        half = (self.real.digits + 1) // 2
+        return bool((abs(x.exact) + x.error) * arb(2) ** (half + 1) < arb(2) ** self.real.high)
 
     def _split(self, operation: Operation, operands: list[Computed]) -> tuple[Computed, Computed]:
         """A value as a multiple of a unit and the rest: what was not exact in it is now not exact in the rest.

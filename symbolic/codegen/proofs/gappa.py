@@ -1,7 +1,10 @@
 """A script for Gappa that proves the rounding bound of a function once more, by another program.
 
 Gappa (M. Daumas and G. Melquiond, ACM Trans. Math. Software 37, 2010) bounds |computed - exact| by interval arithmetic
-and rewriting, and exits with 0 when the goals hold.  The script states a bound a little above the one proved in balls.
+and rewriting, and exits with 0 when the goals hold.  A rewriting rule in a script (``exact -> together``) is a
+hypothesis: Gappa takes it without a warning where it sees that both sides are equal by algebra, and else warns that
+they "are not trivially equal" and goes on, so that only a run without this warning is a proof.  The script states a
+bound a little above the one proved in balls.
 """
 
 from __future__ import annotations
@@ -34,7 +37,8 @@ def gappa_script(form: Form, name: str = "omega0") -> str:
     """The script for one function of a form, with k = 1.
 
     The error of the coefficients is part of what is proved: the exact values hold the rationals themselves.  Where the
-    first terms are exact, Gappa proves that they are, and checks that their sum with the rest is the polynomial.
+    first terms are exact, Gappa proves that they are, and sees that their sum with the rest is
+    the polynomial unless it warns about ``exact`` and ``together``.
 
     Raises InputError for a function that is no polynomial in one variable with a known domain, and where compensated
     steps carry rounding errors along.

@@ -20,6 +20,7 @@ from ridgeback.symbolic.cycles.enclose import Cycle, enclose_cycle
 from ridgeback.symbolic.cycles.field import field_of
 from ridgeback.symbolic.cycles.found import Unproved, limit_cycles
 from ridgeback.symbolic.cycles.passage import passage
+from ridgeback.symbolic.cycles.search import runs_out, scan
 from ridgeback.symbolic.cycles.taylor_step import changed, step_from
 from ridgeback.symbolic.enclosure.walk import UndecidedError
 from ridgeback.symbolic.expansion.ball_expansion import holds
@@ -57,11 +58,28 @@ def test_an_exact_circle_is_in_the_balls(radius: Fraction, strength: Fraction, s
 
 def test_a_relaxation_oscillation_is_enclosed_and_a_stiffer_one_is_refused_at_once() -> None:
     """With LSODA at 1e-12 omega0(20) agrees to 3e-11."""
-    cycle = enclose_cycle(U - 20 * (1 - U**2) * V, 2.00778997, unit=1.0, bits=64)
+    (cycle,) = limit_cycles("u'' - 20*(1 - u**2)*u' + u = 0", bits=64)
+    assert isinstance(cycle, Cycle)
     assert cycle.omega.str(15, radius=False) == "0.181163910235176"
     assert cycle.peak.str(15, radius=False) == "2.00778997086543"
-    with pytest.raises(InputError, match="too stiff to be followed"):
+    with pytest.raises(InputError, match="the motion from the peak 2 is not followed to its turning point"):
         limit_cycles("u'' - 1000*(1 - u**2)*u' + u = 0")
+
+
+def test_the_scan_sees_the_cycle_at_60_and_goes_back_from_peaks_that_it_cannot_follow() -> None:
+    """Balls: 2.00240191906388."""
+    force = U - 60 * (1 - U**2) * V
+    assert not runs_out(force, 2.0, turns=1)
+    found = scan(force, turns=1, near=[2.0])
+    assert found.peaks == pytest.approx((2.00240191906388,), rel=1e-6)
+    assert found.lost > 0
+
+
+def test_a_motion_that_escapes_over_a_saddle_is_not_called_stiff() -> None:
+    """The loss is a tenth of the natural frequency; only beyond the saddle at 2.47 the steps run out."""
+    with pytest.raises(InputError, match=r"found no limit cycle.* not followed to the turning point") as refused:
+        limit_cycles("u'' - (1 - 5*u**2/7)*u'/10 + u - 23*u**3/140 = 0")
+    assert "relaxation" not in str(refused.value)
 
 
 def test_nested_circles_are_told_apart() -> None:

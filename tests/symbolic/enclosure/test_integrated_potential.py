@@ -10,12 +10,16 @@ from flint import acb, arb, ctx, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ridgeback.common.errors import InputError
 from ridgeback.compare.binding.bind import bind
 from ridgeback.numeric.motion.closed_orbit import closed_orbit
+from ridgeback.symbolic.enclosure import separatrix as separatrices
 from ridgeback.symbolic.enclosure.ball_functions import ball_function
 from ridgeback.symbolic.enclosure.ball_integral import BallIntegral
 from ridgeback.symbolic.enclosure.enclosure import enclose, enclose_in, separatrix
-from ridgeback.symbolic.enclosure.well import well_of
+from ridgeback.symbolic.enclosure.separatrix import _followed, ends_of
+from ridgeback.symbolic.enclosure.walk import UndecidedError, Walk
+from ridgeback.symbolic.enclosure.well import curves, well_of
 from ridgeback.symbolic.systems.oscillator import Oscillator, U
 
 INTEGRALS = (
@@ -96,6 +100,23 @@ def test_the_separatrix_of_an_integrated_potential() -> None:
     found = separatrix(own("sin(sin(u))"))
     assert found.peak is not None
     assert found.peak.overlaps(arb.pi())
+
+
+def test_a_force_that_dies_out_too_fast_is_refused_for_that() -> None:
+    """V = tanh(u)^2/2 levels off at 1/2; no amplitude was given that could be made smaller."""
+    with pytest.raises(InputError, match="decays so fast where V levels off") as refused:
+        ends_of(own("tanh(u) - tanh(u)**3"))
+    assert "use a smaller amplitude" not in str(refused.value)
+
+
+def test_far_out_a_ball_that_holds_zero_is_not_called_a_zero(monkeypatch: pytest.MonkeyPatch) -> None:
+    with ctx.workprec(64):
+        side = curves(well_of(own("sinh(u)")), 64)
+    monkeypatch.setattr(separatrices, "walk", lambda *_, **__: Walk("exhausted", arb(100)))
+    for force, end in ((lambda u: 200 - u, "zero"), (lambda u: 1 / (300 - u).sqrt(), "singular")):
+        assert _followed(replace(side, force=force, slope=lambda _: arb(-1))).end == end
+    with pytest.raises(UndecidedError):
+        _followed(replace(side, force=lambda u: 200 - u + arb(0, 9), slope=lambda _: arb(-1)))
 
 
 def test_the_mirrored_well_is_integrated_too() -> None:

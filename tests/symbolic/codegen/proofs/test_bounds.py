@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 
 from ridgeback.symbolic.codegen import generate, written
 from ridgeback.symbolic.codegen.naming import identifier
-from ridgeback.symbolic.codegen.number import FLOAT64, Number
+from ridgeback.symbolic.codegen.number import FLOAT32, FLOAT64, Number, Real
 from ridgeback.symbolic.codegen.polynomial import polynomial_function, whole_domain
 from ridgeback.symbolic.codegen.program import Argument, Form, Function, Operation, Step
+from ridgeback.symbolic.codegen.proofs.analysis import Analysis, Computed
 from ridgeback.symbolic.codegen.proofs.notes import gamma, roundings
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.resummation.by_name import resum
@@ -69,6 +70,20 @@ def test_roundings_are_counted_along_the_deepest_path() -> None:
     assert count(Step("r", Operation.MULTIPLY_ADD, (one, "x", third))) == 2  # 1/3 meets the sum only
     assert count(Step("r", Operation.MULTIPLY_ADD, (third, "x", half))) == 3
     assert roundings((), third) == 1
+
+
+@pytest.mark.parametrize("real", [FLOAT64, FLOAT32])
+def test_a_splitting_that_overflows_is_in_the_bound(real: Real) -> None:
+    """Veltkamp's 2^s x is beyond the largest number from 2^(high - s) on, though the product is not; fused is none."""
+    half = (real.digits + 1) // 2
+    product = (Step("p", Operation.TWO_PRODUCT, ("x", "y"), "lost"),)
+    for exponent, splits in ((real.high - half - 2, True), (real.high - half, False)):
+        known = {"x": Computed(arb(2) ** exponent, arb(0)), "y": Computed(arb(2) ** (-exponent), arb(0))}
+        for names in (("x", "y"), ("y", "x")):
+            given = {"x": known[names[0]], "y": known[names[1]]}
+            strict = Analysis(given, Form("f", "", (), (), mode="accurate", real=real), {})
+            assert strict.run(product, "p").error.is_finite() == splits
+        assert Analysis(known, Form("f", "", (), (), mode="fma", real=real), {}).run(product, "p").error.is_finite()
 
 
 FORMULAS = [
