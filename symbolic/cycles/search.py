@@ -29,7 +29,7 @@ BISECTIONS: Final = 60
 RETREATS: Final = 5
 """Halvings of the way back from a peak whose motion is not followed."""
 TOUCH: Final = 1e-6
-"""A growth that is less than so much of the one before is 0 to within the errors of the steps: its sign tells nothing."""
+"""A growth that is less than so much of the one before is 0 to within the errors of the steps."""
 FAR: Final = 2
 """A motion that is farther out than so many times its peak has left the oscillation about the origin."""
 ENOUGH: Final = 1e-9
@@ -223,15 +223,17 @@ def _brackets(growth: Growth, near: Sequence[float]) -> Iterator[Bracket]:
     for n in range(count + 1):
         here = near[0] * 2 ** (n / PER_OCTAVE - OCTAVES)
         value = growth(here)
+        ends = value is None and here > near[-1]  # beyond a separatrix or a singularity
         if value is None and before is not None and before > 0:
             here, value = _retreat(growth, previous, here)
         previous = here
-        if value is not None and before is not None and abs(value) <= TOUCH * before:
-            continue
-        if before is not None and value is not None and before > 0 >= value:
+        touches = value is not None and before is not None and abs(value) <= TOUCH * before
+        if not touches and before is not None and value is not None and before > 0 >= value:
             yield last, here, before, value
-        if value is None and here > near[-1]:
-            return  # beyond a separatrix or a singularity
+        if ends:
+            return
+        if touches:
+            continue
         last, before = here, value
 
 
