@@ -63,9 +63,9 @@ def somewhere(model: SplineModel, left: Array, rate: float, sound: Mask) -> str:
     ...     guide = np.where(t < 15.0, 6.0, second)
     ...     x = np.cos(6.0 * t + (guide - 6.0) * (t - 15.0)) + noise
     ...     best = signal_models(x, 16.0, guide, half=30, multiples=()).best
-    ...     print(somewhere(best, x - best.samples(), 16.0, sound)[:31])
+    ...     print(somewhere(best, x - best.samples(), 16.0, sound)[:29])
     <BLANKLINE>
-    a model of the whole leaves 4.1
+    a model of the whole leaves 4
     """
     if model.cycles > FINE:
         return ""

@@ -51,6 +51,8 @@ ENOUGH = 100
 """Ordinates of a spectrum from which on they suffice to judge a model by."""
 FIRM = 0.05
 """Of the mean square of what is left of the samples: so much of a^2 / 2 leaves the increments of l and phi free."""
+BACK = 0.2
+"""Of the largest amplitude, by which it may come back after a fall that is one."""
 FLOOR, MUCH = 0.01, 3.0
 """Of the largest amplitude, down to which its fall counts where knots are spread; its logarithm from which on it counts
 as much as the cycles."""
@@ -309,8 +311,8 @@ def harmonic_splines(
 def falling(phase: Array, amplitude: Array) -> Array:
     """A rising function of time whose equal steps hold as many cycles, or as great a fall of the amplitude.
 
-    A loss that grows with the amplitude makes most of its changes early, in a few cycles.  A fall from which the
-    amplitude comes back, as in beats or before a swell, counts for nothing.
+    A loss that grows with the amplitude makes most of its changes early, in a few cycles.  Where the amplitude comes
+    back, as in beats or a swell, the cycles count alone.
 
     >>> t = np.linspace(0.0, 60.0, 7)
     >>> falling(t, np.ones(7)).tolist() == (t / 60.0).tolist(), np.allclose(falling(t, np.exp(-t / 20)), t / 30.0)
@@ -320,9 +322,11 @@ def falling(phase: Array, amplitude: Array) -> Array:
     """
     largest = float(amplitude.max())
     yet_to_come = np.maximum.accumulate(amplitude[::-1])[::-1]
+    cycles = np.asarray((phase - phase[0]) / float(phase[-1] - phase[0]), dtype=np.float64)
+    if float((yet_to_come - amplitude).max()) > BACK * largest:
+        return cycles
     fallen = np.log(largest / np.maximum(yet_to_come, FLOOR * largest))
     most = float(fallen[-1])
-    cycles = (phase - phase[0]) / float(phase[-1] - phase[0])
     return np.asarray(cycles + min(1.0, most / MUCH) ** 2 * fallen / max(most, 1e-300), dtype=np.float64)
 
 
