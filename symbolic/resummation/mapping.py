@@ -100,8 +100,7 @@ class Euler:
         return "Euler transformation" if self.rate == 1 else f"Euler transformation of rate {self.rate}"
 
     def image(self, x: arb) -> arb:
-        scaled = 1 + x / ball(self.x0)
-        return 1 - (1 / scaled if self.rate == 1 else scaled ** ball(-self.rate))
+        return 1 - (1 + x / ball(self.x0)) ** ball(-self.rate)
 
     def preimage(self, w: arb) -> arb:
         return ball(self.x0) * ((1 - w) ** ball(-1 / self.rate) - 1)

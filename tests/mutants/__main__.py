@@ -1,28 +1,29 @@
 """Change the code in one place and see whether its tests notice: ``python -m tests.mutants --count 200 --seed 1``.
 
 A mutant is one changed operator, comparison, constant or condition in the cores of ``symbolic`` and ``numeric``.  It
-is killed when a test fails, or does not end, that passes on the unchanged code: first the examples of its file and the
-tests that bear its name, then those that import it, then those that reach it through other files, for so many seconds
-of processor time as ``--seconds`` says.  The tests are collected once; every mutant lives in a copy of that process.
-Prints every mutant with the test that killed it, the survivors to be looked at, and the share killed.  With ``--log``
-it takes up where it stopped, and tries again those whose file has changed and, with ``--survivors``, those that
-survived.
+is killed when a test fails, or does not end, that passes on the unchanged code: first the examples of its file, then
+the tests that name what is changed, then those that reach it through other files, for so many seconds of processor time
+as ``--seconds`` says.  The tests are collected once; every mutant lives in a copy of that process.
+Prints every mutant with the test that killed it, the survivors to be looked at, those known to change nothing
+(``equivalent.toml``), and the share killed.  With ``--log`` it takes up where it stopped, and tries again those whose
+file has changed.  A seed draws a mutant as long as its line stands, whatever becomes of the others.
 """
 
 from __future__ import annotations
 
 import argparse
+import hashlib
 import os
-import random
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pytest
 
 from tests.mutants.changes import Mutant, places
 from tests.mutants.choice import Choice, choice_in
+from tests.mutants.equivalent import equivalents
 from tests.mutants.log import Log
 from tests.mutants.processes import Tests
 
@@ -41,13 +42,17 @@ CORES = (
 class Trial:
     """Tries mutants in the place of pytest's loop over the tests."""
 
-    def __init__(self, given: argparse.Namespace, chosen: Sequence[Mutant], choice: Choice) -> None:
-        self.given, self.chosen, self.choice = given, chosen, choice
-        self.log, self.found = Log(ROOT, given.log), list[tuple[Mutant, str | None]]()
+    def __init__(self, given: argparse.Namespace, every: Sequence[Mutant], choice: Choice) -> None:
+        self.given, self.choice, self.log = given, choice, Log(ROOT, given.log)
+        self.chosen = [m for m in every if m.name in self.log.known] if given.survivors else drawn(every, given)
+
+    def killer(self, mutant: Mutant) -> str | None:
+        """What came of a mutant; None for one that is still to be tried."""
+        return self.log.last(mutant) if self.given.survivors else self.log.killer(mutant)
 
     def open(self) -> list[Mutant]:
-        """Those that no log knows."""
-        known = [(mutant, self.log.killer(mutant)) for mutant in self.chosen]
+        """Those to be tried."""
+        known = [(mutant, self.killer(mutant)) for mutant in self.chosen]
         return [mutant for mutant, test in known if test is None or (not test and self.given.survivors)]
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
@@ -55,7 +60,7 @@ class Trial:
         for mutant in self.open():
             if time.monotonic() > last:
                 break
-            test = tests.killer(mutant, self.choice.files(mutant.path), self.given.seconds)
+            test = tests.killer(mutant, self.choice, self.given.seconds)
             self.say(mutant, test)
             if test is not None:
                 self.log.note(mutant, test)
@@ -67,11 +72,15 @@ class Trial:
         print(f"{mutant.path}:{mutant.line} {mutant.what}: {came}", flush=True)
 
 
-def drawn(count: int, seed: int, within: str) -> tuple[list[Mutant], int]:
-    """So many mutants, and the number of places that they are drawn from."""
+def mutants_within(within: str) -> list[Mutant]:
+    """Every mutant of the cores in files whose path begins so."""
     files = [path for core in CORES for path in sorted((ROOT / core).glob("*.py")) if path.name != "__init__.py"]
-    every = [m for path in files for m in places(ROOT, path) if m.path.startswith(within)]
-    return random.Random(seed).sample(every, min(count, len(every))), len(every)  # noqa: S311 - a draw, no secret
+    return [m for path in files for m in places(ROOT, path) if m.path.startswith(within)]
+
+
+def drawn(every: Sequence[Mutant], given: argparse.Namespace) -> list[Mutant]:
+    """So many, by a hash of seed and name."""
+    return sorted(every, key=lambda m: hashlib.sha256(f"{given.seed} {m.name}".encode()).digest())[: given.count]
 
 
 def arguments_read(arguments: Sequence[str] | None) -> argparse.Namespace:
@@ -82,7 +91,11 @@ def arguments_read(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--seconds", type=int, default=60, help="processor time that the tests of a mutant may take")
     parser.add_argument("--within", default="", help="only files whose path begins so, e.g. numeric/estimators")
     parser.add_argument("--log", type=Path, help="a file that keeps what came of each mutant, to take it up again")
-    parser.add_argument("--survivors", action="store_true", help="try those again that the log calls survivors")
+    parser.add_argument(
+        "--survivors",
+        action="store_true",
+        help="instead of a draw: try those again that the log calls survivors, wherever their lines stand now",
+    )
     parser.add_argument("--minutes", type=float, default=float("inf"), help="begin no mutant after so long")
     return parser.parse_args(arguments)
 
@@ -90,23 +103,29 @@ def arguments_read(arguments: Sequence[str] | None) -> argparse.Namespace:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Draw mutants, try them, print what came of each and of those of the log."""
     given = arguments_read(arguments)
-    chosen, places_in_all = drawn(given.count, given.seed, given.within)
-    trial = Trial(given, chosen, choice_in(ROOT))
+    every = mutants_within(given.within)
+    trial = Trial(given, every, choice_in(ROOT))
     os.environ["CI"] = "1"
     if needed := sorted({name for mutant in trial.open() for name in trial.choice.files(mutant.path)}):
         os.chdir(ROOT)
         pytest.main(["-q", "-s", "-p", "no:cacheprovider", *needed], plugins=[trial])
-    killers = [(mutant, trial.log.killer(mutant)) for mutant in chosen]
-    found = [(mutant, test) for mutant, test in killers if test is not None]
-    print(*(f"survivor: {m.path}:{m.line} {m.what}" for m, test in found if not test), sep="\n")
-    for room in sorted({mutant.path.partition("/")[0] for mutant, _ in found}):
-        here = [test for mutant, test in found if mutant.path.startswith(f"{room}/")]
-        print(f"{room}: {sum(map(bool, here))} of {len(here)} killed")
-    print(
-        f"{sum(bool(test) for _, test in found)} of {len(found)} mutants killed,"
-        f" of {len(chosen)} drawn from {places_in_all} places; seed {given.seed}"
-    )
+    tried = [(mutant, test) for mutant in trial.chosen if (test := trial.killer(mutant)) is not None]
+    summary(tried, equivalents())
+    print(f"{len(tried)} tried of {len(trial.chosen)}, from {len(every)} places; seed {given.seed}")
     return 0
+
+
+def summary(tried: Sequence[tuple[Mutant, str]], reasons: Mapping[str, str]) -> None:
+    """The survivors, and the shares killed: of all, and of those that are not known to change nothing."""
+    for mutant, test in tried:
+        if mutant.name in reasons:
+            wrong = f"; but killed by {test}" if test else ""
+            print(f"equivalent: {mutant.path}:{mutant.line} {mutant.what}: {reasons[mutant.name]}{wrong}")
+    print(*(f"survivor: {m.path}:{m.line} {m.what}" for m, test in tried if not (test or m.name in reasons)), sep="\n")
+    for room in sorted({mutant.path.partition("/")[0] for mutant, _ in tried}):
+        here = [(bool(test), m.name in reasons) for m, test in tried if m.path.startswith(f"{room}/")]
+        killed, same = sum(test for test, _ in here), sum(equal and not test for test, equal in here)
+        print(f"{room}: {killed} of {len(here)} killed, {killed} of {len(here) - same} that change anything")
 
 
 if __name__ == "__main__":

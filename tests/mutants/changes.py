@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +20,15 @@ class Mutant:
     place: int
     line: int
     what: str
+    text: str
+    """The line as it stands in the file."""
+    nth: int
+    """Which of those of the file that say the same of the same line; 1 but for doubles."""
+
+    @property
+    def name(self) -> str:
+        """What it is called wherever the file's other lines may have moved it."""
+        return f"{self.path}: {self.text}: {self.what}" + (f" ({self.nth})" if self.nth > 1 else "")
 
 
 class Changer(ast.NodeTransformer):
@@ -73,9 +83,13 @@ class Changer(ast.NodeTransformer):
 
 def places(root: Path, path: Path) -> Iterator[Mutant]:
     """Every place of a file of the tree under ``root``."""
-    changer = Changer()
-    changer.visit(ast.parse(path.read_text(encoding="utf-8")))
-    yield from (Mutant(str(path.relative_to(root)), i, *found) for i, found in enumerate(changer.found))
+    changer, text = Changer(), path.read_text(encoding="utf-8")
+    changer.visit(ast.parse(text))
+    lines, seen = text.splitlines(), Counter[tuple[str, str]]()
+    for i, (number, what) in enumerate(changer.found):
+        line = lines[number - 1].strip()
+        seen[line, what] += 1
+        yield Mutant(str(path.relative_to(root)), i, number, what, line, seen[line, what])
 
 
 def changed(text: str, place: int) -> str:

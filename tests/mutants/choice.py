@@ -1,14 +1,22 @@
-"""Which tests can notice a change of a file: those that reach it by imports, the nearest first."""
+"""Which tests can notice a change of a file: those that reach it by imports, the nearest first.
+
+Of those, the tests come first that name what is changed: the function or class itself, or others of its file.
+"""
 
 from __future__ import annotations
 
 import ast
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
+
+from tests.mutants.changes import Mutant
 
 ROOMS = ("symbolic", "numeric", "compare", "ridgeback")
+Rank: TypeAlias = Callable[[str], tuple[int, int]]
+"""Of a test's name in pytest; the tests of the lowest come first."""
 FARTHEST = 3
 """Imports between a file and a test of it, at most."""
 
@@ -64,6 +72,51 @@ class Choice:
             return not named, reached[name], Path(name).parent != Path("tests", path).parent, name
 
         return [f"ridgeback/{path}", *sorted(tests, key=near)]
+
+    def ranks(self, mutant: Mutant) -> Rank:
+        """A key to sort the tests by: whether they name what is changed, or others of its file; then the file."""
+        place = {name: at for at, name in enumerate(self.files(mutant.path))}
+        tree = ast.parse((self.root / mutant.path).read_text(encoding="utf-8"))
+        own, every = defined(tree, mutant.line), defined(tree)
+        used = {name: named_in(ast.parse((self.root / name).read_text(encoding="utf-8"))) for name in place}
+
+        def rank(test: str) -> tuple[int, int]:
+            file, _, name = test.partition("::")
+            names = used[file].get(name.partition("[")[0], frozenset())
+            far = 0 if place[file] == 0 else 1 if names & own else 2 if names & every else 3
+            return far, place[file]
+
+        return rank
+
+
+def defined(tree: ast.Module, line: int | None = None) -> frozenset[str]:
+    """The names that a file gives at its top; with a line, only that of the definition around it, and its method's."""
+    if line is None:
+        return frozenset(name for node in tree.body for name in names_of(node))
+    around = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.ClassDef)]
+    return frozenset(node.name for node in around if node.lineno <= line <= (node.end_lineno or line))
+
+
+def names_of(node: ast.stmt) -> Iterator[str]:
+    """What a statement defines."""
+    if isinstance(node, ast.FunctionDef | ast.ClassDef):
+        yield node.name
+    elif isinstance(node, ast.Assign | ast.AnnAssign):
+        targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+        yield from (target.id for target in targets if isinstance(target, ast.Name))
+
+
+def named_in(tree: ast.Module) -> dict[str, frozenset[str]]:
+    """Of each test at the top of a file, the names that it uses."""
+    return {
+        node.name: frozenset(
+            inner.id if isinstance(inner, ast.Name) else inner.attr
+            for inner in ast.walk(node)
+            if isinstance(inner, ast.Name | ast.Attribute)
+        )
+        for node in tree.body
+        if isinstance(node, ast.FunctionDef)
+    }
 
 
 def choice_in(root: Path) -> Choice:

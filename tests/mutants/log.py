@@ -10,27 +10,31 @@ from tests.mutants.changes import Mutant
 
 
 class Log:
-    """The tests that killed mutants of files as they are now; kept nowhere without a file."""
+    """The tests that killed mutants, with the digest of the files that they were of; kept nowhere without a file."""
 
     def __init__(self, root: Path, place: Path | None) -> None:
-        self.root, self.place, self.known = root, place, dict[str, str]()
+        self.root, self.place, self.known = root, place, dict[str, tuple[str, str]]()
         if place is not None and place.exists():
             for line in place.read_text(encoding="utf-8").splitlines():
                 entry = json.loads(line)
-                self.known[entry["mutant"]] = entry["killer"]
+                self.known[entry["mutant"]] = entry["file"], entry["killer"]
 
-    def name(self, mutant: Mutant) -> str:
-        """A mutant by its place in its file's very text."""
-        digest = hashlib.sha256((self.root / mutant.path).read_bytes()).hexdigest()[:16]
-        return f"{mutant.path} {digest} {mutant.place}"
+    def digest(self, mutant: Mutant) -> str:
+        """Of the very text of its file."""
+        return hashlib.sha256((self.root / mutant.path).read_bytes()).hexdigest()[:16]
 
     def killer(self, mutant: Mutant) -> str | None:
-        """The test that killed a mutant, empty for a survivor; None for one that was not tried."""
-        return self.known.get(self.name(mutant))
+        """The test that killed a mutant, empty for a survivor; None for one not tried in its file as it is now."""
+        file, test = self.known.get(mutant.name, ("", ""))
+        return test if file == self.digest(mutant) else None
+
+    def last(self, mutant: Mutant) -> str | None:
+        """The same, whatever has become of its file since."""
+        return self.known[mutant.name][1] if mutant.name in self.known else None
 
     def note(self, mutant: Mutant, test: str) -> None:
         """Keep what came of a mutant."""
-        self.known[self.name(mutant)] = test
+        self.known[mutant.name] = self.digest(mutant), test
         if self.place is not None:
             with self.place.open("a", encoding="utf-8") as file:
-                print(json.dumps({"mutant": self.name(mutant), "killer": test}), file=file)
+                print(json.dumps({"mutant": mutant.name, "file": self.digest(mutant), "killer": test}), file=file)

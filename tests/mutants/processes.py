@@ -7,7 +7,7 @@ import resource
 import signal
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,6 +16,7 @@ from typing import Any
 import pytest
 
 from tests.mutants.changes import Mutant
+from tests.mutants.choice import Choice, Rank
 from tests.mutants.patching import patched
 
 MOST_MEMORY = 6_000_000_000
@@ -63,16 +64,16 @@ class Tests:
     unsound: set[str] = field(default_factory=set)
     known: dict[tuple[str, int], bool] = field(default_factory=dict)
 
-    def of(self, files: Sequence[str]) -> list[pytest.Item]:
-        """The tests of these files, in their order, that are known to pass on the unchanged code."""
-        place = {name: at for at, name in enumerate(files)}
-        near = [(place.get(item.nodeid.partition("::")[0], -1), item) for item in self.items]
-        return [item for at, item in sorted(near, key=lambda x: x[0]) if at >= 0 and item.nodeid not in self.unsound]
+    def of(self, files: Collection[str], rank: Rank) -> list[pytest.Item]:
+        """The tests of these files, by rank, that are not known to fail on the unchanged code."""
+        found = [i for i in self.items if i.nodeid.partition("::")[0] in files and i.nodeid not in self.unsound]
+        return sorted(found, key=lambda item: rank(item.nodeid))
 
-    def killer(self, mutant: Mutant, files: Sequence[str], seconds: int) -> str | None:
+    def killer(self, mutant: Mutant, choice: Choice, seconds: int) -> str | None:
         """The test that notices a mutant; empty for a survivor, None for one that does not show in a copy."""
+        files, rank = set(choice.files(mutant.path)), choice.ranks(mutant)
         while True:
-            came = copied(lambda: patch(self.root, mutant), self.of(files), seconds)
+            came = copied(lambda: patch(self.root, mutant), self.of(files, rank), seconds)
             if came.failed == UNSEEN:
                 return None
             if not came.failed and not (came.endless and self.sound(came.endless, SHORT)):
