@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import lru_cache
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -76,6 +76,8 @@ class Model:
     rates: int
     mirror: Callable[[Array], Array] | None = None
     """theta of the oscillator turned round, u -> -u, where that is another one with the same backbone."""
+    forms: int = 0
+    """How many of the shape parameters, the last, only the waveform shows."""
 
     @property
     def count(self) -> int:
@@ -133,15 +135,31 @@ def damping_parameters(law: DampingLaw, rates: Array, speed: float) -> tuple[Des
     return (mu, ("gamma", float(rates[1]) / speed**2, "T/U^2", "cubic damping"))
 
 
+@cache
+def orbits_of(potential: Potential) -> Callable[[Shape], ScaledOrbits]:
+    """Orbits of a potential by shape: those that fits start from are kept, of others the last few."""
+    first = frozenset(shape for group in potential.groups for shape in group)
+    kept, last = cache(potential.orbits), lru_cache(maxsize=8)(potential.orbits)
+
+    def orbits(shape: Shape) -> ScaledOrbits:
+        return kept(shape) if shape in first else last(shape)
+
+    return orbits
+
+
 def potential_model(potential: Potential, law: DampingLaw) -> Model:
     """A potential with a damping law, along its exact orbits."""
-    orbits = lru_cache(maxsize=8)(potential.orbits)
+    orbits = orbits_of(potential)
     shapes, rates = len(potential.lower), 1 if law == DampingLaw.LINEAR else 2
 
     @lru_cache(maxsize=4)
     def numbers_to_flow(numbers: tuple[float, ...]) -> Flow:
-        table: ScaledOrbits = orbits(numbers[1 : 1 + shapes])
-        return decay_flow(table, k=numbers[0], length=1.0, rates=rates_of(law, np.array(numbers[1 + shapes :])))
+        return decay_flow(
+            orbits(numbers[1 : 1 + shapes]),
+            k=numbers[0],
+            length=1.0,
+            rates=rates_of(law, np.array(numbers[1 + shapes :])),
+        )
 
     def flow(theta: Array, _: float) -> Flow:
         return numbers_to_flow(tuple(theta[:-1].tolist()))
@@ -180,15 +198,19 @@ def backbone_model(terms: int, law: DampingLaw) -> Model:
     bends = terms - 1
     size = bends + 3 + rates
 
-    def flow(theta: Array, _: float) -> Flow:
+    @lru_cache(maxsize=4)
+    def numbers_to_flow(numbers: tuple[float, ...]) -> Flow:
         X = np.geomspace(1.5, 3e-3, FINE)
-        k, bend, (h0, h2, h3) = float(theta[0]), theta[1 : 1 + bends], theta[1 + bends : 4 + bends]
-        r = rates_of(law, theta[4 + bends : -1])
+        k, bend, (h0, h2, h3) = numbers[0], numbers[1 : 1 + bends], numbers[1 + bends : 4 + bends]
+        r = rates_of(law, np.array(numbers[4 + bends :]))
         growth = -0.5 * (r[0] + r[1] * 8 / (3 * math.pi) * X + 0.75 * r[2] * X**2 + r[3] * 4 / (math.pi * X))
         growth = np.minimum(growth, -1e-9 * k)
-        omega = k * np.polynomial.polynomial.polyval(X**2, np.concatenate(([1.0], bend)))
+        omega = k * np.polynomial.polynomial.polyval(X**2, (1.0, *bend))
         cosine = np.array([h0 * X, np.ones_like(X), h2 * X, h3 * X**2])
         return Flow(-np.log(X), -growth, np.maximum(omega, 0.1 * k), growth, X, cosine)
+
+    def flow(theta: Array, _: float) -> Flow:
+        return numbers_to_flow(tuple(theta[:-1].tolist()))
 
     def physical(numbers: Array, length: float) -> tuple[Described, ...]:
         k = float(numbers[0])
@@ -217,6 +239,7 @@ def backbone_model(terms: int, law: DampingLaw) -> Model:
         upper=(*(3.0 for _ in range(bends)), 1.0, 1.0, 1.0, *(1.0 for _ in range(rates))),
         groups=(),
         rates=rates,
+        forms=3,
     )
 
 

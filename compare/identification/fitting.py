@@ -71,15 +71,21 @@ class Fit:
 
 
 def prepare(
-    recording: Recording, track: Track, *, models: SignalModels | None = None, kept: Mask | None = None
+    recording: Recording,
+    track: Track,
+    *,
+    models: SignalModels | None = None,
+    kept: Mask | None = None,
+    measured: Backbone | None = None,
 ) -> Data:
     """Measure what a fit starts from, by ``models`` of the samples if there are any; only ``kept`` samples count.
 
-    Raises InputError when the backbone cannot be measured.
+    ``measured`` is the backbone where that is known.  Raises InputError when it cannot be measured.
     """
     first, kept = float(recording.time[0]), np.ones(recording.values.size, dtype=np.bool_) if kept is None else kept
-    wrong = None if kept.all() else ~kept
-    measured = backbone(track, recording.values, recording.rate, start=first, exclude=wrong, models=models)
+    if measured is None:
+        wrong = None if kept.all() else ~kept
+        measured = backbone(track, recording.values, recording.rate, start=first, exclude=wrong, models=models)
     x = recording.values - measured.offset
     phase, size = demodulated(x, recording.rate, track, first)
     length = max(float(measured.amplitude.max()), float(size.max()))
@@ -150,7 +156,7 @@ def backbone_cost(model: Model, data: Data, shape: Shape) -> tuple[float, Array]
     cost = float(np.sum(weight * (b.omega - scale * omega) ** 2))
     cost += float(np.sum((b.growth_rate - growth) ** 2 / (b.growth_rate_sd**2 + (0.02 * b.omega) ** 2)))
     theta[0] *= scale
-    theta[-2] = data.anchor_phase[0]
+    theta[-2] = data.anchor_phase[0] - float(b.omega[0]) * data.anchor_time[0]
     return cost, theta
 
 
@@ -195,24 +201,36 @@ def bounds(model: Model, data: Data) -> tuple[Array, Array]:
 def refined(model: Model, data: Data, start: Array) -> Fit:
     """Anchors first, samples then."""
     low, high = bounds(model, data)
-    inner = np.clip(start, low + 1e-6 * np.where(np.isfinite(low), np.abs(low) + 1e-3, 0.0), high * (1 - 1e-9))
+    theta = np.clip(start, low + 1e-6 * np.where(np.isfinite(low), np.abs(low) + 1e-3, 0.0), high * (1 - 1e-9))
+    shown = np.flatnonzero(shown_by_anchors(model))
 
     def anchors(part: Array) -> Array:
-        flow = model.flow(part[:-1], float(data.anchor_time[-1]))
-        at = motion(flow, level_at(flow, part[-2]), part[-1], data.anchor_time, waveform=False)
+        whole = theta.copy()
+        whole[shown] = part
+        flow = model.flow(whole[:-2], float(data.anchor_time[-1]))
+        at = motion(flow, level_at(flow, whole[-3]), whole[-2], data.anchor_time, waveform=False)
         phase = at.phase - data.anchor_phase
         return np.concatenate((phase, np.log(at.amplitude) - data.anchor_log)) * np.tile(data.anchor_weight, 2)
 
     try:
-        near = (low[:-1], high[:-1])
-        rough = least_squares(anchors, inner[:-1], bounds=near, x_scale="jac", max_nfev=NEAR_STEPS, ftol=COARSE)
+        near, begin = (low[shown], high[shown]), theta[shown]
+        rough = least_squares(anchors, begin, bounds=near, x_scale="jac", max_nfev=NEAR_STEPS, ftol=COARSE)
     except (InputError, ValueError, FloatingPointError, np.linalg.LinAlgError):
         return failed(model, data, start)
-    theta = np.append(rough.x, 0.0)
+    theta[shown] = rough.x
     if model.mirror is not None:
         sides = [theta, np.clip(model.mirror(theta), low, high)]
         theta = min(sides, key=lambda side: residual_variance(model, data, side))
     return by_samples(model, data, theta, COARSE)
+
+
+def shown_by_anchors(model: Model) -> Mask:
+    """Which of theta phases and amplitudes show: not the offset, nor what only shapes the wave."""
+    shown = np.ones(model.size + 4, dtype=np.bool_)
+    shown[-1] = False
+    shapes = 1 + model.size - model.rates
+    shown[shapes - model.forms : shapes] = False
+    return shown
 
 
 def residual_variance(model: Model, data: Data, theta: Array) -> float:

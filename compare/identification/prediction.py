@@ -25,6 +25,7 @@ from ridgeback.compare.identification.ranking import covariance, spread_along
 from ridgeback.compare.identification.results import NORMAL_95, Prediction
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.backbone.backbone import backbone
+from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.tracking.track import Track
 
@@ -105,7 +106,7 @@ def predict(
     track = local_track(first)
     data = prepare(first, track, kept=ready.kept[:cut])
     ranked = rank(data, names, allowed, kind, progress)
-    rest = measured_rest(used, whole, phase, first.time[-1] - start)
+    rest = measured_rest(used, whole, phase, first.time[-1] - start, ready.models)
     progress(0.95, "prediction")
     kept = Weighted.of(ranked)
     widening = rehearsed(first, track, kept)
@@ -123,10 +124,12 @@ def cut_after(phase: Array, cycles: float, recording: Recording) -> int:
     return int(np.searchsorted(phase - phase[0], 2 * np.pi * cycles)) + 1
 
 
-def measured_rest(recording: Recording, track: Track, phase: Array, until: float) -> Rest:
+def measured_rest(
+    recording: Recording, track: Track, phase: Array, until: float, models: SignalModels | None = None
+) -> Rest:
     """Amplitude, frequency and phase where the window of the measurement lies after the cut."""
     start = float(recording.time[0])
-    found = backbone(track, recording.values, recording.rate, start=start)
+    found = backbone(track, recording.values, recording.rate, start=start, models=models)
     margin = 0.5 * (found.window_seconds or 0.0)
     later = found.time - start >= until + margin
     if np.count_nonzero(later) < 4:

@@ -20,7 +20,8 @@ from ridgeback.compare.identification.candidates import BACKBONE, VAN_DER_POL, M
 from ridgeback.compare.identification.fits import Ranked
 from ridgeback.compare.identification.fitting import Data, Fit, fit, prepare
 from ridgeback.compare.identification.preparation import ARTICLES, Prepared
-from ridgeback.numeric.recording.quantity import GIVEN, displaced
+from ridgeback.numeric.backbone.backbone import Backbone
+from ridgeback.numeric.recording.quantity import GIVEN, ORDERS, displaced
 
 CONTRADICTED = 60.0
 """Twice the fall of the log likelihood below that of the noise alone, from which on an equation is out."""
@@ -51,7 +52,7 @@ def refuse_another_quantity(ready: Prepared, data: Data, ranked: Ranked, progres
     if lost < CONTRADICTED:
         return
     others = [found.model for found in near_best(equations) if found.model.name in AS_OTHER]
-    for quantity, left in described_as(ready, others, ready.noise / data.length, progress):
+    for quantity, left in described_as(ready, data.measured, others, ready.noise / data.length, progress):
         if left < AGREES * lost + CONTRADICTED / 3.0:
             raise InputError(
                 f"{ready.recording.label}: the waveform contradicts a displacement, and is that of {ARTICLES[quantity]}"
@@ -66,30 +67,46 @@ def near_best(fits: list[Fit]) -> list[Fit]:
     return [found for found in fits if found.sum_of_squares <= NEAR_BEST * least]
 
 
-def described_as(ready: Prepared, others: list[Model], noise: float, progress: Progress) -> Iterator[tuple[str, float]]:
+def described_as(
+    ready: Prepared, measured: Backbone, others: list[Model], noise: float, progress: Progress
+) -> Iterator[tuple[str, float]]:
     """The fall of the best model for the samples taken for each other quantity; ``noise`` over the amplitude.
 
     A law of damping makes amplitudes fall, which are nearly in proportion: each model keeps its own.
     """
     for quantity in ARTICLES if others and ready.models is not None else ():
         progress(0.9, f"the waveform as that of {ARTICLES[quantity]}")
-        falls = [fall(found, noise) for found in fits_as(ready, quantity, others)]
+        falls = [fall(found, noise) for found in fits_as(ready, measured, quantity, others)]
         if falls:
             yield quantity, min(falls)
 
 
-def fits_as(ready: Prepared, quantity: str, others: list[Model]) -> Iterator[Fit]:
+def fits_as(ready: Prepared, measured: Backbone, quantity: str, others: list[Model]) -> Iterator[Fit]:
     """The models fitted to the displacement behind the samples, taken for this quantity; not those that cannot be."""
     assert ready.models is not None  # noqa: S101 - it is only asked for where there are
     x = ready.recording.values - ready.recording.values.mean()
     turned = replace(ready.recording, values=displaced(x, ready.models.best, quantity))
     with suppress(InputError):
-        data = prepare(turned, ready.track, kept=ready.kept)
+        data = prepare(turned, ready.track, kept=ready.kept, measured=behind(measured, ORDERS[quantity]))
         if data.length > MOST * float(np.ptp(turned.values)):
             return
         for model in others:
             with suppress(InputError):
                 yield fit(model, data)
+
+
+# x = (d/dt)^q u with a slowly changing wave: a_u = a_x / omega^q, so a_u'/a_u = a_x'/a_x - q omega'/omega
+def behind(measured: Backbone, order: int) -> Backbone:
+    """The backbone of what was measured as that of the displacement, near enough for fits of the samples to start."""
+    scale = measured.omega**order
+    turn = np.gradient(np.log(measured.omega), measured.time)
+    return replace(
+        measured,
+        amplitude=measured.amplitude / scale,
+        amplitude_sd=measured.amplitude_sd / scale,
+        growth_rate=measured.growth_rate - order * turn,
+        offset=0.0,
+    )
 
 
 # -2 ln L = n ln(RSS / n) + const

@@ -42,7 +42,9 @@ class Shape:
 
 def powers(s: Array, degree: int) -> Array:
     """Columns s^0 .. s^degree."""
-    return s[..., None] ** np.arange(degree + 1)
+    columns = np.ones((*s.shape, degree + 1))
+    columns[..., 1:] = s[..., None]
+    return np.asarray(np.multiply.accumulate(columns, axis=-1))
 
 
 def slopes(s: Array, degree: int) -> Array:
@@ -53,12 +55,31 @@ def slopes(s: Array, degree: int) -> Array:
 
 def linear_columns(s: Array, phase: Array, shape: Shape, growth: Array) -> Array:
     """Model columns that enter linearly, for all windows: amplitude, harmonics, offset; ``(windows, n, columns)``."""
-    slow = np.exp(np.multiply.outer(growth, s))[..., None] * powers(s, shape.amplitude_degree)
-    parts = [slow * np.cos(phase)[..., None]]
+    return np.swapaxes(linear_rows(s, turning(phase), shape, growth), 1, 2)
+
+
+def turning(phase: Array) -> NDArray[np.complex128]:
+    """exp(i phase)."""
+    turn = np.empty(phase.shape, dtype=np.complex128)
+    np.cos(phase, out=turn.real)
+    np.sin(phase, out=turn.imag)
+    return turn
+
+
+def linear_rows(s: Array, turn: NDArray[np.complex128], shape: Shape, growth: Array) -> Array:
+    """The same columns as rows, ``(windows, columns, n)``: samples lie side by side in memory."""
+    width, count = shape.amplitude_degree + 1, shape.size - shape.phase_degree - 1
+    slow = np.exp(np.multiply.outer(growth, s))[:, None] * powers(s, shape.amplitude_degree).T
+    rows = np.empty((turn.shape[0], count, s.size))
+    np.multiply(slow, turn.real[:, None], out=rows[:, :width])
+    begin, power, reached = width, turn, 1
     for h in shape.multiples:
-        parts += [slow * np.cos(h * phase)[..., None], slow * np.sin(h * phase)[..., None]]
-    parts.append(np.broadcast_to(powers(s, 1), (*phase.shape, 2)))
-    return np.concatenate(parts, axis=2)
+        power, reached = power * turn ** (h - reached), h
+        for part in (power.real, power.imag):
+            np.multiply(slow, part[:, None], out=rows[:, begin : begin + width])
+            begin += width
+    rows[:, begin:] = powers(s, 1).T
+    return rows
 
 
 def solve(jacobian: Array, target: Array) -> tuple[Array, Array]:
@@ -174,12 +195,12 @@ def one_step(s: Array, x: Array, shape: Shape, at: Steps, rest: float) -> Steps:
     """One step of Gauss and Newton in every window."""
     phase_powers, amplitude_powers = powers(s, shape.phase_degree), powers(s, shape.amplitude_degree)
     growth = np.clip(at.growth + at.steeper, -MOST_GROWTH, MOST_GROWTH)
-    phase, grown = at.p @ phase_powers.T, np.exp(np.multiply.outer(growth, s))
-    linear = linear_columns(s, phase, shape, growth)
-    turning = -((at.a @ amplitude_powers.T) * grown * np.sin(phase))[..., None] * phase_powers
-    jacobian = np.concatenate([linear, turning], axis=2)
+    turn, grown = turning(at.p @ phase_powers.T), np.exp(np.multiply.outer(growth, s))
+    linear = linear_rows(s, turn, shape, growth)
+    along = -((at.a @ amplitude_powers.T) * grown * turn.imag)[:, None] * phase_powers.T
+    jacobian = np.swapaxes(np.concatenate([linear, along], axis=1), 1, 2)
     coefficients, inverse = solve(jacobian, x)
-    step, a = coefficients[:, linear.shape[2] :], coefficients[:, : shape.amplitude_degree + 1]
+    step, a = coefficients[:, linear.shape[1] :], coefficients[:, : shape.amplitude_degree + 1]
     moved, size = np.abs(step @ phase_powers.T), np.abs(a @ amplitude_powers.T) * grown
     largest = np.maximum(size.max(axis=1), np.finfo(float).tiny)
     last, steeper = (moved * size).max(axis=1) / largest, steepening(a)

@@ -209,26 +209,31 @@ def _increments(values: Array, x: Array) -> Array:
 
 @dataclass(frozen=True)
 class _Places:
-    """Where points lie between nodes: index of the left one, the step there, and the share of it passed."""
+    """Where points lie between nodes: index of the left one, and the share of the step there that is passed.
+
+    ``weights`` are those of the values left and right, and of the slopes there, in the cubic through them.
+    """
 
     index: NDArray[np.intp]
-    step: Array
     share: Array
+    weights: tuple[Array, Array, Array, Array]
 
 
 def _places(nodes: Array, points: Array, first: int = 0) -> _Places:
     """Places of points among the nodes from ``first`` on."""
     index = np.clip(np.searchsorted(nodes[first:], points) - 1, 0, nodes.size - first - 2) + first
     step = nodes[index + 1] - nodes[index]
-    return _Places(index, step, (points - nodes[index]) / step)
+    s = (points - nodes[index]) / step
+    rest = 1 - s
+    left, right, between = rest**2, s**2, step * s * rest
+    return _Places(index, s, ((1 + 2 * s) * left, (1 + 2 * rest) * right, between * rest, -between * s))
 
 
 def _hermite(at: _Places, values: Array, slopes: Array) -> Array:
     """Cubic through values and slopes of both neighbouring nodes."""
-    i, s = at.index, at.share
-    rest = 1 - s
-    ends = values[i] * (1 + 2 * s) * rest**2 + values[i + 1] * (1 + 2 * rest) * s**2
-    return np.asarray(ends + at.step * s * rest * (slopes[i] * rest - slopes[i + 1] * s))
+    i, j = at.index, at.index + 1
+    left, right, rise_left, rise_right = at.weights
+    return np.asarray(left * values[i] + right * values[j] + rise_left * slopes[i] + rise_right * slopes[j])
 
 
 def _linear(at: _Places, values: Array) -> Array:
@@ -237,7 +242,8 @@ def _linear(at: _Places, values: Array) -> Array:
 
 def _wave(flow: Flow, at: _Places, phase: Array) -> Array:
     """u/a by powers of exp(i phi); the small coefficients of the other harmonics are interpolated linearly."""
-    turn = np.exp(1j * phase)
+    turn = np.empty(phase.shape, dtype=np.complex128)
+    turn.real, turn.imag = np.cos(phase), np.sin(phase)
     power = np.ones_like(turn)
     total = np.zeros_like(phase)
     for m, row in enumerate(flow.cosine):

@@ -11,13 +11,21 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.identification.candidates import LAWS, NAMES, level_at, models_of, van_der_pol_flow
+from ridgeback.compare.identification.candidates import (
+    LAWS,
+    NAMES,
+    DampingLaw,
+    backbone_model,
+    level_at,
+    models_of,
+    van_der_pol_flow,
+)
 from ridgeback.compare.identification.confusion import DRAWS, confusion, noisy
-from ridgeback.compare.identification.fitting import Fit, spread_of
+from ridgeback.compare.identification.fitting import Fit, fit, prepare, spread_of
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.potentials import POTENTIALS, helmholtz_limit, pendulum_orbits
 from ridgeback.compare.identification.prediction import predict
-from ridgeback.compare.identification.preparation import usable
+from ridgeback.compare.identification.preparation import prepared, usable
 from ridgeback.compare.identification.ranking import criterion, effective_number
 from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.noise.truth import recording_truth
@@ -142,6 +150,19 @@ def test_a_damping_law_by_itself_starts_from_the_measured_growth_rate(law: str, 
     assert abs(best.parameter(name).value - c) < 4.0 * best.parameter(name).standard_deviation + 0.02 * c
     with pytest.raises(KeyError, match="none"):
         best.parameter("none")
+
+
+def test_a_polynomial_backbone_locks_on_over_many_cycles() -> None:
+    """What only shapes the wave is not moved while phases and amplitudes alone are fitted: it would go astray."""
+    t = np.arange(2400) * 0.02
+    a = np.exp(-0.03 * t) / (1 + 0.04 * t)
+    phase = 0.02 * np.cumsum(6 * np.pi * (1 - 0.06 * a**2))
+    x = a * np.cos(phase) + 0.02 * a**3 * np.cos(3 * phase) + 0.01 * np.random.default_rng(3).normal(size=t.size)
+    ready = prepared(Recording(t, x, 50.0, "u", "", "decay.csv", ""))
+    data = prepare(ready.recording, ready.track, models=ready.models, kept=ready.kept)
+    found = fit(backbone_model(2, DampingLaw.QUADRATIC), data)
+    assert data.length * float(np.std(found.residual)) < 0.0105
+    assert found.theta[1] * found.theta[0] / data.length**2 == pytest.approx(-0.36 * np.pi, rel=0.02)
 
 
 def test_the_corrected_criterion_counts_few_samples() -> None:
