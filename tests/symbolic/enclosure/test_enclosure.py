@@ -19,6 +19,7 @@ from ridgeback.symbolic.enclosure.enclosure import enclose, rounded_down, separa
 from ridgeback.symbolic.enclosure.integrand import GeneralIntegrand, OrbitBall, integrand_of
 from ridgeback.symbolic.enclosure.quadrature import adaptive_mean, midpoint_mean, midpoints, nodes_needed
 from ridgeback.symbolic.enclosure.turning_points import orbit
+from ridgeback.symbolic.enclosure.walk import UndecidedError, level
 from ridgeback.symbolic.enclosure.well import Well, curves, well_of
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -302,6 +303,45 @@ def test_the_error_bound_is_one() -> None:
             assert claimed.overlaps(truth)
             assert not bare.overlaps(truth)
             assert claimed.rad() < abs(bare - truth) * 10**4  # not vacuous either
+
+
+@given(st.integers(1, 8), st.sampled_from([-30, 0, 30]), st.integers(8, 300))
+def test_midpoints_are_even_and_as_many_as_the_bits_take(width: int, size: int, bits: int) -> None:
+    """Their bound 2 M/(e^(2 a n) - 1) is below the last bit, and would not be with an eighth fewer."""
+    strip, typical = Strip(arb(width) / 4, arb(2) ** size), arb(3)
+    nodes = nodes_needed(strip, typical, bits)
+    assert nodes is not None
+    assert nodes % 2 == 0
+
+    def error(count: int) -> arb:
+        return 2 * strip.bound / ((2 * strip.width * count).exp() - 1)
+
+    assert error(nodes) < typical * arb(2) ** -bits
+    fewer = nodes * 7 // 8 - 3
+    assert fewer <= 0 or error(fewer) > typical * arb(2) ** -(bits + 2)
+
+
+def test_a_level_is_met_where_it_lies() -> None:
+    """u^2/2 reaches c^2/2 at c, before the first step ends, on it or after it; 1 - cos(u) never reaches 3."""
+    for place in (fmpq(1, 8), fmpq(1), fmpq(7, 2)):
+        energy = arb(place) ** 2 / 2
+        found = level(lambda u: u**2 / 2, lambda u: u, lambda _: arb(1), energy, step=arb(1), last=arb(9))
+        assert found is not None
+        assert found.contains(place)
+    assert level(lambda u: u**2 / 2, lambda u: u, lambda _: arb(1), arb(50), step=arb(1), last=arb(9)) is None
+    assert level(lambda u: 1 - u.cos(), arb.sin, arb.cos, arb(3), step=arb(1), last=arb(9)) is None
+    assert (
+        level(lambda u: -u.cos().log(), arb.tan, lambda u: 1 + u.tan() ** 2, arb(99), step=arb(1), last=arb(9)) is None
+    )
+    with pytest.raises(UndecidedError):  # sin(u)(1 - sin(u)) touches 0 at pi/2
+        level(
+            lambda u: 1 - u.cos() - u / 2 + (2 * u).sin() / 4,
+            lambda u: u.sin() * (1 - u.sin()),
+            lambda u: u.cos() - (2 * u).sin(),
+            arb(9),
+            step=arb(1),
+            last=arb(9),
+        )
 
 
 @given(

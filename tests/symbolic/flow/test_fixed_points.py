@@ -11,6 +11,7 @@ from flint import arb, fmpq
 from ridgeback.symbolic.flow.fixed_points import _tightened, cycle_series, fixed_points
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.ordering import HIGHEST_POWER, _dimension
+from ridgeback.symbolic.flow.reach import reach_of
 from ridgeback.symbolic.systems.oscillator import Oscillator, V
 
 
@@ -24,6 +25,16 @@ def test_an_irrational_stiffness_only_scales_time() -> None:
     assert float(here.amplitude) == pytest.approx(float(there.amplitude), abs=1e-13)
     assert float(here.frequency) == pytest.approx(math.sqrt(2) * float(there.frequency), abs=1e-13)
     assert here.stable is there.stable is True
+
+
+def test_the_reach_of_an_order_is_the_same_in_every_unit_of_time() -> None:
+    """With tau = 3 t."""
+    rows = ("u'' - m*(1 - u**2)*u' + u + u**3/2", "u'' - 3*m*(1 - u**2)*u' + 9*u + 9*u**3/2")
+    changes = []
+    for row in rows:
+        flow = multiple_scales(Oscillator.from_equation(row, parameters={"m": None}), 4)
+        changes.append(reach_of(flow, float(fixed_points(flow, {"m": "1/10"})[0].amplitude), (0.1,)).change)
+    assert changes[0] == pytest.approx(changes[1], rel=1e-12)
 
 
 def test_a_symbol_in_the_amplitude_equation_leaves_it_without_an_exact_series() -> None:

@@ -606,6 +606,7 @@ def test_the_limits_of_a_self_excited_flow_are_those_of_its_conservative_part() 
 
 CLOSED = {
     "linear decay": ("u'' + c*u' + u + u**3", 2, 2),
+    "linear decay of small weight": ("u'' + c*u' + u + u**3", 4, 4),
     "decay that depends on the amplitude": ("u'' + 2*mu*u' + sin(u)", 4, 2),
     "van der Pol": ("u'' - eps*(1 - u**2)*u' + u + u**3", 3, 1),
     "cubic damping alone": ("u'' + eps*u'**3 + u + u**3", 4, 2),

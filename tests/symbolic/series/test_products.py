@@ -77,6 +77,21 @@ def test_packed_products_are_those_of_single_orders(left: list, right: list) -> 
         assert overlap(packed[r], single)
 
 
+@pytest.mark.parametrize("kinds", [(0, 3, 0, 3, 0), (2, 1, 2, 1, 2), (0, 3, 3, 0, 3), (1, 2, 2, 1, 1)])
+def test_cosines_and_sines_in_turn_or_nearly_so(kinds: tuple[int, ...]) -> None:
+    """Where one order is out of turn, those round it are not taken for what they would be."""
+    rows: list[Parts] = [
+        parts(tuple([fmpq(n + 1), fmpq(n, 3)] if part == kind else None for part in range(4)))
+        for n, kind in enumerate(kinds)
+    ]
+    packed = products(rows, rows)
+    for r in range(9):
+        single = EMPTY
+        for a in range(max(0, r - 4), min(r, 4) + 1):
+            single = plus(single, products([rows[a]], [rows[r - a]])[0])
+        assert overlap(packed[r], single)
+
+
 U, V = sympy.symbols("u v")
 
 
