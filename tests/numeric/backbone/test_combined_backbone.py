@@ -116,3 +116,14 @@ def test_clipped_windows_are_left_out_of_a_backbone_and_counted() -> None:
     assert np.abs(clean.amplitude / (2.0 * np.exp(-0.04 * clean.time)) - 1).max() < 5e-3
     assert np.abs(plain.amplitude / (2.0 * np.exp(-0.04 * plain.time)) - 1).max() > 5e-2
     assert any("clipped samples in their window" in note for note in clean.notes)
+
+
+@pytest.mark.parametrize("unit", [1e-6, 1e6])
+def test_another_unit_is_another_unit_throughout(unit: float) -> None:
+    """Also where a run is absent and where deviations are nothing."""
+    values = np.array([[1.0, 2.0, 0.5], [1.5, np.nan, 0.5], [1.1, 2.5, np.nan]])
+    for deviations in (np.full((3, 3), 0.1), np.zeros((3, 3))):
+        for whole, part in zip(
+            random_effects(values, deviations), random_effects(unit * values, unit * deviations), strict=True
+        ):
+            assert np.allclose(part, unit * whole, rtol=1e-9, atol=0.0)

@@ -36,3 +36,14 @@ def test_energy_counts_cells_in_hertz_seconds() -> None:
     assert kept.energy() == pytest.approx(20 * 2.0 * 0.5 * 0.5)
     with pytest.raises(InputError, match="two points"):
         Distribution(np.ones((1, 3)), np.zeros(1), np.arange(3.0), "test").energy()
+
+
+def test_a_complex_plane_is_as_large_as_its_moduli_a_real_one_keeps_its_signs() -> None:
+    turned = plane(np.array([[3.0 + 4.0j, -2.0, 1.0j], [0.0, -1.0, 5.0]]))
+    signed = plane(np.array([[3.0, -2.0, 1.0], [0.0, -1.0, 5.0]]))
+    for found, expected in ((turned, [[5.0, 2.0, 1.0], [0.0, 1.0, 5.0]]), (signed, signed.values)):
+        drawn = found.picture().plane
+        assert drawn is not None
+        assert np.allclose(found.size(), expected)
+        assert np.allclose(drawn.values, expected)
+        assert not np.iscomplexobj(drawn.values)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.distributions.cross_wigner import cross_wigner
 from ridgeback.numeric.distributions.distribution import Distribution
-from ridgeback.numeric.distributions.plane_ridge import ridge
+from ridgeback.numeric.distributions.plane_ridge import ridge, rows_between
 from ridgeback.numeric.distributions.polynomial_wigner import polynomial_wigner
 from ridgeback.numeric.distributions.reassigned_spectrogram import reassigned_spectrogram, synchrosqueezed_spectrogram
 from ridgeback.numeric.distributions.spectrogram import spectrogram
@@ -63,6 +63,12 @@ def test_border_and_edges_of_the_band_are_not_valid() -> None:
     assert not beside.valid[(beside.time > 13.0) & (beside.time < 13.8)].any()
     assert beside.between(16.0, 22.0).valid.all()
     assert not ridge(Distribution(np.zeros((4, 3)), np.arange(4.0), np.arange(3.0), "empty")).valid.any()
+
+
+def test_rows_at_the_very_edges_of_a_band_lie_in_it() -> None:
+    plane = Distribution(np.ones((9, 2)), 0.5 * np.arange(9.0), np.arange(2.0), "example")
+    assert rows_between(plane, (1.0, 3.0)) == (2, 7)
+    assert rows_between(plane, None) == (0, 9)
 
 
 def test_a_band_without_rows_is_named() -> None:

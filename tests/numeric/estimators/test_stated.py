@@ -27,6 +27,13 @@ def test_a_smoothed_window_is_whole_where_its_track_is_valid(lag: float, smoothi
     assert TIME[-1] - inside[-1] == pytest.approx(border, abs=1.5 / RATE)
 
 
+@pytest.mark.parametrize(("steps", "first"), [(10.0, 10), (10.5, 11), (0.0, 0)])
+def test_a_sample_just_as_far_from_the_border_as_asked_is_inside(steps: float, first: int) -> None:
+    request = prepared(Samples(TONE, RATE, 7.0), Options())
+    inside = np.flatnonzero(request.away_from_border(steps / RATE))
+    assert (inside[0], inside[-1], inside.size) == (first, TONE.size - 1 - first, TONE.size - 2 * first)
+
+
 @pytest.mark.parametrize("band", [(1.0, 7.0), (5.5, 12.0)])
 def test_the_deviation_of_a_band_that_is_not_centred(band: tuple[float, float]) -> None:
     """The noise of the whole band counts, below the tone as above it: 4000 samples against what is stated."""

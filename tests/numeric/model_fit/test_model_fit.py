@@ -15,8 +15,9 @@ from ridgeback.numeric.model_fit.family import Family
 from ridgeback.numeric.model_fit.fit import OPERATIONS, ModelFit, model_fit
 from ridgeback.numeric.model_fit.problem import EVALUATIONS, inverse_normal
 from ridgeback.numeric.model_fit.sensitivity import respond, steps_needed
-from ridgeback.numeric.model_fit.track import model_track
+from ridgeback.numeric.model_fit.track import model_track, omega_slopes
 from ridgeback.numeric.model_fit.whiteness import whiteness
+from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
 from ridgeback.numeric.motion.dynamics import duffing, pendulum, van_der_pol
 from ridgeback.numeric.motion.trajectory import integrate
 from ridgeback.numeric.signal import samples
@@ -106,10 +107,31 @@ def test_observed_order_of_the_steps_is_eight() -> None:
 
 
 def test_noise_free_samples_give_the_parameters_back() -> None:
-    fit = fitted(0.0, 0)
+    told = list[float]()
+    fit = fitted(0.0, 0, progress=lambda share, _: told.append(share))
+    assert told[0] == 0.0
+    assert np.all(np.diff(told) > 0.0)
+    assert told[-1] <= 1.0
     np.testing.assert_allclose(fit.theta, TRUE, atol=1e-7)
     assert fit.noise < 1e-7
     assert not fit.misfit
+
+
+def test_omega_moves_with_the_state_and_the_parameters_as_that_of_moved_solutions_does() -> None:
+    """Twin: the frequency of solutions that begin and pull a little otherwise."""
+    fit = fitted(0.0, 0)
+
+    def omega(theta: np.ndarray) -> np.ndarray:
+        oscillator = pendulum(k=theta[3], mu=theta[4])
+        run = integrate(oscillator, (theta[0], theta[1]), duration=10.0, rate=RATE)
+        return cycle_frequency(run, dynamics=oscillator).at(CLEAN.time[40:-40:4])
+
+    run = integrate(fit.dynamics, fit.initial, duration=10.0, rate=RATE)
+    found = omega_slopes(fit, run, CLEAN.time[40:-40:4])
+    for entry in (0, 3, 4):
+        step = 1e-4 * np.eye(5)[entry]
+        expected = (omega(fit.theta + step) - omega(fit.theta - step)) / 2e-4
+        assert np.abs(found[:, entry] - expected).max() < 1e-2 * np.abs(expected).max()
 
 
 def test_covariance_is_the_inverse_fisher_matrix() -> None:

@@ -9,7 +9,7 @@ from scipy.integrate import quad
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.motion.dynamics import Dynamics, linear, pendulum, rayleigh, van_der_pol
-from ridgeback.numeric.motion.limit_cycle import periodic_orbit, precise_orbit
+from ridgeback.numeric.motion.limit_cycle import _settle, periodic_orbit, precise_orbit
 from ridgeback.numeric.motion.taylor import taylor_solution
 from ridgeback.numeric.motion.trajectory import integrate
 
@@ -57,6 +57,13 @@ def test_peak_follows_its_series_in_eps():
     eps = 0.1
     series = 2 + eps**2 / 96 - 1033 * eps**4 / 552960
     assert periodic_orbit(van_der_pol(eps)).peak == pytest.approx(series, abs=eps**6 / 100)
+
+
+def test_two_peaks_within_twenty_natural_periods_are_enough_to_settle() -> None:
+    """The peak of a slow relaxation oscillation: 2 + a/3 eps^(-4/3) - (16 ln eps/27 + 0.876) eps^(-2), Ai(-a) = 0."""
+    eps = 60.0
+    series = 2 + 2.338107 / 3 * eps ** (-4 / 3) - (16 / 27 * math.log(eps) + 0.876127) / eps**2
+    assert _settle(van_der_pol(eps), 1.0) == pytest.approx(series, abs=2e-5)
 
 
 def test_rayleigh_has_van_der_pols_period_and_velocity(unit_orbit):

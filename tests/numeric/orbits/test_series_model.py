@@ -1,6 +1,7 @@
 """The paper's series, phase, one-component and multicomponent models."""
 
 import math
+import re
 from fractions import Fraction
 from itertools import pairwise
 
@@ -82,6 +83,15 @@ def test_phase_of_samples_is_of_sixth_order():
         t = np.linspace(0, 4, n)
         errors.append(np.abs(phase_of_samples(t, np.cos(3 * t)) - np.sin(3 * t) / 3).max())
     assert math.log2(errors[0] / errors[1]) == pytest.approx(6, abs=0.8)
+
+
+def test_six_samples_carry_a_polynomial_of_degree_five_and_five_do_not() -> None:
+    t = np.array([0.0, 0.3, 0.5, 1.1, 1.2, 2.0])
+    assert np.allclose(phase_of_samples(t, 6 * t**5 - t), t**6 - 0.5 * t**2, atol=1e-12)
+    assert np.allclose(slope_of_samples(t, t**5), 5 * t**4, atol=1e-9)
+    for times, omega in ((t[:5], t[:5]), (t, t[:5]), (t[:, None], t[:, None])):
+        with pytest.raises(InputError, match=re.escape(f"got shapes {times.shape} and {omega.shape}")):
+            phase_of_samples(times, omega)
 
 
 def test_phase_of_the_averaged_decay_two_ways():

@@ -89,3 +89,16 @@ def test_neither_are_half_cycles_and_amplitudes() -> None:
     judged = given.held_against(presence(x, 20.0))
     assert not judged.valid.any()
     assert judged.interval is None
+
+
+def test_where_one_frequency_counts_its_own_tail_is_the_probability() -> None:
+    """(1 - R^2)^m, R^2 the share of the squares that a line takes at the highest frequency looked at, m = (N - 3)/2."""
+    for seed in range(5):
+        x = np.random.default_rng(seed).standard_normal(24)
+        x -= x.mean()
+        highest = 23 / 24  # of the Nyquist frequency: the bins are N apart from 0 to it, both ends left out
+        turning = np.exp(1j * np.pi * highest * np.arange(24))
+        share = 2.0 * np.abs(turning @ x) ** 2 / (24 * (x @ x))
+        found = presence(x, 2.0, limits=(2 * np.pi * (highest + 1 / 24), 9.0), whole=False)
+        assert found.probability == pytest.approx((1.0 - share) ** 10.5, rel=1e-9)
+        assert found.omega == pytest.approx(2 * np.pi * highest)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.signal.search_band import guide_path
+from ridgeback.numeric.signal.search_band import guide_path, strongest_frequency
 from ridgeback.numeric.signal.windows import half_width
 
 
@@ -22,3 +22,17 @@ def test_a_window_beyond_the_record_is_refused_with_the_longest_that_fits() -> N
     with pytest.raises(InputError, match=r"lag_seconds 10 needs 201 samples, the signal has 50; use at most 2\.45$"):
         half_width(10.0, 20.0, longest=50)
     assert half_width(2.45, 20.0, longest=50) == 24
+
+
+@pytest.mark.parametrize("unit", [1e-12, 1e12])
+def test_the_unit_of_the_samples_does_not_move_the_strongest_frequency(unit: float) -> None:
+    x = np.cos(6.0 * np.arange(200) / 20.0)
+    band = (5.0, 20.0)
+    assert strongest_frequency(unit * x, 20.0, band=band) == strongest_frequency(x, 20.0, band=band)
+    assert 5.9 < strongest_frequency(unit * x, 20.0) < 6.1
+
+
+def test_a_window_may_be_as_long_as_the_record_and_no_longer() -> None:
+    assert half_width(2.0, 20.0, longest=41) == 20
+    with pytest.raises(InputError, match="needs 41 samples, the signal has 40"):
+        half_width(2.0, 20.0, longest=40)
