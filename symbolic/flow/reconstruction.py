@@ -22,6 +22,10 @@ from ridgeback.symbolic.flow.term import Term
 from ridgeback.symbolic.series.trigonometric import degree, harmonic
 
 MOST_ITERATIONS: Final = 200
+FARTHEST: Final = 1e6
+"""A step of the iteration beyond which it runs away."""
+ROUNDING: Final = 1e-14
+"""What is left of a state when only rounding is, relative to it."""
 Wave: TypeAlias = Callable[[Any], Any]
 Rows: TypeAlias = "tuple[tuple[float, tuple[int, ...]], ...]"
 PHI: Final = sympy.Symbol("phi", real=True)
@@ -121,15 +125,16 @@ class Reconstruction:
         (0.5, 0.0)
         """
         k = nearest(self.flow.scale)
-        x, y = u, v / k
+        x, y, last = u, v / k, math.inf
         for _ in range(MOST_ITERATIONS):
             a, phi = math.hypot(x, y), math.atan2(-y, x)
             change = (u - self(a, phi, *small), (v - self.velocity(a, phi, *small)) / k)
-            x, y = x + change[0], y + change[1]
-            if not math.hypot(*change) < 1e6:
+            x, y, size = x + change[0], y + change[1], math.hypot(*change)
+            if not size < FARTHEST:
                 break
-            if math.hypot(*change) <= 4e-16 * (abs(u) + abs(v) / k):
+            if last <= size <= ROUNDING * (abs(u) + abs(v) / k):  # it shrinks no more
                 return math.hypot(x, y), math.atan2(-y, x) + 0.0
+            last = size
         raise InputError(
             f"{self.flow.system}: no amplitude and phase of this order give u = {u:g}, u' = {v:g}; start closer to rest"
         )

@@ -433,6 +433,15 @@ def test_evaluation_is_the_expression() -> None:
         wave.start(50.0, 0.0, 0.0, 0.0)
 
 
+def test_every_state_within_reach_leads_back_to_its_amplitude_and_phase() -> None:
+    """All round, and where the iteration stops at a step of rounding that it repeats for ever."""
+    wave = Reconstruction(multiple_scales(make("u'' + u/4 + u**3"), 6))
+    for size, phase in [(0.2590584296583863, 3.1229387039284706), *((n / 700, n - 100.0) for n in range(7, 200))]:
+        found = wave.start(wave(size, phase), wave.velocity(size, phase))
+        assert found[0] == pytest.approx(size, rel=1e-14)
+        assert math.remainder(found[1] - phase, 2 * math.pi) == pytest.approx(0, abs=1e-13)
+
+
 def test_complex_slow_flow_is_both_equations() -> None:
     flow = multiple_scales(make("u'' + c*u' + u + u**2 + u**3"), 4)
     z = sympy.Symbol("z")

@@ -1,0 +1,23 @@
+"""One side of a well with a kink at rest."""
+
+from __future__ import annotations
+
+import pytest
+from flint import arb, ctx, fmpq
+
+from ridgeback.symbolic.enclosure.half_wells import HalfWell, two_sided
+from ridgeback.symbolic.systems.oscillator import Oscillator
+
+
+@pytest.mark.parametrize("force", ["u*abs(u)", "u + abs(u)*u/3 + u**2/5", "sin(u) + u*abs(u)", "2*u + abs(u)"])
+@pytest.mark.parametrize("place", [fmpq(1), fmpq(3, 4), fmpq(1, 3)])
+def test_a_turning_point_is_found_from_its_energy(force: str, place: fmpq) -> None:
+    """V(w) = V(w0) at w0, where a stride ends, or not."""
+    with ctx.workprec(64):
+        sides = two_sided(Oscillator.from_equation(f"u'' + {force} = 0"))
+        for well in (HalfWell(sides.near), HalfWell(sides.far)):
+            for unit in (place, place / 4, place * 5 / 3):
+                found = well.turning(well.energy(arb(place)), arb(unit))
+                assert found is not None
+                assert found.overlaps(arb(place))
+                assert found.rad() < 1e-9
