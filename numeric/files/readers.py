@@ -16,7 +16,7 @@ from ridgeback.numeric.files.hdf5 import from_hdf5
 from ridgeback.numeric.files.labview import from_tdms, of_lvm
 from ridgeback.numeric.files.matlab import from_mat
 from ridgeback.numeric.files.npy import array_of
-from ridgeback.numeric.files.text import TEXT_BUDGET, decoded, parse_table
+from ridgeback.numeric.files.tables.text import TEXT_BUDGET, decoded, parse_table
 from ridgeback.numeric.files.wav import from_wav
 from ridgeback.numeric.signal.samples import checked_budget
 
@@ -32,7 +32,7 @@ def of_table(text: str, source: str) -> Columns:
     """Columns of a table in text."""
     table = parse_table(text, source=source)
     sizes = (len(table.rows),) * len(table.names)
-    return Columns(table.names, sizes, table.column, lambda i: f"line {table.lines[i]}", source, note=table.note)
+    return Columns(table.names, sizes, table.column, lambda i: f"line {table.rows.number[i]}", source, note=table.note)
 
 
 def with_note(columns: Columns, note: str) -> Columns:

@@ -56,6 +56,7 @@ def signals(
         raise InputError(f"{file.name}: the suffix {file.suffix!r} is unknown; use one of {', '.join(READERS)}")
     data = read_regular(file, FILE_BUDGET, "cut the recording into parts")
     columns, digest = reader(data, file.name), hashlib.sha256(data).hexdigest()
+    del data  # what columns need of it they hold
     columns = replace(columns, values=lru_cache(maxsize=2)(columns.values))  # the times, for channel after channel
     clock = time_index(columns, time_column, rate)
     by = None if run is None else find_column(columns, run)

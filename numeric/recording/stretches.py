@@ -89,7 +89,8 @@ def stamped(
         raise InputError(
             f"{columns.source}, column {name} has {values.size} samples{lost}; at least {fewest} are needed"
         )
-    kept = Stamped(time[there], values[there], rows[there], int(np.count_nonzero(~there)))
+    keep = slice(None) if there.all() else there
+    kept = Stamped(time[keep], values[keep], rows[keep], int(np.count_nonzero(~there)))
     check_rising(kept, columns)
     return kept
 

@@ -113,17 +113,16 @@ def nearby(t: Array, flags: Mask, at: Array) -> Mask:
 
 def on_grid(part: Stamped, clipped: Mask, grid: Grid) -> Uniform:
     """Samples on their grid, the places of missing ones interpolated."""
+    start, rate = float(part.time[0]), 1.0 / grid.step
+    if grid.k.size == grid.k[-1] + 1.0:
+        return Uniform(start, rate, part.values, clipped, np.zeros(grid.k.size, dtype=np.bool_), 0.0, "")
     at = np.arange(grid.k[-1] + 1.0)
     filled = ~np.isin(at, grid.k)
-    values, error = part.values, 0.0
-    if filled.any():
-        values = np.empty(at.size)
-        values[~filled] = part.values
-        values[filled], apart = spline_values(grid.k, part.values, at[filled])
-        error = rms(apart)
-    how = f"{np.count_nonzero(filled)} missing samples were interpolated" if filled.any() else ""
-    marked = nearby(grid.k, clipped, at)
-    return Uniform(float(part.time[0]), 1.0 / grid.step, values, marked, filled, error, how)
+    values = np.empty(at.size)
+    values[~filled] = part.values
+    values[filled], apart = spline_values(grid.k, part.values, at[filled])
+    how = f"{np.count_nonzero(filled)} missing samples were interpolated"
+    return Uniform(start, rate, values, nearby(grid.k, clipped, at), filled, rms(apart), how)
 
 
 def off_grid(part: Stamped, clipped: Mask, rate: float, longest: float) -> Uniform:

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.files.text import parse_table
+from ridgeback.numeric.files.tables.lines import lines_of, with_line_feeds
+from ridgeback.numeric.files.tables.text import parse_table
 from ridgeback.numeric.recording.reading import read_recording
 
 
@@ -94,3 +95,23 @@ def test_a_workbook_is_read_as_its_first_sheet(tmp_path: Path) -> None:
     (tmp_path / "bad.xlsx").write_bytes(b"PK nothing")
     with pytest.raises(InputError, match="not a readable Excel workbook"):
         read_recording(tmp_path / "bad.xlsx")
+
+
+def test_lines_are_those_of_python_without_empty_ones_and_comments() -> None:
+    text = "# a\r\nt,u\r0,1\n\n  \n1,2\v2,3\x85% b\n3,4\u20284,5"
+    lines, comment = lines_of(with_line_feeds(text))
+    slow = [(i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip() and line[0] not in "#%"]
+    assert list(zip(lines.number.tolist(), lines, strict=True)) == slow
+    assert [lines[at] for at in range(-1, len(lines))] == [slow[-1][1], *(line for _, line in slow)]
+    assert comment == "# a"
+    assert lines.longest >= 3
+
+
+def test_blocks_read_as_cell_by_cell(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Numbers that numpy's parser reads, missing ones that it does not, and rows too short, in blocks of three."""
+    monkeypatch.setattr("ridgeback.numeric.files.tables.lines.BLOCK", 3)
+    cells = ["1", " 2.5 ", "-1e-3", "inf", "NaN", "", "n/a", "1e400", "+.5", "7.", "0", "-0"]
+    table = parse_table("t;u\n" + "\n".join(f"{i};{cell}" for i, cell in enumerate(cells)) + "\n12\n", source="run.csv")
+    want = [float(cell) if cell.strip() and cell != "n/a" else np.nan for cell in cells]
+    np.testing.assert_array_equal(table.column(1), [*want, np.nan])
+    assert table.column(0).tolist() == list(range(13))

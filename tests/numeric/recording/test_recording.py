@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from scipy.io import wavfile
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.files.text import parse_table
+from ridgeback.numeric.files.tables.text import parse_table
 from ridgeback.numeric.recording.reading import read_recording
 
 TIME = np.arange(40) / 20.0

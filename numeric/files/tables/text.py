@@ -1,26 +1,25 @@
 """A light reader of delimited number tables: delimiter found, header optional, every fault named by its line.
 
-Lines are kept as text and a column is parsed when it is asked for, so that a large table costs little more memory
-than its text.
+A column is parsed when it is asked for, some thousands of lines at a time by numpy's own parser, and line by line where
+that finds a fault, which is then named.
 """
 
 from __future__ import annotations
 
 import codecs
 import csv
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.files.tables.lines import COMMENTS, Lines, lines_of, with_line_feeds
 
 DELIMITERS = (",", ";", "\t")
 BLANKS = " "
-COMMENTS = ("#", "%")
 MISSING = frozenset(["", "na", "n/a", "nan", "null", "none", "-"])
 """Cells that say that there is no value; they are read as NaN."""
 TEXT_BUDGET = 300_000_000
@@ -29,11 +28,10 @@ TEXT_BUDGET = 300_000_000
 
 @dataclass(frozen=True)
 class TextTable:
-    """Column names (numbers from 1 when there is no header), the text of each row, and each row's line in the file."""
+    """Column names (numbers from 1 when there is no header), and the lines that are its rows."""
 
     names: tuple[str, ...]
-    rows: tuple[str, ...]
-    lines: NDArray[np.intp]
+    rows: Lines
     delimiter: str
     source: str
     note: str = ""
@@ -55,16 +53,39 @@ class TextTable:
         first = next((cell for cell in self.cells(index) if cell.lower() not in MISSING), "")
         read = since(first) if is_stamp(first) else (decimal_comma if self.decimal_comma else plain_number)
         values = np.empty(len(self.rows))
-        for i, cell in enumerate(self.cells(index)):
+        plain = not is_stamp(first) and '"' not in self.rows.text
+        for begin, block in self.rows.blocks():
+            found = numbers_of(block, self.delimiter, index) if plain else None
+            part = values[begin : begin + len(block)]
+            part[:] = list(self.one_by_one(block, index, begin, read)) if found is None else found
+        return values
+
+    def one_by_one(self, block: list[str], index: int, begin: int, read: Callable[[str], float]) -> Iterator[float]:
+        """The numbers of one column of some rows, the first of which is row ``begin``."""
+        for at, row in enumerate(cells_of(block, self.delimiter), start=begin):
+            cell = row[index] if index < len(row) else ""
             try:
-                values[i] = read(cell)
+                yield read(cell)
             except (ValueError, TypeError):  # a stamp with a time zone among those without raises the latter
                 if cell.lower() not in MISSING:
-                    raise InputError(
-                        f"{self.source}, line {self.lines[i]}, column {self.names[index]}: {cell!r} is not a number"
-                    ) from None
-                values[i] = np.nan
-        return values
+                    where = f"line {self.rows.number[at]}, column {self.names[index]}"
+                    raise InputError(f"{self.source}, {where}: {cell!r} is not a number") from None
+                yield np.nan
+
+
+def numbers_of(block: list[str], delimiter: str, index: int) -> Array | None:
+    """The numbers of one column of some rows without quotes; None where one of them is not there, or none.
+
+    >>> numbers_of(["0;1,5", "1;2,5"], ";", 1).tolist(), numbers_of(["0,1", "1,x"], ",", 1), numbers_of(["0"], ",", 1)
+    ([1.5, 2.5], None, None)
+    """
+    rows = block if delimiter == "," else [row.replace(",", ".") for row in block]
+    between = None if delimiter == BLANKS else delimiter
+    try:
+        found = np.loadtxt(rows, delimiter=between, usecols=index, comments=None, ndmin=1)
+    except ValueError:
+        return None
+    return found if found.size == len(block) else None
 
 
 def plain_number(cell: str) -> float:
@@ -190,49 +211,45 @@ def parse_table(text: str, *, source: str) -> TextTable:
     >>> table.names, table.column(1).tolist()
     (('Zeit [ms]', 'u [mm]'), [1.5, 2.5])
     """
-    given, lines_of = stated_delimiter(text.splitlines())
-    filled = [(number, line) for number, line in lines_of if line.strip()]
-    numbered = [(number, line) for number, line in filled if not line.lstrip().startswith(COMMENTS)]
-    if not numbered:
+    text = with_line_feeds(text)
+    given = stated_delimiter(text)
+    lines, comment = lines_of(text, skip=1 if given else 0)
+    if not len(lines):
         raise InputError(f"{source} holds no data; a table needs rows of numbers")
-    lines = tuple(line for _, line in numbered)
     first = first_numbers(lines, given)
     if first == len(lines):
         raise InputError(f"{source} holds no row of numbers below its header")
     above = lines[first - 1] if first else lines[first]
     delimiter = given or find_delimiter(above if first else lines[0], lines[-1])
-    check_quotes(lines[max(0, first - 2) :], delimiter, source)
-    heads = [next(cells_of([line], delimiter)) for line in lines[max(0, first - 2) : first]]
-    width = len(next(cells_of(lines[first : first + 1], delimiter)))
+    check_quotes(lines.after(max(0, first - 2)), delimiter, source)
+    heads = [cells_in(lines[at], delimiter) for at in range(max(0, first - 2), first)]
+    width = len(cells_in(lines[first], delimiter))
     names, used = heading(heads, width)
     if not names and first == 0:
-        names = commented(filled, numbered[0][0], delimiter, width)
-    top = max(len(names), width) if names else width
-    check_widths(numbered[first:], top, delimiter, source)
+        names = commented(comment, delimiter, width)
+    rows = lines.after(first)
+    check_widths(rows, max(len(names), width) if names else width, delimiter, source)
     skipped = first - used
     return TextTable(
         names=names or tuple(str(i + 1) for i in range(width)),
-        rows=lines[first:],
-        lines=np.array([number for number, _ in numbered[first:]], dtype=np.intp),
+        rows=rows,
         delimiter=delimiter,
         source=source,
         note="" if skipped == 0 else f"{skipped} lines before the table were left out.",
     )
 
 
-def stated_delimiter(lines: list[str]) -> tuple[str, list[tuple[int, str]]]:
-    """What a first line "sep=;" says, else nothing, and the lines with their numbers, without it.
+def stated_delimiter(text: str) -> str:
+    r"""What a first line "sep=;" says, else nothing.
 
-    >>> stated_delimiter(["sep=;", "1;2"]), stated_delimiter(["1;2"])
-    ((';', [(2, '1;2')]), ('', [(1, '1;2')]))
+    >>> stated_delimiter("sep=;\n1;2"), stated_delimiter("1;2")
+    (';', '')
     """
-    numbered = list(enumerate(lines, start=1))
-    if lines and lines[0].lower().startswith("sep=") and len(lines[0].rstrip("\r\n")) == len("sep=") + 1:
-        return lines[0][-1], numbered[1:]
-    return "", numbered
+    line = text[: len("sep=;\n")].partition("\n")[0]
+    return line[-1] if line.lower().startswith("sep=") and len(line) == len("sep=;") else ""
 
 
-def first_numbers(lines: tuple[str, ...], given: str) -> int:
+def first_numbers(lines: Sequence[str] | Lines, given: str) -> int:
     """The first line of numbers, several where the last one has several; the second line where there is none.
 
     A line beside the first that holds a number, and as many cells, is a row of the table, however wrong.
@@ -249,7 +266,7 @@ def first_numbers(lines: tuple[str, ...], given: str) -> int:
     return 1
 
 
-def after_wrong_rows(lines: tuple[str, ...], at: int, delimiter: str, width: int) -> int:
+def after_wrong_rows(lines: Sequence[str] | Lines, at: int, delimiter: str, width: int) -> int:
     """The first of the rows up to ``at`` that hold a number beside something else, the first line left out."""
     while at > 1:
         cells = cells_in(lines[at - 1], delimiter)
@@ -293,28 +310,35 @@ def heading(heads: list[list[str]], width: int) -> tuple[tuple[str, ...], int]:
     return tuple(f"{name} [{unit}]" if unit else name for name, unit in zip(heads[0], units, strict=True)), 2
 
 
-def commented(lines: list[tuple[int, str]], first: int, delimiter: str, width: int) -> tuple[str, ...]:
+def commented(comment: str, delimiter: str, width: int) -> tuple[str, ...]:
     """The names of the columns from the last comment above the numbers, where it has as many words.
 
-    >>> commented([(1, "% t, u"), (2, "0,1")], 2, ",", 2)
+    >>> commented("% t, u", ",", 2)
     ('t', 'u')
     """
-    above = [line for number, line in lines if number < first]
-    cells = cells_in(above[-1].lstrip().lstrip("".join(COMMENTS)).strip(), delimiter) if above else []
+    cells = cells_in(comment.lstrip("".join(COMMENTS)).strip(), delimiter)
     return tuple(cells) if len(cells) == width and not any(map(is_value, cells)) else ()
 
 
-def check_widths(numbered: list[tuple[int, str]], width: int, delimiter: str, source: str) -> None:
+def check_widths(rows: Lines, width: int, delimiter: str, source: str) -> None:
     """Refuse a row with more cells than the first; empty ones at its end are no cells."""
-    lines = (line for _, line in numbered)
-    for (number, _), cells in zip(numbered, cells_of(lines, delimiter), strict=True):
-        if len(cells) > width and any(cells[width:]):
-            hint = "; is a comma a decimal point there? then separate the cells by ;" if delimiter == "," else ""
-            raise InputError(f"{source}, line {number} has {len(cells)} cells, the first row {width}{hint}")
+    between = None if delimiter == BLANKS else delimiter
+    quoted = '"' in rows.text
+    for begin, block in rows.blocks():
+        for at, line in enumerate(block, start=begin):
+            if not quoted and between is not None and line.count(between) < width:
+                continue
+            cells = cells_in(line, delimiter)
+            if len(cells) > width and any(cells[width:]):
+                hint = "; is a comma a decimal point there? then separate the cells by ;" if delimiter == "," else ""
+                number = rows.number[at]
+                raise InputError(f"{source}, line {number} has {len(cells)} cells, the first row {width}{hint}")
 
 
-def check_quotes(lines: tuple[str, ...], delimiter: str, source: str) -> None:
-    """Refuse what the csv reader cannot read row by row: broken quotes, cells over several lines."""
+def check_quotes(lines: Lines, delimiter: str, source: str) -> None:
+    """Refuse what the csv reader cannot read row by row: broken quotes, cells over several lines, or without end."""
+    if '"' not in lines.text and lines.longest < csv.field_size_limit():
+        return
     try:
         count = sum(1 for _ in cells_of(lines, delimiter))
     except csv.Error as error:

@@ -1,0 +1,1 @@
+"""Delimited text: encodings, lines, cells and the names of columns."""
