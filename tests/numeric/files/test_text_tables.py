@@ -111,7 +111,9 @@ def test_blocks_read_as_cell_by_cell(monkeypatch: pytest.MonkeyPatch) -> None:
     """Numbers that numpy's parser reads, missing ones that it does not, and rows too short, in blocks of three."""
     monkeypatch.setattr("ridgeback.numeric.files.tables.lines.BLOCK", 3)
     cells = ["1", " 2.5 ", "-1e-3", "inf", "NaN", "", "n/a", "1e400", "+.5", "7.", "0", "-0"]
-    table = parse_table("t;u\n" + "\n".join(f"{i};{cell}" for i, cell in enumerate(cells)) + "\n12\n", source="run.csv")
+    table = parse_table(
+        "t;u\n" + "\n".join(f"{i};{cell}" for i, cell in enumerate(cells)) + "\n12\n13;1\n", source="run.csv"
+    )
     want = [float(cell) if cell.strip() and cell != "n/a" else np.nan for cell in cells]
-    np.testing.assert_array_equal(table.column(1), [*want, np.nan])
-    assert table.column(0).tolist() == list(range(13))
+    np.testing.assert_array_equal(table.column(1), [*want, np.nan, 1.0])
+    assert table.column(0).tolist() == list(range(14))
