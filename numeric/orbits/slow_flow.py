@@ -2,15 +2,17 @@
 
 Averaging a damping 2 mu u' + beta |u'| u' + gamma u'^3 + F sign(u') over an undamped orbit gives the loss of action
 
-    R = -J'/J = 2 mu + (beta <|u'|^3> + gamma <u'^4> + F <|u'|>) / (omega0 J),     phi' = sqrt(omega0(J)^2 - mu^2),
+    R = -J'/J = 2 mu + (beta <|u'|^3> + gamma <u'^4> + F <|u'|>) / (omega0 J),     phi'^2 = omega0^2 + 2 omega0 B,
 
-(Bogoliubov and Mitropolsky 1961; the mu^2 is exact for the linear oscillator), so that time and phase at each level of
-action are integrals, t = int d ln J / R and phi = int omega d ln J / R: no differential equation is left to solve.
+(Bogoliubov and Mitropolsky 1961), with B the shift of the frequency of second order in the losses (``loss_response``;
+omega0^2 - mu^2 is exact for the linear oscillator), so that time and phase at each level of action are integrals,
+t = int d ln J / R and phi = int omega d ln J / R: no differential equation is left to solve.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,10 +21,13 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.orbits.loss_response import OfCosine, OfPotential, Response
 from ridgeback.numeric.orbits.orbit_table import OrbitTable
 
 LEAST_RATE = 1e-9
 """Floor of R relative to omega: where damping is lost or turns to growth, the amplitude stays."""
+LEAST_OMEGA, MOST_SINE, UNSEEN = 0.1, 0.5, 1e-9
+"""Bounds of phi' over k and of a sine over the fundamental, and a sine that is left out."""
 MOST_LOG = 50.0
 """Amplitudes are kept within exp(-50) and exp(50), so that a step of a fit that goes astray has a finite cost."""
 
@@ -75,7 +80,9 @@ class Motion:
 
 @dataclass(frozen=True)
 class ScaledOrbits(OrbitTable):
-    """Orbits refined to closely spaced peaks, all quantities relative to their power of the peak, in units k = 1."""
+    """Orbits refined to closely spaced peaks, in units k = 1, and how they respond to losses."""
+
+    response: Response
 
     @cached_property
     def level(self) -> Array:
@@ -114,12 +121,14 @@ def refine(table: OrbitTable, peak: Array) -> ScaledOrbits:
         fine[2] * peak**3,
         fine[3] * peak**4,
         fine[4] * peak,
+        OfPotential(table, peak),
     )
 
 
 def as_scaled(table: OrbitTable) -> ScaledOrbits:
-    """A table that is fine enough as it is."""
-    return ScaledOrbits(table.peak, table.omega, table.action, table.cosine, table.cubic, table.quartic, table.width)
+    """A table that is fine enough as it is, and too rough for a response of its own: it has that of its cosine."""
+    columns = table.peak, table.omega, table.action, table.cosine, table.cubic, table.quartic, table.width
+    return ScaledOrbits(*columns, OfCosine(table.cosine[1], table.omega))
 
 
 def decay_flow(orbits: ScaledOrbits, *, k: float, length: float, rates: tuple[float, ...]) -> Flow:
@@ -154,18 +163,28 @@ def decay_flow(orbits: ScaledOrbits, *, k: float, length: float, rates: tuple[fl
     loss = rates[0] + (rates[1] * orbits.cubic + rates[2] * orbits.quartic) / power
     if len(rates) > 3:
         loss = loss + rates[3] * orbits.width / (math.pi * orbits.action)
-    omega = k * orbits.omega
-    loss = np.maximum(loss, LEAST_RATE * omega)
+    loss = np.maximum(loss, LEAST_RATE * k * orbits.omega)
     fundamental = orbits.cosine[1]
+    omega, sine = responding(orbits.response, orbits.omega, fundamental, [rate / k for rate in rates])
     down = slice(None, None, -1)
     return Flow(
         level=-orbits.level[down],
         rate=loss[down],
-        omega=np.sqrt(np.maximum(omega**2 - 0.25 * rates[0] ** 2, (0.1 * k) ** 2))[down],
+        omega=k * omega[down],
         growth=-(loss * orbits.bend)[down],
         amplitude=length * fundamental[down],
         cosine=(orbits.cosine / fundamental)[:, down],
+        sine=sine[:, down],
     )
+
+
+def responding(response: Response, omega: Array, fundamental: Array, rates: Sequence[float]) -> tuple[Array, Array]:
+    """phi' and the sines of u/a under losses, in units k = 1, both kept within what a fit that goes astray can bear."""
+    shift, sine = response.under(rates)
+    square = omega**2 + 2.0 * omega * shift
+    sine = np.clip(sine / fundamental, -MOST_SINE, MOST_SINE)
+    sine[np.abs(sine).max(axis=1) < UNSEEN] = 0.0
+    return np.sqrt(np.maximum(square, LEAST_OMEGA**2)), sine
 
 
 def motion(flow: Flow, start: float, phase: float, time: Array, *, waveform: bool = True) -> Motion:

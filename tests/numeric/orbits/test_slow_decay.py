@@ -89,8 +89,8 @@ def test_frequency_along_the_decay_is_that_of_the_averaged_action(start: float) 
     flow = flow_of(pendulum(), 2.8, (2 * mu, 0.0, 0.0))
     first = -math.log(float(averaged.action[0]))
     at = motion(flow, first, 0.0, time)
-    # the fine table has 240 nodes, an amplitude apart by 2.6 %: interpolation to 5e-5 at the most curved place
-    assert np.allclose(at.omega**2, averaged.omega**2 - mu**2, rtol=1e-4 if start > 2 else 1e-6)
+    # the difference is of second order: mu^2/2 at small amplitudes, some 10 mu^2 next to the separatrix
+    assert np.allclose(at.omega, averaged.omega, rtol=0.0, atol=(10.0 if start > 2 else 0.5) * mu**2)
 
 
 # u'' + 2 mu u' + beta |u'| u' + gamma u'^3 + V'(u) = 0, integrated as it stands
