@@ -43,6 +43,13 @@ def test_published_frequency_coefficients(name: str) -> None:
     assert even(lindstedt(find(name), 8).frequency) == rationals(*PUBLISHED[name])
 
 
+def test_a_series_is_headed_by_its_variable() -> None:
+    own = replace(Oscillator.from_equation("u'' - m*(1 - u**2)*u' + u = 0"), small="m", damping=None)
+    for oscillator, name in ((find("van-der-pol"), r"\varepsilon"), (own, "m"), (find("duffing"), "A")):
+        (formula,) = lindstedt(oscillator, 2).formulas()
+        assert formula.startswith(rf"\omega_0({name}) = 1")
+
+
 def test_van_der_pol_peak_amplitude_is_the_published_series() -> None:
     series = lindstedt(find("van-der-pol"), 4).amplitude_series
     assert series is not None
