@@ -64,7 +64,7 @@ class ModelRates:
         """One sigma of a family's values or slopes at each point."""
         fine, coarse = self.models.fine, self.models.coarse
         noise, noise_coarse = (
-            model.band_noise * np.sqrt(model.equations.variance(family % model.families, slopes=slopes)[self.index])
+            model.band_noise * np.sqrt(model.information.variance(family % model.families, slopes=slopes)[self.index])
             for model in (fine, coarse)
         )
         apart = self.rows(fine, slopes=slopes) @ coefficients(fine, family)
@@ -119,4 +119,4 @@ def coefficients(model: SplineModel, family: int) -> Array:
 
 def deviation_of(model: SplineModel, rows: csr_array, family: int) -> Array:
     """One sigma in noise of ``rows`` times the coefficients of a family."""
-    return model.band_noise * np.sqrt(model.equations.variance_of(rows, family % model.families))
+    return model.band_noise * np.sqrt(model.information.variance_of(rows, family % model.families))

@@ -121,8 +121,8 @@ def fit_on(
         largest = max(float(size.max()), np.finfo(float).tiny)
         before, step = step, float((moved * size).max()) / largest
         unseen = UNSEEN * math.sqrt(float(np.mean(residual**2)) * basis.count / x.size) / largest
-        if step < max(AT_REST, min(SETTLED, unseen)) or (step < SETTLED and step > 0.5 * before):
-            break
+        if done > 1 and (step < max(AT_REST, min(SETTLED, unseen)) or (step < SETTLED and step > 0.5 * before)):
+            break  # not after the first, which is as firm as if all of the samples were noise
         if done >= HOPEFUL and step < NEAR and step * min(1.0, step / before) ** (ITERATIONS - done) > SETTLED:
             break
         part = min(1.0, 0.5 / float(moved.max()))

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.harmonics.spline_basis import NormalEquations, SplineBasis
+from ridgeback.numeric.harmonics.spline_basis import NormalEquations, SplineBasis, normal_equations
 from ridgeback.numeric.harmonics.spline_parts import Part
 from ridgeback.numeric.signal.samples import TWO_PI
 
@@ -134,6 +134,15 @@ class SplineModel:
         return change, self.equations.model(change)
 
     @cached_property
+    def information(self) -> NormalEquations:
+        """The normal equations without what held the fit firm: the Fisher information, over the variance of the noise.
+
+        Where the amplitude sinks under the noise a firm fit comes to rest sooner, but knows no more.
+        """
+        free = normal_equations(self.basis, self.equations.weights, self.families)
+        return replace(free, beside=self.equations.beside)
+
+    @cached_property
     def clear(self) -> bool:
         """Whether the amplitude rises out of the noise anywhere, CLEAR times its own deviation."""
         deviation = self.band_noise * np.sqrt(self.equations.variance(0))
@@ -143,7 +152,7 @@ class SplineModel:
     def omega_deviation(self) -> Array:
         """One sigma of omega in white noise of the residual's size: the Cramer-Rao bound of this model."""
         last = self.coefficients.shape[1] - 1
-        return np.asarray(self.band_noise * np.sqrt(self.equations.variance(last, slopes=True)), dtype=np.float64)
+        return np.asarray(self.band_noise * np.sqrt(self.information.variance(last, slopes=True)), dtype=np.float64)
 
 
 def weights_of(phase: Array, amplitude: Array, multiples: tuple[int, ...]) -> Array:

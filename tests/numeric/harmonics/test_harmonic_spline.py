@@ -118,6 +118,23 @@ def test_deviation_is_the_cramer_rao_bound_and_is_met() -> None:
     assert np.sqrt(np.mean(ratio**2)) == pytest.approx(1.0, abs=0.08)
 
 
+def test_a_deviation_is_the_bound_wherever_the_fit_started_and_down_into_the_noise() -> None:
+    """A plain damped sine whose last third lies under the noise, by the Fisher matrix of its four parameters.
+
+    From where it comes to rest a fit takes few steps, and what holds it firm there is no knowledge.
+    """
+    t, g, w, noise = np.arange(1200) / 400.0, 1.26, 125.7, 0.1
+    a, phase = np.exp(-g * t), w * t + 0.4
+    x = a * np.cos(phase) + noise * np.random.default_rng(3).normal(size=t.size)
+    first = fit_on(x, t, phase + 0.2, 1.1 * a, t[[0, -1]], (), 1)
+    again = fit_on(x, t, first.phase, first.size, t[[0, -1]], (), 1)
+    even, odd = first.size * np.cos(first.phase), -first.size * np.sin(first.phase)
+    columns = np.stack([even, t * even, odd, t * odd], axis=1)
+    bound = first.noise * np.sqrt(np.linalg.inv(columns.T @ columns)[3, 3])
+    for model in (first, again):
+        assert_allclose(model.omega_deviation, bound, rtol=0.01)
+
+
 def test_answer_to_noise_is_the_change_of_the_fit() -> None:
     rng = np.random.default_rng(3)
     clean, breaks = np.cos(PHASE) + 0.3 * np.cos(2 * PHASE + 0.5), np.array([0.0, 7.0, 14.0, 20.0])
