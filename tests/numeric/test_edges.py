@@ -25,6 +25,7 @@ from ridgeback.numeric.motion import limit_cycle
 from ridgeback.numeric.motion.dynamics import duffing, linear, van_der_pol
 from ridgeback.numeric.motion.integration import Drift
 from ridgeback.numeric.orbits import action_loss, adiabatic
+from ridgeback.numeric.recording.clipping import quantum
 from ridgeback.numeric.recording.drift import MOST_SAMPLES, wandering
 from ridgeback.numeric.recording.file_signals import runs_of
 from ridgeback.numeric.recording.treatment import Treatment, piece_notes
@@ -68,6 +69,7 @@ SHORT: Any = STUB(plan=STUB(lag_seconds=0.05), signal=STUB(rate=10.0, search=STU
 
 def test_values_at_the_ends() -> None:
     assert total_deviation(track()) is None
+    assert quantum(np.full(4, 0.3)) == 0.0
     single = short_time_spectra(np.array([1.0, 2.0 + 0j]), np.array([1.0]), 0, 2, 4)
     assert np.allclose(single, np.array([[1.0] * 4, [2.0] * 4]))
     even = np.column_stack([TONE, TONE])

@@ -38,6 +38,7 @@ def family(names: tuple[str, ...], start: list[float]) -> Family:
         (lambda: detrended(FLAT, 1.0, "cubic"), "detrend 'cubic' is unknown; use one of"),
         (lambda: window("hann", -1), "half width -1 of a window is negative"),
         (lambda: band_limited(FLAT + 0j, 1.0, 2.0, 1.0), r"band \(2, 1\) rad per time unit is not usable"),
+        (lambda: band_limited(FLAT + 0j, 1.0, 2.0, 2.0), r"band \(2, 2\) rad per time unit is not usable"),
         (lambda: band_limited(FLAT + 0j, 1.0, 0.0, math.inf), r"band \(0, inf\) rad per time unit is not usable"),
         (lambda: Treatment(fill=-1.0), "fill -1.0 is not a positive time"),
         (lambda: Treatment(fill=math.nan), "fill nan is not a positive time"),

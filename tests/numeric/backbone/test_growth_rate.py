@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -11,7 +16,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.backbone.backbone import backbone
 from ridgeback.numeric.backbone.curve import Backbone
 from ridgeback.numeric.backbone.damping import damping
-from ridgeback.numeric.backbone.local_rates import rows
+from ridgeback.numeric.backbone.local_rates import LocalRates, rows
 from ridgeback.numeric.backbone.windows import furthest, half_widths
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.harmonics.local_fit import harmonic_fit
@@ -87,6 +92,18 @@ def test_the_error_of_a_mean_is_that_of_its_noise() -> None:
         kernel[c - half : c + half + 1] += slope / centres.size
     assert np.std(means) == pytest.approx(np.linalg.norm(kernel), rel=0.05)
     assert np.linalg.norm(kernel) < 0.25 * np.linalg.norm(slope)
+
+
+def test_of_the_bias_a_share_is_left_that_grows_with_the_change_within_a_window() -> None:
+    """Of sqrt(3^2 - 2^2 - 0.5^2), (h g)^2/2 with h = 0.5 and growth rates g of 2 and 4: 1/2, and 1 at most."""
+    fine: Any = SimpleNamespace(growth=np.array([-2.0, -4.0]))
+    coarse: Any = SimpleNamespace(growth=np.array([-5.0, -7.0]))
+    found = LocalRates(np.array([40, 60]), np.array([10, 10]), fine, coarse, 100, 20.0)
+    index, share, apart = np.array([0, 1]), np.array([0.5, 0.5]), np.array([2.0, 0.5, 0.0])
+    assert found.bias_left(index, share, apart) == pytest.approx(0.75 * math.sqrt(4.75))
+    assert found.bias_left(index, share, 4.0 * apart) == 0.0
+    still = replace(found, half=np.array([1, 1]))
+    assert still.bias_left(index, share, apart) == pytest.approx(0.1 * math.sqrt(4.75))
 
 
 def test_windows_follow_the_local_rate_of_change() -> None:

@@ -35,6 +35,10 @@ def test_a_method_that_does_not_fit_is_refused_before_it_begins() -> None:
     x = np.cos(0.2 * np.arange(3_000_000))
     with pytest.raises(InputError, match=r"polynomial-wigner of 3000000 samples would take about 2\.2 GB, over 1 GB"):
         estimate(x, 100.0, method="polynomial-wigner")
+    with pytest.raises(InputError, match=r"use method auto, which takes fewer .*, or at most"):
+        memory.check_memory("wigner", 10**8)
+    with pytest.raises(InputError, match="over 1 GB; use at most"):
+        memory.check_memory("auto", 10**8)
     with pytest.raises(InputError, match=r"the bias of 3000000 samples would take about 1\.4 GB"):
         estimate(x, 100.0, method="hilbert", remove_bias=True)
 

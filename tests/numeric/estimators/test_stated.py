@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.estimators.auto import with_window
 from ridgeback.numeric.estimators.estimate import estimate
+from ridgeback.numeric.estimators.window_choice import Window
 from ridgeback.numeric.recording.stretches import Stamped
 from ridgeback.numeric.recording.uniform import off_grid
 from ridgeback.numeric.signal.decimation import Samples
@@ -82,3 +89,19 @@ def test_a_local_fit_takes_the_window_that_suits_the_signal() -> None:
     assert long is not None
     assert short is not None
     assert long > 8.0 > short
+
+
+def test_a_request_takes_the_window_that_was_chosen() -> None:
+    known: Any = SimpleNamespace()
+    request = replace(prepared(Samples(TONE, RATE, 0.0), Options()), known_models=known)
+    for half in (30, 47):
+        taken = with_window(request, Window(half, 5, 0.1))
+        assert (taken.half, taken.plan.phase_degree) == (half, 5)
+
+
+def test_three_cycles_are_enough_and_a_step_less_is_not() -> None:
+    search: Any = SimpleNamespace(centre=2 * np.pi)
+    whole, shorter = Samples(TONE[:61], 20.0, 0.0), Samples(TONE[:60], 20.0, 0.0)
+    assert prepared(whole, Options(), search=search).plan.smoothing_seconds == 1.0
+    with pytest.raises(InputError, match=r"signal spans 2\.95 cycles .* \(1 each\); 3 are needed"):
+        prepared(shorter, Options(), search=search)

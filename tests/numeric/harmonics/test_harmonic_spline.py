@@ -13,7 +13,7 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics import spline_basis as spline_basis_module
 from ridgeback.numeric.harmonics.signal_model import signal_models
 from ridgeback.numeric.harmonics.spline_basis import DEGREE, SplineBasis, alone, normal_equations, spline_basis
-from ridgeback.numeric.harmonics.spline_fit import best_model, fit_on, harmonic_splines
+from ridgeback.numeric.harmonics.spline_fit import adapted, best_model, fit_on, harmonic_splines
 from ridgeback.numeric.harmonics.spline_model import weights_of
 
 RATE = 32.0
@@ -153,6 +153,13 @@ def test_knots_go_where_the_phase_bends() -> None:
     x = np.cos(phase) + 0.001 * np.random.default_rng(5).normal(size=T.size)
     model = best_model(harmonic_splines(x, RATE, np.gradient(phase, T)))
     assert np.diff(model.breaks)[0] < 0.92 * np.diff(model.breaks)[-1]
+
+
+def test_the_level_by_which_knots_are_put_rises_from_nothing() -> None:
+    breaks = np.linspace(0.0, T[-1], 9)
+    level = adapted(fit_on(np.cos(PHASE), T, PHASE, np.ones(T.size), breaks, ()))
+    assert level[0] == 0.0
+    assert np.all(np.diff(level) > 0.0)
 
 
 def test_more_noise_asks_for_fewer_knots() -> None:

@@ -56,6 +56,16 @@ def chirp(t):
     return phase, omega, curvature
 
 
+def test_four_events_are_enough_for_a_frequency_and_three_are_not():
+    """Crossings at pi/2, 3 pi/2, ... of cos t, turning points at pi, 2 pi, ..."""
+    four = integrate(linear(), (1.0, 0.0), duration=11.5, rate=4.0)
+    found = cycle_frequency(four, dynamics=linear())
+    assert found.omega == pytest.approx(1.0, rel=1e-9)
+    three = integrate(linear(), (1.0, 0.0), duration=8.0, rate=4.0)
+    with pytest.raises(InputError, match="3 zero crossings or turning points are too few"):
+        cycle_frequency(three, dynamics=linear())
+
+
 @pytest.fixture(scope="module")
 def chirp_run():
     return events_of(lambda t: chirp(t)[0], lambda t: chirp(t)[1], 20.0)

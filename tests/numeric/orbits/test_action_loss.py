@@ -11,7 +11,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
 from ridgeback.numeric.motion.dynamics import Dynamics, helmholtz_duffing, linear, pendulum
 from ridgeback.numeric.motion.trajectory import integrate
-from ridgeback.numeric.orbits.action_loss import averaged_action, cycles_of, require_odd_damping
+from ridgeback.numeric.orbits.action_loss import _followed, averaged_action, cycles_of, require_odd_damping
 from ridgeback.numeric.orbits.averaging import averaged_decay
 
 
@@ -25,6 +25,14 @@ def test_cubic_damping_of_a_linear_spring_has_a_closed_form() -> None:
     time = np.array([0.0, 3.0, 50.0, 400.0])
     found = averaged_action(damped(linear(), lambda _, v: 0.1 * v**3), 0.8, time)
     assert found == pytest.approx(0.8 / (1 + 0.15 * 0.8 * time), rel=1e-8)
+
+
+@pytest.mark.parametrize("time", [[0.0], [1.0, 0.0, -2.0, 0.5], [3.0], [-3.0]])
+def test_a_table_is_followed_both_ways_from_time_0(time: list[float]) -> None:
+    """(ln J)' = -2 ln J, the logarithm being 5 at time 0."""
+    found = _followed(lambda x: 2.0 * x, 5.0, -1.0, np.array(time))
+    assert found == pytest.approx(5.0 * np.exp(-2.0 * np.array(time)), rel=1e-9)
+    assert _followed(lambda x: 2.0 * x, 5.0, 4.0, np.array([1.0])) is None
 
 
 def test_linear_damping_takes_the_same_share_in_any_potential() -> None:

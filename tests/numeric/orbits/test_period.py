@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.motion.dynamics import Dynamics, duffing, helmholtz_duffing, linear, pendulum, van_der_pol
 from ridgeback.numeric.orbits.orbit_table import orbit_table
-from ridgeback.numeric.orbits.period import action, exact_frequency, peak_limit, peak_of_action, trough
+from ridgeback.numeric.orbits.period import action, exact_frequency, peak_limit, peak_of_action, stretch, trough
 from ridgeback.numeric.orbits.potential import peak_of_potential, potential_at
 
 MORSE = Dynamics(
@@ -26,6 +26,26 @@ MIRRORED_MORSE = Dynamics(
     1.0,
     restoring=lambda u: np.exp(np.asarray(u)) * np.expm1(np.asarray(u)),
 )
+
+
+def test_the_nodes_are_spread_by_the_distance_of_the_poles():
+    """c = sqrt(delta), cosh(delta) = 1 + share: g vanishes beyond the turning points, at the end of the well."""
+    for left in (1e-3, 1e-6):
+        share, c = stretch(pendulum(), np.array([left - math.pi]), np.array([math.pi - left]))
+        assert float(share[0]) == pytest.approx(left / (math.pi - left), rel=1e-9)
+        assert float(c[0]) ** 2 == pytest.approx(math.acosh(1.0 + float(share[0])), rel=float(share[0]))
+
+
+def test_the_energy_of_the_separatrix_is_outside_the_well():
+    for oscillator in (pendulum(), pendulum(1.7)):
+        most = float(potential_at(oscillator, peak_limit(oscillator))[0])
+        assert peak_of_potential(oscillator, most * (1 - 1e-12))[0] < math.pi
+        with pytest.raises(InputError, match="outside the well"):
+            peak_of_potential(oscillator, most)
+
+
+def test_rest_has_no_turning_points_but_itself():
+    assert trough(helmholtz_duffing(1.0, 0.2, 0.1), [0.0, 1.0])[0] == 0.0
 
 
 def pendulum_exact(peak):

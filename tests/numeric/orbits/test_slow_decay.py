@@ -55,6 +55,20 @@ def test_velocity_means_are_those_of_the_orbit() -> None:
     assert float(table.quartic[0]) == pytest.approx(np.mean(velocity**4), rel=1e-9)
 
 
+def test_an_orbit_that_just_reaches_a_hilltop_is_refused() -> None:
+    """V = (u^2 - 2)^2 - 4: at the peak 2 the motion comes to rest at 0, where one of 63 nodes lies."""
+    hill = Dynamics(
+        "hill",
+        lambda u, _: 4 * u * (u * u - 2),
+        1.0,
+        restoring=lambda u: 4 * np.asarray(u) * (np.asarray(u) ** 2 - 2),
+        potential=lambda u: (np.asarray(u) ** 2 - 2) ** 2 - 4,
+    )
+    assert float(orbit_table(hill, [2.1], nodes=63).peak[0]) == 2.1
+    with pytest.raises(InputError, match="peak amplitude 2 does not turn back"):
+        orbit_table(hill, [2.0], nodes=63)
+
+
 def test_bilinear_table_agrees_with_the_smooth_quadrature() -> None:
     """The general table does not see the corner, so 1e-4 with 64 nodes."""
     oscillator = Bilinear(1.0, 1.6, 0.4)

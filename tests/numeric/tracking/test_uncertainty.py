@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,14 @@ from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
 from ridgeback.numeric.motion.dynamics import duffing
 from ridgeback.numeric.motion.trajectory import integrate
-from ridgeback.numeric.tracking.uncertainty import few_sample_factor, moving_mean, pooled, replicates_needed
+from ridgeback.numeric.tracking.uncertainty import (
+    Trial,
+    few_sample_factor,
+    moving_mean,
+    pooled,
+    replicated,
+    replicates_needed,
+)
 
 RATE = 32.0
 T = np.arange(641) / RATE
@@ -213,3 +221,22 @@ def test_pieces() -> None:
     rng = np.random.default_rng(1)
     shape = np.linspace(1.0, 5.0, 400)
     assert np.abs(pooled(shape * rng.normal(size=(30, 400)), shape, 100) / shape - 1.0).max() < 0.1
+
+
+def test_replicates_of_one_model_have_no_difference_between_models() -> None:
+    """An estimator that returns its samples, and a model that takes up a quarter of any noise."""
+    time = np.arange(50.0)
+    omega, samples = 6.0 + 0.1 * np.sin(time), np.cos(time)
+
+    def tone(_: int, change: np.ndarray | None = None) -> tuple[np.ndarray, None]:
+        return omega + (0.0 if change is None else change), None
+
+    def response(noise: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return 0.5 * noise, 0.25 * noise
+
+    model: Any = SimpleNamespace(time=time, band_noise=0.1, samples=lambda: samples, tone=tone, response=response)
+    models: Any = SimpleNamespace(fine=model, coarse=model)
+    found = replicated(Trial(time, lambda x: x), models, samples, 4)
+    assert np.abs(found.between).max() < 1e-12
+    assert np.allclose(found.corrected, 1.25 * found.plain, atol=1e-12)
+    assert float(np.std(found.plain)) == pytest.approx(0.1, rel=0.2)
