@@ -1,11 +1,13 @@
 """The error that a window is expected to make, beside the plain filter over every sample."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.signal import savgol_coeffs, savgol_filter
 
 from ridgeback.numeric.estimators import window_choice
-from ridgeback.numeric.estimators.window_choice import expected_error
+from ridgeback.numeric.estimators.window_choice import best_window, expected_error
 from ridgeback.numeric.harmonics.spline_fit import best_model, harmonic_splines
 
 RATE = 32.0
@@ -35,3 +37,14 @@ def test_windows_of_every_length_are_judged_over_the_same_samples(model, half, d
     assert expected_error(model, half, degree, 32) == pytest.approx(whole, rel=1e-9)
     monkeypatch.setattr(window_choice, "CENTRES", 160)
     assert expected_error(model, half, degree, 32) == pytest.approx(whole, rel=0.05)
+
+
+def test_a_window_holds_three_samples_for_two_parameters(monkeypatch):
+    """Of degree 3 with its 9 parameters 15 samples are needed, of degree 5 with its 13 there are 21."""
+    t = np.arange(200) / 6.0
+    monkeypatch.setattr(window_choice, "expected_error", lambda _, half, degree, __: half - degree / 10)
+    found = best_window(SimpleNamespace(time=t), 1.0, (), 0)
+    assert (found.half, found.degree) == (9, 3)  # not 6, over two cycles, nor degree 5 in 19
+    monkeypatch.setattr(window_choice, "expected_error", lambda _, half, degree, __: half - 10 * degree)
+    found = best_window(SimpleNamespace(time=t), 1.0, (), 0)
+    assert (found.half, found.degree) == (12, 5)

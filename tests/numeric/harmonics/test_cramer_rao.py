@@ -86,6 +86,21 @@ def test_fisher_matrix_by_finite_differences() -> None:
     np.testing.assert_allclose(bound, expected, rtol=1e-6)
 
 
+def test_three_samples_are_a_window_and_one_is_none() -> None:
+    """Phase, its slope and a constant amplitude from as many samples."""
+    phase = 0.7 * np.arange(201.0) + 0.3
+    none = np.zeros((1, 201))
+    signal = HarmonicSignal(8.0, phase, np.full(201, 5.6), (1,), none + 1.0, none, none[0])
+    shape = Order(phase_degree=1, amplitude_degree=0, drift_degree=-1)
+    bound = local_bound(signal, NOISE, half=1, order=shape, centres=np.array([100]))
+    s, here = np.array([-1.0, 0.0, 1.0]), phase[99:102]
+    columns = np.stack([np.sin(here), s * np.sin(here), np.cos(here)], axis=1)
+    expected = NOISE * signal.rate * np.sqrt(np.linalg.inv(columns.T @ columns)[1, 1])
+    assert float(bound[0]) == pytest.approx(expected, rel=1e-6)
+    with pytest.raises(InputError, match="window of 1 samples does not fit a signal of 201; use 3 to 201"):
+        local_bound(signal, NOISE, half=0, order=shape)
+
+
 def test_harmonics_tied_to_the_phase_add_what_they_know() -> None:
     """With constant amplitudes locked to the phase the information is that of sum h^2 a_h^2; free ones hide it."""
     n, half = 801, 400

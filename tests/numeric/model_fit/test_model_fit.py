@@ -12,8 +12,8 @@ import pytest
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.model_fit.family import Family
-from ridgeback.numeric.model_fit.fit import OPERATIONS, ModelFit, model_fit
-from ridgeback.numeric.model_fit.problem import EVALUATIONS, inverse_normal
+from ridgeback.numeric.model_fit.fit import OPERATIONS, ModelFit, model_fit, smooth_model
+from ridgeback.numeric.model_fit.problem import EVALUATIONS, Polar, Problem, inverse_normal
 from ridgeback.numeric.model_fit.sensitivity import respond, steps_needed
 from ridgeback.numeric.model_fit.track import model_track, omega_slopes
 from ridgeback.numeric.model_fit.whiteness import whiteness
@@ -235,3 +235,22 @@ def test_what_a_fit_costs_is_seen_before_it_begins(monkeypatch: pytest.MonkeyPat
     said = re.search(r"about (\S+) operations", str(refusal.value))
     assert said is not None
     assert float(said[1]) >= 400 * OPERATIONS * EVALUATIONS
+
+
+@pytest.mark.parametrize("turns", [-1, 0, 3])
+@pytest.mark.parametrize("lead", [-3.0, 0.2, 3.0])
+def test_angles_are_compared_within_half_a_turn_at_the_start(lead: float, turns: int) -> None:
+    """Of cos(2 t) and a motion that leads it by an angle, whole turns counting as none."""
+    t, shift = np.arange(9) / 3.0, 2.0 * math.pi * turns
+    limits = (np.full(6, -np.inf), np.full(6, np.inf))
+    problem = Problem(np.cos(2.0 * t), 3.0, duffing_family(), True, 9.0, 4, limits)
+    goal = Polar(0.0, 2.0, 2.0 * t + shift, np.zeros(9), np.ones(9))
+    gap, _ = problem.polar_gap(np.array([math.cos(lead), -2.0 * math.sin(lead), 0.0, 2.0, 0.0, 0.0]), goal)
+    assert gap[:9] == pytest.approx(np.full(9, lead), abs=1e-6)
+    assert gap[9:] == pytest.approx(np.zeros(9), abs=1e-6)
+
+
+def test_a_record_of_three_cycles_has_harmonics_too() -> None:
+    t = np.arange(101) / 20.0
+    signal = smooth_model(np.cos(2.0 * math.pi * 0.65 * t), 20.0)
+    assert np.median(signal.omega) == pytest.approx(2.0 * math.pi * 0.65, rel=0.01)

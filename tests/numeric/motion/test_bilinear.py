@@ -35,6 +35,15 @@ CONTINUOUS = OSCILLATORS[:-1]
 frequencies = st.floats(0.3, 3.0)
 
 
+@pytest.mark.parametrize(("u", "v"), [(0.4, 0.5), (0.4, -0.5), (0.4, 0.0), (0.2, 0.3), (0.9, -0.3)])
+def test_the_mirrored_motion_of_two_stops_is_the_mirror_image(u: float, v: float) -> None:
+    """Also from the stops themselves, inwards and outwards."""
+    stops = Bilinear(1.0, 2.5, 0.4, 0.03, symmetric=True)
+    there, back = (bilinear_motion(stops, (side * u, side * v), duration=9.0, rate=4.0) for side in (1.0, -1.0))
+    assert np.abs(there.u + back.u).max() < 1e-12
+    assert np.abs(there.velocity + back.velocity).max() < 1e-12
+
+
 @pytest.mark.parametrize("oscillator", CONTINUOUS, ids=IDS[:-1])
 def test_frequency_is_that_of_the_quadrature(oscillator: Bilinear) -> None:
     """Its midpoint rule converges only like a power of the nodes across the corner: agreement to 2e-6."""

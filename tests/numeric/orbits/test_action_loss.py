@@ -10,6 +10,7 @@ import pytest
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
 from ridgeback.numeric.motion.dynamics import Dynamics, helmholtz_duffing, linear, pendulum
+from ridgeback.numeric.motion.events import Switches
 from ridgeback.numeric.motion.trajectory import integrate
 from ridgeback.numeric.orbits.action_loss import _followed, averaged_action, cycles_of, require_odd_damping
 from ridgeback.numeric.orbits.averaging import averaged_decay
@@ -25,6 +26,16 @@ def test_cubic_damping_of_a_linear_spring_has_a_closed_form() -> None:
     time = np.array([0.0, 3.0, 50.0, 400.0])
     found = averaged_action(damped(linear(), lambda _, v: 0.1 * v**3), 0.8, time)
     assert found == pytest.approx(0.8 / (1 + 0.15 * 0.8 * time), rel=1e-8)
+
+
+def test_dry_friction_takes_a_like_share_of_every_swing_until_it_rests() -> None:
+    """u'' + u + c sign u' = 0: A = A0 - 2 c t / pi, followed to where J has fallen by 10^-6."""
+    c, peak = 0.01, 2.0
+    switches = Switches((), True, lambda _, side: lambda u, _: u + c * side)
+    dry = Dynamics("dry", lambda u, v: u + c * np.sign(v), 1.0, restoring=np.asarray, switches=switches)
+    time = np.array([0.999]) * np.pi * peak / (2 * c)
+    found = averaged_action(dry, 0.5 * peak**2, time)
+    assert found == pytest.approx(0.5 * (peak - 2 * c * time / np.pi) ** 2, rel=1e-4)
 
 
 @pytest.mark.parametrize("time", [[0.0], [1.0, 0.0, -2.0, 0.5], [3.0], [-3.0]])
