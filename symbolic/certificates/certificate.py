@@ -6,9 +6,10 @@ multiple scales share nothing with Lindstedt-Poincaré but the Taylor coefficien
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
+from itertools import zip_longest
 from typing import TypeAlias
 
 import sympy
@@ -16,7 +17,7 @@ from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Wanted, showing
-from ridgeback.symbolic.arithmetic.balls import rational
+from ridgeback.symbolic.arithmetic.balls import number_ball, rational
 from ridgeback.symbolic.certificates.lost_energy import worst_difference
 from ridgeback.symbolic.enclosure.enclosure import enclose, rounded_up
 from ridgeback.symbolic.expansion.amplitude import measured
@@ -26,6 +27,7 @@ from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
+from ridgeback.symbolic.flow.averaged_losses import averaged_losses
 from ridgeback.symbolic.flow.loss_flow import LossFlow
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.slow_flow import SlowFlow
@@ -224,7 +226,10 @@ def _against_quadrature(oscillator: Oscillator, series: Expansion | PowerExpansi
     if series.symbolic_names:
         values = {name: sympy.Rational(n + 1, n + 2) for n, name in enumerate(series.symbolic_names)}
         oscillator = oscillator.with_parameters(values)
-        series = energy_on_each_side(oscillator, series.order, amplitude=series.amplitude)
+        given, series = series, energy_on_each_side(oscillator, series.order, amplitude=series.amplitude)
+        if others := _others(given, values, series):
+            said = ", ".join(f"{name} = {value}" for name, value in values.items())
+            return Check("quadrature", False, f"derived again with {said}, the coefficients {others} are others")
     order = series.order + 1
     following = energy_on_each_side(oscillator, order, amplitude=series.amplitude)
     if following.coefficients[: len(series.coefficients)] != series.coefficients:
@@ -243,11 +248,25 @@ def _against_quadrature(oscillator: Oscillator, series: Expansion | PowerExpansi
     return Check("quadrature", holds, f"{text}, {less} than A^{order}")
 
 
+def _others(
+    given: Expansion | PowerExpansion, values: Mapping[str, sympy.Rational], series: Expansion | PowerExpansion
+) -> list[int]:
+    """The coefficients that are others than those of a series, once its parameters have these values; in balls."""
+    with ctx.workprec(MOST_BITS):
+        inserted = [number_ball(c.subs({s: values[s.name] for s in c.free_symbols})) for c in given.frequency]
+        known = [number_ball(c) for c in series.frequency]
+    pairs = enumerate(zip_longest(inserted, known, fillvalue=arb(0)))
+    return [n for n, (one, other) in pairs if not one.overlaps(other)]
+
+
 def _losses_against(oscillator: Oscillator, flow: LossFlow) -> Check:
     """The growth rate in the peak amplitude against the energy lost on the enclosed orbit, each loss alone."""
     order = flow.order - 1
     if order < 1:
         raise InputError(f"order {flow.order} holds no growth rate; use 2 or more")
+    again = averaged_losses(oscillator, flow.order, amplitude=flow.amplitude)
+    if (again.frequency, again.growth_rate) != (flow.frequency, flow.growth_rate):
+        return Check("quadrature", False, "averaged again, the terms are others")
     names = {name for name, value in oscillator.parameters.items() if value is None} - set(flow.losses)
     values = {name: sympy.Rational(n + 1, n + 2) for n, name in enumerate(sorted(names))}
     own = oscillator.with_parameters(values) if values else oscillator

@@ -1,5 +1,6 @@
 """A certificate passes what is right, notices what is wrong, and says what does not apply."""
 
+import itertools
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
@@ -13,10 +14,13 @@ from ridgeback.symbolic.arithmetic.balls import ball, natural_frequency, number_
 from ridgeback.symbolic.certificates.at_cycles import certified_cycles
 from ridgeback.symbolic.certificates.certificate import certify
 from ridgeback.symbolic.certificates.lost_energy import enclosed_growth_rate
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.flow.averaged_losses import averaged_losses
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.high_order.in_balls import lindstedt_in_balls
+from ridgeback.symbolic.series.spaces import space_for
 from ridgeback.symbolic.series.trigonometric import cosine
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -39,6 +43,39 @@ def test_slow_flows_and_the_energy_integral() -> None:
     damped = find("damped-helmholtz-duffing")
     assert [c.passed for c in certify(damped, multiple_scales(damped, 6))] == [True, True]
     assert [c.passed for c in certify(find("pendulum"), energy_integral(find("pendulum"), 6))] == [True]
+
+
+@pytest.mark.parametrize(
+    ("equation", "order"),
+    [
+        ("u'' + u + b*u*abs(u) + c*u**3 = 0", 2),
+        ("u'' + k**2*u + b*u*abs(u) = 0", 2),
+        ("u'' + c*u**3 + u**5 = 0", 2),
+        ("u'' + 2*u + abs(u)*u = 0", 2),
+    ],
+)
+def test_one_wrong_coefficient_of_a_series_on_each_side_fails(equation: str, order: int) -> None:
+    """Also where parameters have no value, and where it is wrong in one of them only."""
+    own = Oscillator.from_equation(equation)
+    series = energy_on_each_side(own, order)
+    assert [check.passed for check in certify(own, series)] == [True]
+    zero, factors = fmpq(0), [2, *(space_for(series.names).gen(name) + 1 for name in series.names)]
+    for n, factor in itertools.product(range(len(series.coefficients)), factors):
+        wrong = replace(
+            series, coefficients=tuple(factor * c if n == i else c for i, c in enumerate(series.coefficients))
+        )
+        assert [check.passed for check in certify(own, wrong)] == [series.coefficients[n] == zero]
+
+
+@pytest.mark.parametrize("equation", ["u'' + F*sign(u') + c*abs(u')*u' + u = 0", "u'' + c*abs(u')*u' + sin(u) = 0"])
+def test_one_wrong_term_of_averaged_losses_fails(equation: str) -> None:
+    own = Oscillator.from_equation(equation)
+    flow = averaged_losses(own, 2)
+    assert [check.passed for check in certify(own, flow)] == [True]
+    for terms in ("phase_terms", "growth_terms"):
+        first, *others = getattr(flow, terms)
+        wrong = replace(flow, **{terms: (replace(first, coefficient=first.coefficient * 2), *others)})
+        assert [check.passed for check in certify(own, wrong)] == [False]
 
 
 def test_what_does_not_apply_is_said() -> None:
