@@ -25,6 +25,7 @@ from ridgeback.compare.identification.ranking import covariance, spread_along
 from ridgeback.compare.identification.results import NORMAL_95, Prediction
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.backbone.backbone import backbone
+from ridgeback.numeric.backbone.model_rates import PHASE, ModelRates
 from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.tracking.track import Track
@@ -127,7 +128,7 @@ def cut_after(phase: Array, cycles: float, recording: Recording) -> int:
 def measured_rest(
     recording: Recording, track: Track, phase: Array, until: float, models: SignalModels | None = None
 ) -> Rest:
-    """Amplitude, frequency and phase where the window of the measurement lies after the cut."""
+    """Amplitude, frequency and phase after the cut: by ``models`` of the samples if there are any, else in windows."""
     start = float(recording.time[0])
     found = backbone(track, recording.values, recording.rate, start=start, models=models)
     margin = 0.5 * (found.window_seconds or 0.0)
@@ -135,10 +136,13 @@ def measured_rest(
     if np.count_nonzero(later) < 4:
         raise InputError(f"{recording.source}: nothing clear of noise is left to predict; fit fewer cycles")
     time = found.time[later] - start
-    at = np.clip(np.rint(time * recording.rate).astype(int), 0, phase.size - 1)
+    at = np.clip(np.rint(time * recording.rate).astype(np.intp), 0, phase.size - 1)
     amplitude, sd = found.amplitude[later], found.amplitude_sd[later]
+    phase_sd = sd / amplitude
+    if models is not None and models.fine is not models.coarse:
+        phase, phase_sd = models.fine.phase, ModelRates(models, at).at_points(PHASE, slopes=False)
     cut = float(phase[round(until * recording.rate)])
-    return Rest(time, amplitude, sd, found.omega[later], found.omega_sd[later], phase[at], sd / amplitude, cut)
+    return Rest(time, amplitude, sd, found.omega[later], found.omega_sd[later], phase[at], phase_sd, cut)
 
 
 @dataclass(frozen=True)

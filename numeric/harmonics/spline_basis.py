@@ -247,10 +247,10 @@ def overlap_sums(basis: SplineBasis, weights: Weights, pairs: list[tuple[int, in
     sums = [np.zeros((basis.count, len(pairs))) for _ in range(basis.degree + 1)]
     step = max(1024, PRODUCTS // len(pairs))
     for part in basis.parts():
-        given = weights(part)
+        given = weights(part).T
         for first in range(0, part.time.size, step):
             some = slice(first, first + step)
-            products = given[some][:, left] * given[some][:, right]
+            products = (given[left, some] * given[right, some]).T
             part.add_overlaps(sums, products, some)
     return sums
 

@@ -18,6 +18,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics.spline_basis import NormalEquations, SplineBasis, normal_equations
 from ridgeback.numeric.harmonics.spline_parts import Part
+from ridgeback.numeric.harmonics.window_steps import turning
 from ridgeback.numeric.signal.samples import TWO_PI
 
 CLEAR = 5.0
@@ -156,11 +157,19 @@ class SplineModel:
 
 
 def weights_of(phase: Array, amplitude: Array, multiples: tuple[int, ...]) -> Array:
-    """What multiplies each spline: an increment of l, b_h and c_h in turn, d, and an increment of phi."""
-    columns = [amplitude * np.cos(phase)]
-    for h in multiples:
-        columns += [amplitude * np.cos(h * phase), amplitude * np.sin(h * phase)]
-    return np.stack([*columns, np.ones_like(phase), -amplitude * np.sin(phase)], axis=1)
+    """What multiplies each spline, ``(R, F)``: an increment of l, b_h and c_h in turn, d, and an increment of phi.
+
+    Samples lie side by side in memory.
+    """
+    rows = np.empty((3 + 2 * len(multiples), phase.size))
+    turn = turning(phase)
+    rows[0], rows[-2], rows[-1] = amplitude * turn.real, 1.0, -amplitude * turn.imag
+    power, reached = turn, 1
+    for at, h in enumerate(multiples):
+        power, reached = power * turn ** (h - reached), h
+        np.multiply(amplitude, power.real, out=rows[1 + 2 * at])
+        np.multiply(amplitude, power.imag, out=rows[2 + 2 * at])
+    return rows.T
 
 
 @dataclass(frozen=True)

@@ -191,8 +191,8 @@ class Between(Part):
         return self.interpolated(slopes=True)
 
     def read(self, coefficients: Array, *, slopes: bool = False) -> Array:
-        """As of any part."""
-        return np.asarray((self.slope_entries if slopes else self.entries) @ coefficients[self.seen])
+        """As of any part; samples lie side by side in memory."""
+        return np.asarray((coefficients[self.seen].T @ (self.slope_entries if slopes else self.entries).T).T)
 
     def spread(self, entries: Array, coefficients: Array) -> Array:
         """As of any part."""
