@@ -24,8 +24,9 @@ from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.model_fit.family import Family
 from ridgeback.numeric.model_fit.fit import fitted
 from ridgeback.numeric.model_fit.track import model_track
-from ridgeback.numeric.signal.decimation import PER_CYCLE, Samples, checked, decimated
+from ridgeback.numeric.signal.decimation import LONG, PER_CYCLE, Samples, checked, decimated
 from ridgeback.numeric.signal.presence import presence
+from ridgeback.numeric.signal.search_band import SearchBand
 from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.own_stretch import has_model, in_its_stretch
 from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, Request, prepared, refuse_cross_term
@@ -100,6 +101,8 @@ MODEL_FIT = "model-fit"
 """The method that needs an oscillator beside the signal."""
 HARDLY_KNOWN = 0.1
 """Half width of a 95 % interval, relative to omega, beyond which a value is not counted as valid."""
+MORE_PER_CYCLE, VERY_LONG = 12.0, 200_000
+"""Samples a cycle that methods other than auto keep of a record of more samples than that."""
 QUADRATIC = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner", "polynomial-wigner")
 """Methods whose distribution has cross terms on the harmonics."""
 
@@ -138,7 +141,7 @@ def estimate(
     method : str
         One of METHODS, or ``"model-fit"``.  ``"auto"`` takes the method and the window that should have the least error
         on a model of the signal, says why in ``used.why``, and decimates records of more than 16,384 samples first,
-        where the rate allows.
+        where the rate allows; the others do so with records of more than 200,000.
     band : (float, float), optional
         Lowest and highest frequency looked at, rad per time unit; by default a band around the strongest component is
         found from the data.  A Wigner peak is refused in a band around a harmonic of a stronger component: a cross term
@@ -255,9 +258,7 @@ def estimation(
     if method not in METHODS:
         raise InputError(f"method {method!r} is unknown; use one of {', '.join((*METHODS, MODEL_FIT))}")
     refuse_unused(method, options.given)
-    search = None
-    if method == "auto":
-        samples, search = decimated(samples, band=options.band, per_cycle=max(PER_CYCLE, 4.0 * harmonic))
+    samples, search = of_enough_samples(samples, method, options, harmonic)
     check_memory(method, samples.x.size)
     no_room = without_room(method, samples.x.size) if options.bias else None
     if no_room is not None and remove_bias:
@@ -288,6 +289,15 @@ def estimation(
         track = of_harmonic(harmonic, request, track.held_against(noise).of_oscillation(), remove_bias)
     track = track if no_room is None else replace(track, no_interval=no_room)
     return Estimation(track.held_against(noise), samples, request)
+
+
+def of_enough_samples(
+    samples: Samples, method: str, options: Options, harmonic: int
+) -> tuple[Samples, SearchBand | None]:
+    """A long record decimated, as far as method and harmonics allow, with its search band where that was looked for."""
+    least, longest = (PER_CYCLE, LONG) if method == "auto" else (MORE_PER_CYCLE, VERY_LONG)
+    highest = max(harmonic, options.harmonics or 1)
+    return decimated(samples, band=options.band, per_cycle=max(least, 4.0 * highest), longest=longest)
 
 
 def without_bias_of(request: Request) -> Request:

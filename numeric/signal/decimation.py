@@ -57,9 +57,9 @@ def checked(x: ArrayLike, rate: float, *, start: float, what: str, at_least: int
 
 
 def decimated(
-    samples: Samples, *, band: tuple[float, float] | None, per_cycle: float = PER_CYCLE
+    samples: Samples, *, band: tuple[float, float] | None, per_cycle: float = PER_CYCLE, longest: int = LONG
 ) -> tuple[Samples, SearchBand | None]:
-    """Decimate a record of more than LONG samples by a linear-phase filter; a shorter one is handed back as is.
+    """Decimate a record of more than ``longest`` samples by a linear-phase filter; a shorter one is handed back as is.
 
     The search band that tells how many samples are needed comes with them, None where it was not looked for.
 
@@ -71,7 +71,7 @@ def decimated(
     True
     """
     x, rate = samples.x, samples.rate
-    if x.size <= LONG or not np.ptp(x) > 0.0:
+    if x.size <= longest or not np.ptp(x) > 0.0:
         return samples, None
     search = find_search_band(x - x.mean(), rate, band=band)
     factor = int(TWO_PI * rate / (float(search.guide.max()) * per_cycle))

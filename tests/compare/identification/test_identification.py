@@ -187,6 +187,17 @@ def test_prediction_from_the_first_cycles() -> None:
     assert ahead.phase_band[-1] > ahead.phase_band[0]
 
 
+def test_a_linear_decay_is_predicted_down_to_its_tail() -> None:
+    """The phase that a forecast is held against is the model's own, with its deviation, not that of a short window."""
+    t = np.arange(900) / 15.0
+    x = np.exp((-0.0628 + 4j * np.pi) * t).real + 0.001 * np.random.default_rng(4).normal(size=t.size)
+    found = predict(
+        Recording(t, x, 15.0, "u", "", "decay.csv", ""), cycles=40, candidates=("linear",), laws=("linear",)
+    )
+    assert found.errors["phase"] < 0.003
+    assert min(found.coverage.values()) > 0.8
+
+
 def test_the_papers_pendulum_is_a_pendulum() -> None:
     """From 0.95 pi, where the swing is nearly square and the frequency doubles within the record."""
     k, mu = 4 * math.pi, 0.01
