@@ -206,11 +206,11 @@ def backbone_model(terms: int, law: DampingLaw) -> Model:
     @lru_cache(maxsize=4)
     def numbers_to_flow(numbers: tuple[float, ...]) -> Flow:
         k, bend, (h0, h2, h3) = numbers[0], numbers[1 : 1 + bends], numbers[1 + bends : 4 + bends]
-        r = rates_of(law, np.array(numbers[4 + bends :]))
-        growth = -0.5 * (r[0] + r[1] * 8 / (3 * math.pi) * X + 0.75 * r[2] * X**2 + r[3] * 4 / (math.pi * X))
-        growth = np.minimum(growth, -1e-9 * k)
+        r = [rate / k for rate in rates_of(law, np.array(numbers[4 + bends :]))]
+        loss = r[0] + r[1] * 8 / (3 * math.pi) * X + 0.75 * r[2] * X**2 + r[3] * 4 / (math.pi * X)
         undamped = np.asarray(np.polynomial.polynomial.polyval(X**2, (1.0, *bend)), dtype=np.float64)
-        omega, sine = responding(response, undamped, X, [rate / k for rate in r])
+        omega, loss, sine = responding(response, undamped, X, loss, r)
+        growth = -0.5 * k * loss
         cosine = np.array([h0 * X, np.ones_like(X), h2 * X, h3 * X**2, np.zeros_like(X)])
         return Flow(-np.log(X), -growth, k * omega, growth, X, cosine, sine)
 

@@ -1,4 +1,4 @@
-r"""What weak losses do to the waveform to first order and to the frequency to second, in any smooth potential.
+r"""What losses do to the waveform in first order, to the frequency in second and to the decay in third, in any well.
 
 In the action J and the phase phi of the undamped orbit u = U(J, phi), a loss h(u') acts by
 
@@ -11,18 +11,21 @@ With J = I + P1 + P2 and phi = psi + Q1 + Q2 of zero mean but for what is said b
     omega P2_psi = f_J P1 + f_phi Q1 - F P1_J,
     B = <omega_J P2 + omega_JJ P1^2 / 2 + g_J P1 + g_phi Q1 - F Q1_J>,     omega Q2_psi = that less its mean,
 
-with every derivative at (I, psi).  The means of Q1 and P2 are those with which a cos psi is the first harmonic of u to
-second order, a that of the undamped orbit: then a'/a and the cosines stay as they are in first order, as losses change
-sign with time, and u has sines.  On the cosine of a linear force B is -mu^2/2 of 2 mu u', and -6 F^2/(pi a)^2
-of F sign(u').
+with every derivative at (I, psi), and I' in third order, for the second vanishes as losses change sign with time,
+
+    G = <f_J P2 + f_phi Q2 + f_JJ P1^2 / 2 + f_Jphi P1 Q1 + f_phiphi Q1^2 / 2> - F <P2>_J.
+
+The means of Q1 and P2 are those with which a cos psi is the first harmonic of u to second order, a that of the
+undamped orbit; u has sines of first order then.  On the cosine of a linear force B is -mu^2/2 of 2 mu u', which has no
+G, and -6 F^2/(pi a)^2 of F sign(u').
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
+from dataclasses import dataclass, field, fields
+from functools import lru_cache
 from itertools import combinations_with_replacement
 
 import numpy as np
@@ -43,6 +46,7 @@ class Orbits:
     """Undamped orbits on the peaks of a table, ``[peak, phase]``, with their derivatives by the action."""
 
     along: AlongPeaks
+    J: Array
     J_A: Array
     """dJ/dA."""
     omega: Array
@@ -76,11 +80,16 @@ class First:
     g: Array
     g1: Array
     f1: Array
+    f2: Array
     """Derivatives by J."""
     f_phi: Array
+    f_phi1: Array
 
-    def __add__(self, other: First) -> First:
-        return First(*(getattr(self, name) + getattr(other, name) for name in First.__dataclass_fields__))
+
+def weighted(firsts: Sequence[First], rates: Sequence[float]) -> First:
+    """The first order of a sum of losses."""
+    pairs = list(zip(rates, firsts, strict=True))
+    return First(*(np.sum([rate * getattr(one, name.name) for rate, one in pairs], axis=0) for name in fields(First)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,6 +124,7 @@ def orbits_of(table: OrbitTable) -> Orbits:
     omega1, U_J = peaks.slope(omega, 0) / J_A, peaks.slope(u, 1) / J_A
     return Orbits(
         along=peaks,
+        J=table.action[:, None],
         J_A=J_A,
         omega=omega,
         omega1=omega1,
@@ -154,6 +164,7 @@ def first_order(orbits: Orbits, exponent: int) -> First:
     h = np.abs(velocity) ** exponent * np.sign(velocity)
     stiffer = exponent * np.abs(velocity) ** (exponent - 1) if exponent else np.zeros_like(velocity)
     f, g = -h * o.slope, h * o.U_J
+    f1, f_phi = o.by_action(f, exponent + 1), -stiffer * o.omega * o.bend * o.slope - h * o.bend
     F = mean(f)
     P1 = primitive(f) / o.omega
     turned = primitive(g + o.omega1 * P1) / o.omega
@@ -166,123 +177,145 @@ def first_order(orbits: Orbits, exponent: int) -> First:
         Q1_J=o.by_action(Q1, exponent - 1),
         g=g,
         g1=o.by_action(g, exponent - 1),
-        f1=o.by_action(f, exponent + 1),
-        f_phi=-stiffer * o.omega * o.bend * o.slope - h * o.bend,
+        f1=f1,
+        f2=o.by_action(f1, exponent - 1),
+        f_phi=f_phi,
+        f_phi1=o.by_action(f_phi, exponent + 1),
     )
 
 
-# g_phi Q1 is taken by parts, (g Q1)_psi - g Q1_psi: dry friction jumps at the turning points
-def second_order(orbits: Orbits, first: First) -> Array:
-    """B at each peak."""
+# g_phi Q1 and f_phiphi Q1^2 are taken by parts: dry friction jumps at the turning points
+def higher_orders(orbits: Orbits, first: First, lowest: int) -> tuple[Array, Array]:
+    """B and -G/J at each peak, of losses of which ``lowest`` is the least exponent."""
     o, s = orbits, first
+    turning = (s.g + o.omega1 * s.P1) / o.omega
     P2 = primitive(s.f1 * s.P1 + s.f_phi * s.Q1 - s.F * s.P1_J) / o.omega
-    by_parts = s.g * (s.g + o.omega1 * s.P1) / o.omega
-    rest = o.omega1 * P2 + 0.5 * o.omega2 * s.P1**2 + s.g1 * s.P1 - by_parts - s.F * s.Q1_J
+    rest = o.omega1 * P2 + 0.5 * o.omega2 * s.P1**2 + s.g1 * s.P1 - s.g * turning - s.F * s.Q1_J
     Q2 = (primitive(rest) + s.g * s.Q1) / o.omega
     waves = o.U_J * P2 + o.slope * Q2 + 0.5 * o.U_JJ * s.P1**2 + o.U_Jphi * s.P1 * s.Q1 + 0.5 * o.bend * s.Q1**2
     level = -harmonic(waves, 1, np.cos) / harmonic(o.U_J, 1, np.cos)
-    return np.asarray((mean(rest) + o.omega1 * level)[:, 0])
+    lost = s.f1 * (P2 + level) + s.f_phi * (Q2 - s.Q1 * turning) + 0.5 * s.f2 * s.P1**2 + s.f_phi1 * s.P1 * s.Q1
+    G = mean(lost) - s.F * o.by_action(level, 2 * lowest)
+    return (mean(rest) + o.omega1 * level)[:, 0], -(G / o.J)[:, 0]
 
 
-@dataclass(frozen=True, eq=False)
-class AtPeaks:
-    """The response of orbits at their own peaks; each part is found once."""
+@dataclass(frozen=True)
+class Acting:
+    """Losses that act together, and the products of two and of three of their rates that the orders go with."""
 
-    orbits: Orbits
-    known: dict[tuple[int, ...], Array] = field(default_factory=dict)
-    firsts: dict[int, First] = field(default_factory=dict)
+    losses: tuple[int, ...]
 
-    def first(self, i: int) -> First:
-        """The first order of a loss."""
-        if i not in self.firsts:
-            self.firsts[i] = first_order(self.orbits, EXPONENTS[i])
-        return self.firsts[i]
+    @property
+    def pairs(self) -> list[tuple[int, ...]]:
+        """Every two of them, each with itself too."""
+        return list(combinations_with_replacement(self.losses, 2))
 
-    def pair(self, i: int, j: int) -> Array:
-        """The part of B with the product of the rates of two losses, at each peak."""
-        if (i, j) not in self.known:
-            whole = self.first(i) if i == j else self.first(i) + self.first(j)
-            parts = 0.0 if i == j else self.pair(i, i) + self.pair(j, j)
-            self.known[i, j] = second_order(self.orbits, whole) - parts
-        return self.known[i, j]
+    @property
+    def triples(self) -> list[tuple[int, ...]]:
+        """Every three."""
+        return list(combinations_with_replacement(self.losses, 3))
 
-    def sines(self, i: int) -> Array:
-        """Coefficients of sin(m phi) in u by the rate of a loss, ``[m, peak]``."""
-        wave = self.orbits.U_J * self.first(i).P1 + self.orbits.slope * self.first(i).Q1
-        return np.array([harmonic(wave, m, np.sin)[:, 0] * (m > 1) for m in range(HARMONICS + 1)])
+    @property
+    def sines(self) -> list[tuple[int, ...]]:
+        """Each alone, once for every harmonic."""
+        return [(i,) for i in self.losses for _ in range(HARMONICS + 1)]
+
+    def tried(self) -> Array:
+        """Rates, one row a trial, by which a cubic form is known: those with the sum 3 of whole numbers."""
+        return np.array([[one.count(i) for i in self.losses] for one in self.triples], dtype=float)
+
+    def products(self, rates: Array, of: list[tuple[int, ...]]) -> Array:
+        """Those of rates ``[trial, loss]``, ``[trial, product]``."""
+        places = {loss: rates[:, at] for at, loss in enumerate(self.losses)}
+        return np.array([np.prod([places[i] for i in one], axis=0) for one in of]).T
+
+
+# B is a quadratic form in the rates and G a cubic one
+def parts_at_peaks(orbits: Orbits, acting: Acting) -> Array:
+    """B by pairs, -G/J by triples and the coefficients of sin(m phi) in u by losses, at each peak: ``[part, peak]``."""
+    firsts = [first_order(orbits, EXPONENTS[i]) for i in acting.losses]
+    rates, lowest = acting.tried(), min(EXPONENTS[i] for i in acting.losses)
+    found = [higher_orders(orbits, weighted(firsts, row), lowest) for row in rates.tolist()]
+    B, lost = (np.array(rows) for rows in zip(*found, strict=True))
+    second = np.linalg.lstsq(acting.products(rates, acting.pairs), B, rcond=None)[0]
+    third = np.linalg.solve(acting.products(rates, acting.triples), lost)
+    waves = [orbits.U_J * one.P1 + orbits.slope * one.Q1 for one in firsts]
+    sines = [harmonic(wave, m, np.sin)[:, 0] * (m > 1) for wave in waves for m in range(HARMONICS + 1)]
+    return np.concatenate((second, third, sines))
+
+
+@dataclass(frozen=True)
+class Under:
+    """What losses do at M amplitudes: B, what they add to -J'/J, and coefficients of sin(m phi) in u, ``[m, M]``."""
+
+    shift: Array
+    more: Array
+    sines: Array
+
+
+def together(acting: Acting, parts: Array, rates: Sequence[float]) -> Under:
+    """The parts of the losses at their rates."""
+    row = np.array([[rates[i] for i in acting.losses]])
+    ends = np.cumsum([len(acting.pairs), len(acting.triples)])
+    second, third, sines = np.split(parts, ends)
+    return Under(
+        (acting.products(row, acting.pairs) @ second)[0],
+        (acting.products(row, acting.triples) @ third)[0],
+        np.tensordot(row[0], sines.reshape(len(acting.losses), HARMONICS + 1, -1), 1),
+    )
 
 
 @lru_cache(maxsize=1)
-def at_rest() -> AtPeaks:
+def at_rest() -> Orbits:
     """Those of the linear oscillator with k = 1; the last peak is 1."""
     A = np.array([0.25, 0.5, 0.75, 1.0])
     cosine = np.zeros((HARMONICS + 1, A.size))
     cosine[1] = A
-    return AtPeaks(
-        orbits_of(OrbitTable(A, np.ones(4), 0.5 * A**2, cosine, 4 / (3 * np.pi) * A**3, 0.375 * A**4, 2 * A))
-    )
+    return orbits_of(OrbitTable(A, np.ones(4), 0.5 * A**2, cosine, 4 / (3 * np.pi) * A**3, 0.375 * A**4, 2 * A))
 
 
 @lru_cache(maxsize=16)
-def linear_pair(i: int, j: int) -> float:
-    """The part of B with the product of two rates, on the cosine of amplitude 1 with k = 1.
+def linear_parts(acting: Acting) -> Array:
+    """The parts on the cosine of amplitude 1 with k = 1, ``(part,)``.
 
-    >>> round(linear_pair(0, 0), 9), round(linear_pair(3, 3) * np.pi**2, 2)
-    (-0.125, -6.0)
+    >>> [round(part, 6) + 0.0 for part in linear_parts(Acting((0,)))[:2].tolist()]
+    [-0.125, 0.0]
     """
-    return float(at_rest().pair(i, j)[-1])
-
-
-@lru_cache(maxsize=4)
-def linear_sines(i: int) -> Array:
-    """Coefficients of sin(m phi) by the rate of a loss, on the cosine of amplitude 1 with k = 1.
-
-    >>> float((15 * np.pi * linear_sines(1)[3]).round(4))  # |u'| u' holds 8 sin(3 phi)/(15 pi), and u an eighth of it
-    1.0
-    """
-    return at_rest().sines(i)[:, -1]
-
-
-def pairs_of(acting: Sequence[int]) -> list[tuple[int, int]]:
-    """Every two of some losses, each with itself too."""
-    return list(combinations_with_replacement(acting, 2))
+    return parts_at_peaks(at_rest(), acting)[:, -1]
 
 
 class Response(ABC):
-    """B and the sines of u under a sum of rates times the losses that are numbered as in EXPONENTS, in units k = 1."""
+    """What a sum of rates times the losses that are numbered as in EXPONENTS does at M amplitudes, in units k = 1."""
 
     @abstractmethod
-    def parts(self, acting: tuple[int, ...]) -> tuple[Array, Array]:
-        """Of some losses, those of B by the product of two rates, ``[pair, M]``, and of u by a rate, ``[loss, m, M]``.
+    def parts(self, acting: Acting) -> Array:
+        """Those of :func:`parts_at_peaks`, ``[part, M]``."""
 
-        The latter are the coefficients of sin(m phi).
-        """
-
-    def under(self, rates: Sequence[float]) -> tuple[Array, Array]:
-        """B, ``(M,)``, and the coefficients of sin(m phi) in u, ``[m, M]``."""
-        acting = tuple(i for i, rate in enumerate(rates) if rate) or (0,)
-        pairs, sines = self.parts(acting)
-        products = [rates[i] * rates[j] for i, j in pairs_of(acting)]
-        return np.asarray(products @ pairs), np.tensordot([rates[i] for i in acting], sines, 1)
+    def under(self, rates: Sequence[float]) -> Under:
+        """All that they do at their rates."""
+        acting = Acting(tuple(i for i, rate in enumerate(rates) if rate) or (0,))
+        return together(acting, self.parts(acting), rates)
 
 
 @dataclass(frozen=True, eq=False)
 class OfCosine(Response):
     """That of a cosine of any amplitude and frequency, ``(M,)``: of the linear oscillator, nearly of one with kinks.
 
-    >>> OfCosine(np.ones(1), np.full(1, 2.0)).under((0.1,))[0].round(9).tolist()  # -mu^2 / (2 omega)
+    >>> OfCosine(np.ones(1), np.full(1, 2.0)).under((0.1,)).shift.round(9).tolist()  # -mu^2 / (2 omega)
     [-0.000625]
     """
 
     amplitude: Array
     omega: Array
 
-    def parts(self, acting: tuple[int, ...]) -> tuple[Array, Array]:
-        """As of any response."""
-        r = [float(power) for power in EXPONENTS]
+    def parts(self, acting: Acting) -> Array:
+        """As of any response: each loss goes with a^(r - 1) omega^(r - 2)."""
         a, w = self.amplitude, self.omega
-        pairs = [linear_pair(i, j) * a ** (r[i] + r[j] - 2) * w ** (r[i] + r[j] - 3) for i, j in pairs_of(acting)]
-        return np.array(pairs), np.array([np.outer(linear_sines(i), a ** r[i] * w ** (r[i] - 2)) for i in acting])
+        size = [a ** (r - 1.0) * w ** (r - 2.0) for r in EXPONENTS]
+        scale = [w * size[i] * size[j] for i, j in acting.pairs]
+        scale += [w * size[i] * size[j] * size[k] for i, j, k in acting.triples]
+        scale += [a * size[i] for (i,) in acting.sines]
+        return linear_parts(acting)[:, None] * scale
 
 
 @dataclass(frozen=True, eq=False)
@@ -291,28 +324,19 @@ class OfPotential(Response):
 
     table: OrbitTable
     peak: Array
-    known: dict[tuple[int, ...], tuple[Array, Array]] = field(default_factory=dict)
+    known: dict[Acting, Array] = field(default_factory=dict)
 
-    @cached_property
-    def own(self) -> AtPeaks:
-        """That at the peaks of the table."""
-        return AtPeaks(orbits_of(self.table))
-
-    def parts(self, acting: tuple[int, ...]) -> tuple[Array, Array]:
+    def parts(self, acting: Acting) -> Array:
         """As of any response."""
         if acting not in self.known:
             self.known[acting] = self.read(acting)
         return self.known[acting]
 
-    def read(self, acting: tuple[int, ...]) -> tuple[Array, Array]:
+    def read(self, acting: Acting) -> Array:
         """The parts at the peaks that are wanted, by one spline of each over its power of the peak, down to rest."""
-        pairs, rows = pairs_of(acting), HARMONICS + 1
-        powers = [EXPONENTS[i] + EXPONENTS[j] - 2.0 for i, j in pairs]
-        powers += [float(EXPONENTS[i]) for i in acting for _ in range(rows)]
-        at_peaks = [self.own.pair(i, j)[None] for i, j in pairs] + [self.own.sines(i) for i in acting]
-        limit = [[linear_pair(i, j)] for i, j in pairs] + [linear_sines(i) for i in acting]
-        scaled = np.concatenate(at_peaks).T / self.table.peak[:, None] ** powers
-        places = np.concatenate(([0.0], self.table.peak))
-        smooth = CubicSpline(places, np.concatenate((np.concatenate(limit)[None], scaled)))
-        found = (smooth(self.peak) * np.maximum(self.peak, np.finfo(float).tiny)[:, None] ** powers).T
-        return found[: len(pairs)], found[len(pairs) :].reshape(len(acting), rows, self.peak.size)
+        products = [*acting.pairs, *acting.triples, *acting.sines]
+        powers = [float(sum(EXPONENTS[i] - 1 for i in one)) for one in products]
+        powers[-len(acting.sines) :] = [power + 1.0 for power in powers[-len(acting.sines) :]]
+        scaled = parts_at_peaks(orbits_of(self.table), acting).T / self.table.peak[:, None] ** powers
+        smooth = CubicSpline(np.append(0.0, self.table.peak), np.vstack((linear_parts(acting), scaled)))
+        return np.asarray(smooth(self.peak) * np.maximum(self.peak, np.finfo(float).tiny)[:, None] ** powers).T

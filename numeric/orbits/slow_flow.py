@@ -2,10 +2,10 @@
 
 Averaging a damping 2 mu u' + beta |u'| u' + gamma u'^3 + F sign(u') over an undamped orbit gives the loss of action
 
-    R = -J'/J = 2 mu + (beta <|u'|^3> + gamma <u'^4> + F <|u'|>) / (omega0 J),     phi'^2 = omega0^2 + 2 omega0 B,
+    R = -J'/J = 2 mu + (beta <|u'|^3> + gamma <u'^4> + F <|u'|>) / (omega0 J) - G/J,     phi'^2 = omega0^2 + 2 omega0 B,
 
-(Bogoliubov and Mitropolsky 1961), with B the shift of the frequency of second order in the losses (``loss_response``;
-omega0^2 - mu^2 is exact for the linear oscillator), so that time and phase at each level of action are integrals,
+(Bogoliubov and Mitropolsky 1961), with B of second order in the losses and G of third (``loss_response``; for the linear
+oscillator omega0^2 - mu^2 is exact), so that time and phase at each level of action are integrals,
 t = int d ln J / R and phi = int omega d ln J / R: no differential equation is left to solve.
 """
 
@@ -26,8 +26,8 @@ from ridgeback.numeric.orbits.orbit_table import OrbitTable
 
 LEAST_RATE = 1e-9
 """Floor of R relative to omega: where damping is lost or turns to growth, the amplitude stays."""
-LEAST_OMEGA, MOST_SINE, UNSEEN = 0.1, 0.5, 1e-9
-"""Bounds of phi' over k and of a sine over the fundamental, and a sine that is left out."""
+LEAST_OMEGA, MOST_MORE, MOST_SINE, UNSEEN = 0.1, 0.3, 0.5, 1e-9
+"""Bounds of phi' over k, of a third order over its first and of a sine over the fundamental; a sine to leave out."""
 MOST_LOG = 50.0
 """Amplitudes are kept within exp(-50) and exp(50), so that a step of a fit that goes astray has a finite cost."""
 
@@ -163,28 +163,34 @@ def decay_flow(orbits: ScaledOrbits, *, k: float, length: float, rates: tuple[fl
     loss = rates[0] + (rates[1] * orbits.cubic + rates[2] * orbits.quartic) / power
     if len(rates) > 3:
         loss = loss + rates[3] * orbits.width / (math.pi * orbits.action)
-    loss = np.maximum(loss, LEAST_RATE * k * orbits.omega)
-    fundamental = orbits.cosine[1]
-    omega, sine = responding(orbits.response, orbits.omega, fundamental, [rate / k for rate in rates])
+    fundamental, scaled = orbits.cosine[1], [rate / k for rate in rates]
+    omega, loss, sine = responding(orbits.response, orbits.omega, fundamental, loss / k, scaled)
     down = slice(None, None, -1)
     return Flow(
         level=-orbits.level[down],
-        rate=loss[down],
+        rate=k * loss[down],
         omega=k * omega[down],
-        growth=-(loss * orbits.bend)[down],
+        growth=-k * (loss * orbits.bend)[down],
         amplitude=length * fundamental[down],
         cosine=(orbits.cosine / fundamental)[:, down],
         sine=sine[:, down],
     )
 
 
-def responding(response: Response, omega: Array, fundamental: Array, rates: Sequence[float]) -> tuple[Array, Array]:
-    """phi' and the sines of u/a under losses, in units k = 1, both kept within what a fit that goes astray can bear."""
-    shift, sine = response.under(rates)
-    square = omega**2 + 2.0 * omega * shift
-    sine = np.clip(sine / fundamental, -MOST_SINE, MOST_SINE)
+def responding(
+    response: Response, omega: Array, fundamental: Array, loss: Array, rates: Sequence[float]
+) -> tuple[Array, Array, Array]:
+    """phi', R and the sines of u/a under losses, of omega0 and R in first order, in units k = 1.
+
+    All are kept within what a fit that goes astray can bear.
+    """
+    under = response.under(rates)
+    square = omega**2 + 2.0 * omega * under.shift
+    more, most = under.more, MOST_MORE * np.abs(loss)
+    sine = np.clip(under.sines / fundamental, -MOST_SINE, MOST_SINE)
     sine[np.abs(sine).max(axis=1) < UNSEEN] = 0.0
-    return np.sqrt(np.maximum(square, LEAST_OMEGA**2)), sine
+    loss = np.maximum(loss + np.clip(more, -most, most), LEAST_RATE * omega)
+    return np.sqrt(np.maximum(square, LEAST_OMEGA**2)), loss, sine
 
 
 def motion(flow: Flow, start: float, phase: float, time: Array, *, waveform: bool = True) -> Motion:

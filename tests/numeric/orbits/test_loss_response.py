@@ -12,7 +12,7 @@ from scipy.optimize import least_squares
 import ridgeback
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics, duffing, helmholtz_duffing, pendulum
-from ridgeback.numeric.orbits.loss_response import EXPONENTS, OfPotential, linear_pair
+from ridgeback.numeric.orbits.loss_response import EXPONENTS, Acting, OfPotential, linear_parts
 from ridgeback.numeric.orbits.orbit_table import orbit_table
 from ridgeback.numeric.orbits.slow_flow import decay_flow, motion, refine
 from ridgeback.symbolic.flow.second_order import Shape, coefficient
@@ -32,7 +32,34 @@ def test_pairs_of_losses_on_a_cosine_are_the_exact_ones(i: int, j: int) -> None:
         return float(sum(coefficient(a, b) for a, b in shapes))
 
     expected = exact(i, j) if i == j else exact(i, j) + exact(j, i)
-    assert linear_pair(i, j) == pytest.approx(expected, rel=CLOSE, abs=CLOSE)
+    acting = Acting(tuple(sorted({i, j})))
+    assert linear_parts(acting)[acting.pairs.index((i, j))] == pytest.approx(expected, rel=CLOSE, abs=CLOSE)
+
+
+def test_linear_damping_of_a_linear_force_has_no_third_order() -> None:
+    """Its a'/a is -mu exactly."""
+    acting = Acting((0,))
+    assert linear_parts(acting)[len(acting.pairs)] == pytest.approx(0.0, abs=1e-12)
+
+
+# u = +-F + (A_n - F) cos, A_(n+1) = A_n - 2F, in each half cycle, which takes pi
+def test_the_third_order_of_dry_friction_is_that_of_its_exact_motion() -> None:
+    """The fundamental falls by 2F/pi less (F/a)^2 of it; under a window of two cycles, from one half cycle to the next."""
+    friction, n = 0.03, np.arange(20)
+    swing = 1.0 - friction * (2 * n + 1)
+
+    def fundamental(cycles: int) -> float:
+        s = (np.arange(4096) + 0.5) / 4096 - 0.5
+        t = (cycles + 4 * s) * np.pi
+        half = (t / np.pi).astype(int)
+        x = friction * (-1.0) ** half + swing[half] * np.cos(t)
+        return float(2 * np.abs(np.mean(x * (1 + np.cos(2 * np.pi * s)) * np.exp(-1j * t))))
+
+    for at in (4, 8):
+        begin, end = fundamental(at), fundamental(at + 1)
+        less = 1.0 - (begin - end) / (2 * friction)
+        third = -0.25 * np.pi * float(linear_parts(Acting((3,)))[1]) * (2 * friction / (begin + end)) ** 2
+        assert less == pytest.approx(third, rel=0.06)
 
 
 @pytest.mark.parametrize(
@@ -45,7 +72,7 @@ def test_linear_damping_shifts_phi_as_multiple_scales_do(dynamics: Dynamics, for
     a = orbit_table(dynamics, peak).cosine[1]
     terms = ridgeback.multiple_scales(f"u'' + 2*mu*u' + {force} = 0", 10).frequency
     expected = sum(float(t.coefficient) * a ** t.powers[0] for t in terms if t.powers[1] == 2)
-    shift = OfPotential(orbit_table(dynamics, 1.2 * COARSE), peak).under([2.0])[0]
+    shift = OfPotential(orbit_table(dynamics, 1.2 * COARSE), peak).under([2.0]).shift
     assert np.allclose(shift, expected, rtol=0.0, atol=2e-4)
 
 
