@@ -4,8 +4,8 @@ Averaging a damping 2 mu u' + beta |u'| u' + gamma u'^3 + F sign(u') over an und
 
     R = -J'/J = 2 mu + (beta <|u'|^3> + gamma <u'^4> + F <|u'|>) / (omega0 J) - G/J,     phi'^2 = omega0^2 + 2 omega0 B,
 
-(Bogoliubov and Mitropolsky 1961), with B of second order in the losses and G of third (``loss_response``; for the linear
-oscillator omega0^2 - mu^2 is exact), so that time and phase at each level of action are integrals,
+(Bogoliubov and Mitropolsky 1961), with B of second order in the losses and G of third (``loss_response``; for the
+linear oscillator omega0^2 - mu^2 is exact), so that time and phase at each level of action are integrals,
 t = int d ln J / R and phi = int omega d ln J / R: no differential equation is left to solve.
 """
 

@@ -44,7 +44,7 @@ def test_linear_damping_of_a_linear_force_has_no_third_order() -> None:
 
 # u = +-F + (A_n - F) cos, A_(n+1) = A_n - 2F, in each half cycle, which takes pi
 def test_the_third_order_of_dry_friction_is_that_of_its_exact_motion() -> None:
-    """The fundamental falls by 2F/pi less (F/a)^2 of it; under a window of two cycles, from one half cycle to the next."""
+    """The fundamental under a window of two cycles falls by a little less than 2F from one half cycle to the next."""
     friction, n = 0.03, np.arange(20)
     swing = 1.0 - friction * (2 * n + 1)
 
