@@ -87,7 +87,8 @@ def identify(
         raise InputError(f"{used.source}: {cycles:.1f} cycles are too few to tell oscillators apart; give 6 or more")
     ranked = rank(data, names, allowed, kind, progress)
     refuse_another_quantity(ready, data, ranked, progress)
-    said = (*ready.notes, *used.notes, *(() if ready.doubt else data.measured.notes), *notes)
+    where = float(used.time[0]), float(used.time[-1])
+    said = (*ready.notes, *used.drift_notes(where), *used.notes, *(() if ready.doubt else data.measured.notes), *notes)
     return assembled(ready, data, ranked, kind, said, prediction)
 
 

@@ -128,7 +128,7 @@ def size_columns(size: AmplitudeTrack, time: Array) -> Mapping[str, Array]:
 
 def of_harmonic(recording: Recording, found: Estimation, multiple: int, band: Any) -> Measurement:
     """A harmonic with its track, phase-locked to the fundamental's, and its amplitude where the data show it."""
-    notes, size, used = recording.notes, None, found.samples
+    notes, size, used = (*recording.drift_notes(found.track.used.span), *recording.notes), None, found.samples
     try:
         if found.request is not None:
             size = amplitude_of(found.request, multiple)
@@ -184,7 +184,8 @@ def measured(recording: Recording, found: Estimation, harmonic: int, band: objec
     track = found.track
     if harmonic > 1:
         return of_harmonic(recording, found, harmonic, band)
-    told = (*beside_notes(track.used.tones, track.used.spikes), *recording.notes)
+    own = (*recording.drift_notes(track.used.span), *recording.notes)
+    told = (*beside_notes(track.used.tones, track.used.spikes), *own)
     if track.used.doubt:
         said = f"No interval and no amplitude: {track.used.doubt}."
         return Measurement(recording, track, None, (said, *told), unmeasured=track.used.doubt)
@@ -246,11 +247,12 @@ def of_half_cycles(recording: Recording, settings: Mapping[str, object]) -> Meas
     start = float(recording.time[0])
     found = half_cycles(recording.values, recording.rate, start=start, band=band)
     hit = None if not recording.clipped.any() else overlapping(recording, found)
+    own = (*recording.drift_notes(), *recording.notes)
     try:
         curve = replace(found.backbone(hit), units=recording.units)
     except InputError as error:
-        return Measurement(recording, found, None, (*recording.notes, f"No backbone: {error}."))
-    return Measurement(recording, found, curve, (*recording.notes, *curve.notes))
+        return Measurement(recording, found, None, (*own, f"No backbone: {error}."))
+    return Measurement(recording, found, curve, (*own, *curve.notes))
 
 
 def overlapping(recording: Recording, found: HalfCycles) -> Mask:

@@ -62,3 +62,19 @@ def detrended(x: Array, rate: float, how: str) -> Array:
     if how == "linear":
         return np.asarray(scipy_detrend(x, type="linear"), dtype=np.float64)
     return x - slow_part(x, rate) if how == "slow" else x
+
+
+def said_of(drift: float) -> tuple[str, ...]:
+    """A share of the rms by which the slow part wanders, in words where it is notable.
+
+    >>> said_of(0.01), said_of(math.nan)
+    ((), ('Drift was not looked for in so long a record.',))
+    """
+    if math.isnan(drift):
+        return ("Drift was not looked for in so long a record.",)
+    if drift <= NOTABLE:
+        return ()
+    return (
+        f"The local mean wanders by {drift:.2g} of the rms; it is left in (detrend removes it; in an asymmetric "
+        "oscillator it belongs to the motion).",
+    )

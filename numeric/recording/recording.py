@@ -7,6 +7,7 @@ missing a signal falls into stretches, each uniform and without a gap; nothing i
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -23,6 +24,7 @@ from ridgeback.numeric.files.column_choice import (
     time_index,
 )
 from ridgeback.numeric.files.in_memory import Samples, columns_of
+from ridgeback.numeric.recording.drift import said_of, wandering
 from ridgeback.numeric.recording.file_signals import Signal, Wanted, stamps
 from ridgeback.numeric.recording.levels import refuse_level
 from ridgeback.numeric.recording.shown import ShownRecording
@@ -89,6 +91,33 @@ class Recording(ShownRecording):
             flags = getattr(self, name)
             object.__setattr__(self, name, frozen_mask(flags if flags.size else np.zeros(self.values.size)))
         object.__setattr__(self, "facts", MappingProxyType(dict(self.facts)))
+
+    def drift_notes(self, span: tuple[float, float] | None = None) -> tuple[str, ...]:
+        """How far the slow part wanders where the motion is: what is held or at rest beside it is no drift.
+
+        Parameters
+        ----------
+        span : (float, float), optional
+            First and last time of the motion; all by default.
+
+        Returns
+        -------
+        tuple of str
+            A note where it is notable and was left in.
+
+        Examples
+        --------
+        >>> t = np.arange(2000) / 20.0
+        >>> held = Recording.from_arrays(np.where(t < 40.0, 3.0, np.cos(6.0 * t)), 20.0)
+        >>> len(held.drift_notes()), held.drift_notes((41.0, 99.0))
+        (1, ())
+        """
+        drift = self.facts.get("drift")
+        if not isinstance(drift, float) or self.facts.get("detrend") != "none":
+            return ()
+        if span is not None and not math.isnan(drift):
+            drift = wandering(self.values[(self.time >= span[0]) & (self.time <= span[1])], self.rate)
+        return said_of(drift)
 
     @classmethod
     def from_arrays(

@@ -23,7 +23,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.files.columns import Columns
 from ridgeback.numeric.recording.clipping import clipped, runs
-from ridgeback.numeric.recording.drift import DETRENDS, NOTABLE, detrended, wandering
+from ridgeback.numeric.recording.drift import DETRENDS, detrended, wandering
 from ridgeback.numeric.recording.stretches import GAP_STEPS, Gap, Stamped, split
 from ridgeback.numeric.recording.uniform import (
     EASY,
@@ -236,11 +236,11 @@ def piece(samples: Uniform, treatment: Treatment) -> Piece:
         "drift": drift,
         "detrend": treatment.detrend,
     }
-    return Piece(samples, values, tuple(piece_notes(samples, drift, treatment)), facts)
+    return Piece(samples, values, tuple(piece_notes(samples, treatment)), facts)
 
 
-def piece_notes(samples: Uniform, drift: float, treatment: Treatment) -> list[str]:
-    """Interpolation and drift of one stretch in words."""
+def piece_notes(samples: Uniform, treatment: Treatment) -> list[str]:
+    """Interpolation of one stretch, and what was removed from it, in words."""
     notes = []
     if samples.how:
         error = f"; the interpolation errs by about {samples.error:.1e} of the rms" if samples.error else ""
@@ -250,13 +250,6 @@ def piece_notes(samples: Uniform, drift: float, treatment: Treatment) -> list[st
     if treatment.detrend != "none":
         what = "straight line" if treatment.detrend == "linear" else "slow part (a mean over six cycles)"
         notes.append(f"The {what} was removed.")
-    elif math.isnan(drift):
-        notes.append("Drift was not looked for in so long a record.")
-    elif drift > NOTABLE:
-        notes.append(
-            f"The local mean wanders by {drift:.2g} of the rms; it is left in (detrend removes it; in an asymmetric "
-            "oscillator it belongs to the motion)."
-        )
     return notes
 
 

@@ -42,6 +42,7 @@ def test_what_is_held_and_stopped_is_left_out_and_said() -> None:
     assert near(found, "mu", 0.01)
     assert found.unexplained < 0.01
     assert any("the rest is left out" in note for note in found.notes)
+    assert not any("wanders" in note for note in found.notes)  # what is held and what is at rest are no drift
 
 
 def test_clipped_samples_enter_no_fit() -> None:
