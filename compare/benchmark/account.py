@@ -1,4 +1,4 @@
-"""What a motion is, beside its omega0(t): its energy (15)-(19), its components (7), and what its sampling folds."""
+"""What a motion is, beside its omega0(t): its energy, its components a_m(t), and what its sampling folds."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def energy_sentence(terms: EnergyTerms) -> str:
     found = energy_summary(terms)
     lost = relative(found["dissipated"] / found["at_start"])
     open_by = relative(found["relative_imbalance"])
-    return f"Energy (15)-(19): {lost} of that at the start is dissipated; the balance closes within {open_by} of it."
+    return f"Energy: {lost} of that at the start is dissipated; the balance closes within {open_by} of it."
 
 
 def account(motion: Motion) -> Account:

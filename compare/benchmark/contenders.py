@@ -10,16 +10,16 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Literal
 
-from ridgeback.common.numbers import relative, scientific, two_digits, uncertain
-from ridgeback.common.quantities import duration
+from ridgeback.common.numbers import relative, rounded_down, scientific, two_digits, uncertain
+from ridgeback.common.quantities import about
 from ridgeback.common.show.brief import Brief
 
 Kind = Literal[
     "expansion", "slow-flow", "resummation", "minimax", "series-model", "closed-form", "averaged", "linear", "estimate"
 ]
 Source = Literal["energy", "action", "fit"]
-"""Where a model takes its amplitude from: A(t) of the instantaneous energy (21), of the averaged action, or of the
-envelope of the turning points."""
+"""Where a model takes its amplitude from: A(t) of the energy of each instant (the paper's eq. (21)), of the averaged
+action, or of the envelope of the turning points."""
 Way = Literal["expansions", "series model", "estimates"]
 
 WAYS: Mapping[Kind, Way | None] = {
@@ -49,6 +49,24 @@ class Reference(Brief):
     def floor(self) -> float:
         """The error below which two contenders cannot be told apart."""
         return max(self.numerical_error, self.definition)
+
+    @property
+    def defined(self) -> bool:
+        """Whether two readings of the same motion leave the floor open, rather than its integration."""
+        return self.definition >= self.numerical_error
+
+    @property
+    def open_words(self) -> str:
+        """What leaves omega0(t) open, in words."""
+        return "two readings of ω₀(t) disagree" if self.defined else "the integration leaves ω₀(t) open"
+
+    def told_apart(self, one: float, other: float) -> bool:
+        """Whether two errors keep their order whichever reading is taken: each may be wrong by the floor.
+
+        >>> [Reference("", 0.0, 1e-5).told_apart(5e-7, other) for other in (2e-5, 3e-5)]
+        [False, True]
+        """
+        return abs(one - other) > 2.0 * self.floor
 
 
 @dataclass(frozen=True, repr=False)
@@ -166,7 +184,7 @@ class Verdict(Brief):
     ratio: float | None
     """The rival's error over the best's, both no less than the reference's floor; below 1 for a better yardstick."""
     decided: bool
-    """Whether the errors differ by more than the reference leaves open, and by more than 5 %."""
+    """Whether the errors keep their order whichever reading of omega0(t) is taken, and differ by more than 5 %."""
     limit: str
     """Where the best way ends, in words made from its numbers."""
 
@@ -176,19 +194,35 @@ class Verdict(Brief):
         if self.rival is None or self.ratio is None:
             return f"{head}; nothing of another way could be ranked"
         rival = f"{self.rival.label} ({_error(self.rival)}{_cost(self.rival)})"
-        least = min(self.best.relative_rms_error or 0.0, self.rival.relative_rms_error or 0.0)
-        if not self.decided and least > reference.floor:
+        if not self.decided and reference.told_apart(*self.errors):
             return f"{head}, and {rival} does as well, within 5 %"
         if not self.decided:
             return (
                 f"{head}, and {rival} cannot be told from it: omega0(t) itself is open by {relative(reference.floor)}"
             )
-        more = max(self.ratio, 1.0 / self.ratio)
-        times = two_digits(more) if more < 1e5 else scientific(more)
-        if least < reference.floor:
-            times = f"at least {times}"
+        times = self.times(reference)
+        if min(self.errors) < reference.floor:
             rival = f"{rival}, as far as omega0(t) itself is known: it is open by {relative(reference.floor)}"
         return f"{head}, {times} times {'less' if self.ratio > 1.0 else 'more'} than {rival}"
+
+    @property
+    def errors(self) -> tuple[float, float]:
+        """Of the best and of its rival."""
+        rival = self.best if self.rival is None else self.rival
+        return float(self.best.relative_rms_error or 0.0), float(rival.relative_rms_error or 0.0)
+
+    def least_ratio(self, reference: Reference) -> float:
+        """How many times the larger error is the smaller one, whichever reading of omega0(t) is taken."""
+        floor = reference.floor if min(self.errors) < reference.floor else 0.0
+        return (max(self.errors) - floor) / max(min(self.errors) + floor, 1e-300)
+
+    def times(self, reference: Reference) -> str:
+        """The same in words, a bound rounded down."""
+        ratio = self.least_ratio(reference)
+        if min(self.errors) >= reference.floor:
+            return two_digits(ratio) if ratio < 1e5 else scientific(ratio)
+        least = rounded_down(ratio, 2)
+        return f"at least {two_digits(least) if least < 1e5 else scientific(least)}"
 
 
 def _capital(text: str) -> str:
@@ -197,7 +231,7 @@ def _capital(text: str) -> str:
 
 def _cost(row: Row) -> str:
     ns = row.time_ns_per_value
-    return "" if ns is None else f" at {duration(1e-9 * ns)} a value"
+    return "" if ns is None else f" at about {about(1e-9 * ns)} a value"
 
 
 def _error(row: Row) -> str:

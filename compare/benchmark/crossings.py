@@ -60,7 +60,7 @@ def passing(series: Sequence[Row], estimate: Row, source: Source | None, referen
     last = worse[-1] if worse else None
     after = next((r for r in series if last is None or (r.order or 0) > (last.order or 0)), None)
     sides = [r for r in (last, after) if r is not None]
-    settled = all(abs(float(r.relative_rms_error or 0.0) - error) > reference.floor for r in sides)
+    settled = all(reference.told_apart(float(r.relative_rms_error or 0.0), error) for r in sides)
     before = None if last is None else last.order
     return OrderCrossing(estimate.method, error, source, before, None if after is None else after.order, settled)
 

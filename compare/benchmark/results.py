@@ -42,7 +42,7 @@ class Benchmark(ShownBenchmark):
     errors : array of float, shape (R, N)
         Signed relative error of each row along the motion; NaN where it gives nothing.
     account : Account, optional
-        The motion's energy (15)-(19), its components (7), and which multiples its sampling folds.
+        The motion's energy, its components a_m(t), and which multiples its sampling folds.
 
     Examples
     --------

@@ -32,9 +32,13 @@ def judge(rows: Sequence[Row], reference: Reference) -> Verdict:
         rival_way=others[0] if others else None,
         rival=rival,
         ratio=ratio,
-        decided=ratio is not None and max(ratio, 1.0 / ratio) >= TOLD,
+        decided=rival is not None and ratio is not None and _decided(known[first], rival, ratio, reference),
         limit="; ".join((_limit(known[first]), *_ends(known[first], known.get("estimates"), rows, reference))),
     )
+
+
+def _decided(best: Row, rival: Row, ratio: float, reference: Reference) -> bool:
+    return max(ratio, 1.0 / ratio) >= TOLD and reference.told_apart(_error(best), _error(rival))
 
 
 def _ways() -> tuple[Way, ...]:

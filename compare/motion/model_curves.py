@@ -1,4 +1,4 @@
-"""Curves omega0(t) from theory: the paper's model, expansions at the amplitude of (21), averaged action, slow flow.
+"""Curves omega0(t) from theory: the paper's model, expansions at the energy's amplitude, averaged action, slow flow.
 
 Each model maps an amplitude along the motion to a frequency; none looks at the reference.
 """
@@ -23,7 +23,7 @@ from ridgeback.symbolic.flow.slow_flow import SlowFlow
 CLOSED_FORM, AVERAGED_ACTION, LINEAR = "closed-form", "averaged-action", "linear"
 """Names of the models that every oscillator with a potential has."""
 SERIES_TERMS = (3, 20)
-"""Terms of (14) kept: the three that the paper prints, and enough for moderate angles."""
+"""Terms of the paper's eq. (14) kept: the three that it prints, and enough for moderate angles."""
 LOW_ORDERS = (2, 4)
 """The low-order perturbation expansions of Fig. 5."""
 
@@ -54,7 +54,7 @@ def _conservative_curves(motion: Motion, derived: Derived | None, orders: Sequen
     if motion.setting.is_pendulum:
         k = motion.dynamics.natural_frequency
         for terms in SERIES_TERMS:
-            label = f"(14)+(21), {terms} terms"
+            label = f"paper’s series, {terms} terms"
             omega = series_frequency(peak, k=k, terms=terms)
             yield _model(motion, f"series-{terms}", label, omega, by=AmplitudeSource.ENERGY)
     if motion.averaged is not None:
@@ -74,7 +74,7 @@ def _conservative_curves(motion: Motion, derived: Derived | None, orders: Sequen
 
 def _exact_label(motion: Motion) -> str:
     if motion.setting.is_pendulum:
-        return "(14)+(21), closed form"
+        return "paper’s series, all terms"
     return "exact backbone at V(A) = E(t)"
 
 

@@ -151,7 +151,9 @@ def _slopes(e: Evidence) -> str:
         return ""
     parts = [f"harmonic {m} rises {ratio:.3f} times as fast as the fundamental" for m, ratio in found.items()]
     off = max(abs(ratio / m - 1.0) for m, ratio in found.items())
-    verdict = "as eq. (25) has it" if off < SLOPE_OFF else "which is not the order, as eq. (25) would have it"
+    verdict = (
+        "as the paper’s eq. (25) has it" if off < SLOPE_OFF else "not the order, as the paper’s eq. (25) would have it"
+    )
     return f" In the interior {', '.join(parts)}: within {per_cent(off)} of the order, {verdict}."
 
 
@@ -183,7 +185,7 @@ def _amplitude(e: Evidence) -> Statement:
     return Statement(
         figure=4,
         title="Amplitude from the energy, eq. (21)",
-        paper="The amplitude by (21) represents the instantaneous envelope of the oscillation excellently.",
+        paper="The amplitude from the energy represents the instantaneous envelope of the oscillation excellently.",
         measured=f"It passes through the positive turning points within {per_cent(away)}. {moving}",
     )
 
@@ -215,7 +217,8 @@ def _frequency(e: Evidence) -> Statement:
     return Statement(
         figure=5,
         title="Fundamental frequency: estimated, predicted, and by a low-order expansion",
-        paper="The prediction of (14) follows the estimate better than the expansion does, and improves with time.",
+        paper="The prediction of the series, eq. (14), follows the estimate better than the expansion does, and "
+        "improves with time.",
         measured=(
             f"The cycle frequency runs from {e.hertz(float(ends[0]))} to {e.hertz(float(ends[-1]))}. Relative rms "
             f"error in the first tenth, the interior and the last tenth: {'; '.join(parts)}.{crossing}"
@@ -253,7 +256,7 @@ def _signal(e: Evidence) -> Statement:
     low, high = e.motion.zone.lower, e.motion.zone.upper
     early, late = (per_cent(_part(made, keep)) for keep in (made.time < low, made.time > high))
     several = (
-        f" With {made.components} components, eq. (7), the difference is {per_cent(made.rms_multicomponent)}."
+        f" With {made.components} components, as in eq. (7), the difference is {per_cent(made.rms_multicomponent)}."
         if made.rms_multicomponent is not None
         else ""
     )
@@ -262,7 +265,7 @@ def _signal(e: Evidence) -> Statement:
         title="The oscillation and its one-component model, eq. (22)",
         paper="The agreement is very good, which shows how much of the motion is in the fundamental.",
         measured=(
-            f"The real part of (22) differs by {per_cent(made.rms_single)} rms of the signal: {early} in the first "
+            f"The model’s real part differs by {per_cent(made.rms_single)} rms of the signal: {early} in the first "
             f"tenth, {late} in the last.{_drift(e)}{several}"
         ),
     )
@@ -279,7 +282,7 @@ def _drift(e: Evidence) -> str:
     phase = model_phase(e.motion, e.motion.exact_at_energy)
     at = np.interp(e.motion.rising, e.motion.time, phase)
     drift = float(at[-1] - at[0] - 2 * np.pi * (e.motion.rising.size - 1))
-    return f" Its phase (23) drifts by {signed(drift)} rad over {e.motion.rising.size - 1} cycles."
+    return f" Its phase, the integral of ω₀(t), drifts by {signed(drift)} rad over {e.motion.rising.size - 1} cycles."
 
 
 def _wigner(e: Evidence) -> Statement:

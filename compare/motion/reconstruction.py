@@ -27,7 +27,7 @@ def model_phase(motion: Motion, omega: Array) -> Array:
 
 
 def reconstruct(motion: Motion) -> Reconstruction:
-    """Build both models with A(t) of (21) and omega0 of (14); a limit cycle has its envelope and cycle phase."""
+    """Build both models with the energy's A(t) and the exact omega0 there; a limit cycle has its envelope and phase."""
     u = motion.trajectory.u
     if not motion.has_backbone:
         return _of_limit_cycle(motion)
@@ -43,7 +43,7 @@ def reconstruct(motion: Motion) -> Reconstruction:
         components=COMPONENTS,
         rms_single=relative_rms(single - u, u),
         rms_multicomponent=relative_rms(several.signal - u, u),
-        note="Real parts; A(t) by (21), phase by (23).",
+        note="Real parts; A(t) by the energy of each instant, phase by the integral of ω₀(t).",
     )
 
 

@@ -24,7 +24,7 @@ class AmplitudeSource(Enum):
     NONE = "none"
     """It is evaluated at none: a reference, an estimate, the linear frequency, a limit cycle."""
     ENERGY = "energy"
-    """That of the energy of each instant, eq. (21)."""
+    """That of the energy of each instant, the paper's eq. (21)."""
     AVERAGED = "averaged"
     """The smooth one of averaging: the averaged action, or the slow flow."""
 
@@ -183,7 +183,7 @@ class SignedPlane(Brief):
 
 @dataclass(frozen=True, repr=False)
 class Amplitudes(Brief):
-    """Amplitude along the decay, definition ``peak``: by energy (21), averaged action, turning points."""
+    """Amplitude along the decay, definition ``peak``: by energy of each instant, averaged action, turning points."""
 
     time: Array
     energy: Array
@@ -196,7 +196,7 @@ class Amplitudes(Brief):
 
 @dataclass(frozen=True, repr=False)
 class Reconstruction(Brief):
-    """The signal against its models: (22)-(23) with one component, (7) with several."""
+    """The signal against its models: with one component, the paper's eq. (22)-(23), and with several, its eq. (7)."""
 
     time: Array
     signal: Array

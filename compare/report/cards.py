@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ridgeback.common.numbers import NONE, number, per_cent, rounded_down, threshold
-from ridgeback.common.quantities import duration
+from ridgeback.common.quantities import about
 from ridgeback.compare.benchmark.contenders import WAYS, Row, Way
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import closest
 from ridgeback.compare.noise.results import NoiseStudy, estimator_of
-from ridgeback.compare.report.naming import SOURCES, estimator, short_name
+from ridgeback.compare.report.naming import SOURCES, at_most, estimator, short_name
 from ridgeback.compare.report.results import Card
 from ridgeback.compare.study.results import Range, Study
 from ridgeback.compare.study.study import first_violation
@@ -57,29 +57,38 @@ def refusal(found: Benchmark, way: Way) -> str:
 
 
 def cost(row: Row) -> str:
-    """What a value costs, or a track."""
+    """What a value costs, or a track, to the digit that another run gives again."""
     value = row.time_ns_per_value
     if value is None:
         return "not timed"
     if WAYS[row.kind] == "estimates" or row.kind == "slow-flow":
-        track = f"{duration(row.time_s_per_track)} a track, " if row.time_s_per_track else ""
-        return f"{track}{duration(1e-9 * value)} a value"
+        track = f"about {about(row.time_s_per_track)} a track, " if row.time_s_per_track else ""
+        return f"{track}{about(1e-9 * value)} a value"
     language = LANGUAGES.get(row.language or "", "")
-    return f"{duration(1e-9 * value)} a value" + (f", {language}" if language else "")
+    return f"about {about(1e-9 * value)} a value" + (f", {language}" if language else "")
 
 
-def _card(way: Way, row: Row | None, why: str, rows: tuple[tuple[str, str], ...], text: str = "") -> Card:
-    if row is None:
-        return Card(HEADINGS[way], NONE, "no result", (("why", why),), way)
-    return Card(HEADINGS[way], per_cent(row.relative_rms_error), text or short_name(row), rows, way)
+def _refused(known: Known, way: Way) -> Card:
+    return Card(HEADINGS[way], NONE, "no result", (("why", refusal(known.benchmark, way)),), way)
+
+
+def _card(
+    known: Known, way: Way, row: Row, rows: tuple[tuple[str, str], ...], heading: str = "", text: str = ""
+) -> Card:
+    """A card whose error is never less than what the reference leaves open, which is said where it is."""
+    reference, error = known.benchmark.reference, float(row.relative_rms_error or 0.0)
+    what = "defined" if reference.defined else "known"
+    below = (("limit", f"ω₀(t) is {what} to {per_cent(reference.floor)}"),) if error < reference.floor else ()
+    value = at_most(error, reference, "≤ ")
+    return Card(heading or HEADINGS[way], value, text or short_name(row), (*rows, *below), way)
 
 
 def _expansions(known: Known) -> Card:
     row = best_of_way(known.benchmark, "expansions")
     if row is None:
-        return _card("expansions", None, refusal(known.benchmark, "expansions"), ())
+        return _refused(known, "expansions")
     rows = (("cost", cost(row)), ("holds", _range(known, row)), ("needs", _needs(row)))
-    return _card("expansions", row, "", rows)
+    return _card(known, "expansions", row, rows)
 
 
 def _range(known: Known, row: Row) -> str:
@@ -103,7 +112,7 @@ def within(study: Study, target: float, up_to: float | None) -> str:
 def span(found: Benchmark) -> str:
     """The stretch that errors are taken over."""
     low, high = found.support
-    return f"from t = {number(low, 3)} to {number(high, 3)} {found.case.time_unit}".strip()
+    return f"along this motion, t = {number(low, 3)} to {number(high, 3)} {found.case.time_unit}".strip()
 
 
 def _needs(row: Row) -> str:
@@ -124,13 +133,17 @@ def _series(known: Known) -> Card:
     if known.pendulum:
         row = best_of_way(found, "series model")
         if row is None:
-            return _card("series model", None, refusal(found, "series model"), ())
-        best = "" if exact is None else f"{per_cent(exact.relative_rms_error)}, all terms, A(t) from the energy"
+            return _refused(known, "series model")
+        best = (
+            ""
+            if exact is None
+            else f"{at_most(exact.relative_rms_error, found.reference)}, all terms, A(t) from the energy"
+        )
         floor = (("at best", best),) if best else ()
         holds = _series_reach(known, row)
         needs = f"the equation, and {SOURCES[row.amplitude_from]}" if row.amplitude_from else "the equation"
         rows = (("cost", cost(row)), ("holds", holds), ("needs", needs), *floor)
-        return _card("series model", row, "", rows)
+        return _card(known, "series model", row, rows, text=f"{row.order} terms")
     if exact is None:
         why = "no potential, so neither the paper’s series nor an amplitude from the energy"
         return Card("The paper’s model", NONE, "does not apply", (("why", why),), "series model")
@@ -139,13 +152,7 @@ def _series(known: Known) -> Card:
         ("holds", "at every amplitude that oscillates"),
         ("needs", "the equation and the trajectory’s energy"),
     )
-    return Card(
-        "The paper’s model",
-        per_cent(exact.relative_rms_error),
-        "exact ω₀ at A(t) from the energy",
-        rows,
-        "series model",
-    )
+    return _card(known, "series model", exact, rows, "The paper’s model", "exact ω₀ at A(t) from the energy")
 
 
 def _series_reach(known: Known, row: Row) -> str:
@@ -161,13 +168,13 @@ def _estimates(known: Known) -> Card:
     found = known.benchmark
     row = best_of_way(found, "estimates")
     if row is None:
-        return _card("estimates", None, refusal(found, "estimates"), ())
+        return _refused(known, "estimates")
     rows = (
         ("cost", cost(row)),
         ("holds", in_noise(known.noise, row) or span(found)),
         ("needs", f"{found.time.size} samples, no equation"),
     )
-    return _card("estimates", row, "", rows)
+    return _card(known, "estimates", row, rows)
 
 
 def in_noise(noise: NoiseStudy | None, row: Row) -> str:

@@ -5,18 +5,32 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ridgeback.common.numbers import number, offset, per_cent, two_digits
-from ridgeback.common.quantities import amplitude, duration, frequency
+from ridgeback.common.numbers import number, offset, per_cent, scientific
+from ridgeback.common.quantities import about, amplitude, frequency
 from ridgeback.compare.benchmark.contenders import OrderCrossing, Reference, Row, Verdict
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import closest
 from ridgeback.compare.motion.harmonics.folding import folded_sentence
 from ridgeback.compare.motion.results import BiasCause, MotionComparison
 from ridgeback.compare.report.cards import best_of_way
-from ridgeback.compare.report.naming import REMOVED, capital, estimator, follow, plural, refused_names, short_name
+from ridgeback.compare.report.naming import (
+    REMOVED,
+    at_most,
+    capital,
+    estimator,
+    follow,
+    plural,
+    refused_names,
+    short_name,
+    spoken,
+)
 from ridgeback.compare.study.derived import Derived
 
 MOST = 5
+FEW = 1e4
+"""Ratios from here on are written as powers of ten."""
+TOLD_TIMES = 1.5
+"""A least ratio of errors from which on a title says it."""
 SHARE = 2.0
 """A floor is spoken of when it is this many times the reference's own."""
 
@@ -44,26 +58,34 @@ def title_of(verdict: Verdict, reference: Reference) -> str:
     >>> best, rival = (Row("x", "x", "expansion", order=n, relative_rms_error=e) for n, e in ((8, 1e-3), (2, 1e-2)))
     >>> title_of(Verdict("expansions", best, "estimates", rival, 10.0, True, ""), Reference("", 1e-9, 1e-6))
     'Order 8 follows ω₀(t) within 0.10 %, 10 times closer than order 2'
+    >>> title_of(Verdict("expansions", best, "estimates", rival, 5.0, True, ""), Reference("", 1e-9, 2e-3))
+    'Order 8 follows ω₀(t) as closely as it is defined (0.20 %), at least 2.6 times closer than order 2'
     """
-    named = short_name(verdict.best)
-    error = per_cent(verdict.best.relative_rms_error)
-    followed = f"{capital(named)} {follow(verdict.best)} ω₀(t)"
+    error, floor = per_cent(verdict.best.relative_rms_error), per_cent(reference.floor)
+    followed = f"{capital(spoken(verdict.best))} {follow(verdict.best)} ω₀(t)"
+    closely = f"as closely as it is {_how(reference)}"
     if verdict.rival is None or verdict.ratio is None:
         return f"{followed} within {error}"
-    rival = short_name(verdict.rival)
-    least = min(float(row.relative_rms_error or 0.0) for row in (verdict.best, verdict.rival) if row is not None)
-    if verdict.decided and verdict.ratio < 1.0:
-        times = f"{'' if least > reference.floor else 'at least '}{two_digits(1.0 / verdict.ratio)} times"
-        return f"{followed} within {error}; {rival} is {times} closer"
-    if verdict.decided and float(verdict.best.relative_rms_error or 0.0) <= reference.floor:
-        within = f"as closely as it is defined ({per_cent(reference.floor)})"
-        return f"{followed} {within}, at least {two_digits(verdict.ratio)} times closer than {rival}"
-    if verdict.decided:
-        return f"{followed} within {error}, {two_digits(verdict.ratio)} times closer than {rival}"
-    both = f"{capital(named)} and {rival} both follow ω₀(t)"
-    if least > reference.floor:
-        return f"{both} within {per_cent(verdict.rival.relative_rms_error)}"
-    return f"{both} as closely as it is defined, to {per_cent(reference.floor)}"
+    rival = spoken(verdict.rival)
+    if not verdict.decided:
+        both = f"{capital(spoken(verdict.best))} and {rival} both follow ω₀(t)"
+        if max(verdict.errors) <= reference.floor:
+            return f"{both} {closely}, to {floor}"
+        open_ = "" if reference.told_apart(*verdict.errors) else f"; it is {_how(reference)} to {floor}"
+        return f"{both} within {per_cent(max(verdict.errors))}{open_}"
+    times = verdict.times(reference)
+    if verdict.ratio < 1.0:
+        return f"{followed} within {error}; {rival} is {times} times closer"
+    if min(verdict.errors) >= reference.floor:
+        return f"{followed} within {error}, {times} times closer than {rival}"
+    if verdict.least_ratio(reference) < TOLD_TIMES:
+        return f"{followed} {closely} ({floor}), {rival} within {per_cent(verdict.rival.relative_rms_error)}"
+    return f"{followed} {closely} ({floor}), {times} times closer than {rival}"
+
+
+def _how(reference: Reference) -> str:
+    """What leaves omega0(t) open: that it has two readings, or its integration."""
+    return "defined" if reference.defined else "known"
 
 
 def lead_of(found: Benchmark, *, timed: bool) -> str:
@@ -71,7 +93,7 @@ def lead_of(found: Benchmark, *, timed: bool) -> str:
     said = {found.verdict.way, found.verdict.rival_way}
     others = [best_of_way(found, way) for way in ("expansions", "series model", "estimates") if way not in said]
     rest = [row for row in others if row is not None]
-    parts = [f"{capital(in_sentence(row))} {per_cent(row.relative_rms_error)} off." for row in rest]
+    parts = [f"{capital(in_sentence(row))} {at_most(row.relative_rms_error, found.reference)} off." for row in rest]
     parts += [text] if timed and (text := _costs(found)) else []
     return " ".join(parts)
 
@@ -80,10 +102,10 @@ def in_sentence(row: Row) -> str:
     """A contender with its verb.
 
     >>> in_sentence(Row("series-21", "", "series-model", order=21)), in_sentence(Row("wigner", "", "estimate"))
-    ('the paper’s series (14), cut after 21 terms, is', 'Wigner peak is')
+    ('the paper’s series, cut after 21 terms, is', 'Wigner peak is')
     """
     if row.kind == "series-model":
-        return f"the paper’s series (14), cut after {row.order} terms, is"
+        return f"the paper’s series, cut after {row.order} terms, is"
     return f"{short_name(row)} {'are' if plural(row) else 'is'}"
 
 
@@ -94,9 +116,18 @@ def _costs(found: Benchmark) -> str:
     ratio = estimate.time_ns_per_value / formula.time_ns_per_value
     known = " once A is known" if formula.amplitude_from is not None else ""
     return (
-        f"A value of {short_name(formula)} costs {duration(1e-9 * formula.time_ns_per_value)}{known}, "
-        f"{number(float(f'{ratio:.1g}'), 1)} times less than one of {short_name(estimate)}."
+        f"A value of {spoken(formula)} costs about {about(1e-9 * formula.time_ns_per_value)}{known}, "
+        f"some {_times(ratio)} times less than one of {spoken(estimate)}."
     )
+
+
+def _times(ratio: float) -> str:
+    """A ratio of measured times, to one digit.
+
+    >>> _times(8.3e5), _times(41.0)
+    ('8 × 10⁵', '40')
+    """
+    return scientific(ratio, digits=1) if ratio >= FEW else number(float(f"{ratio:.1g}"), 1)
 
 
 def findings(found: Benchmark, decay: MotionComparison, derived: Derived | None, start: float) -> tuple[str, ...]:
@@ -145,11 +176,13 @@ def _about_sampling(decay: MotionComparison) -> Iterator[Finding]:
 
 def _from_contenders(found: Benchmark) -> Iterator[Finding]:
     reference = found.reference
-    yield Finding(
-        4,
-        f"Two readings of ω₀(t), by crossings and by turning points, differ by {per_cent(reference.definition)} rms: "
-        "errors below that are not told apart.",
+    floor = per_cent(reference.floor)
+    why = (
+        f"Two readings of ω₀(t), by crossings and by turning points, differ by {floor} rms"
+        if reference.defined
+        else f"The integration leaves ω₀(t) open by {floor} rms"
     )
+    yield Finding(4, f"{why}: errors are told apart where they differ by more than twice that.")
     yield from _ripple(found)
     yield from _passing(found)
     yield from _equal(found)
@@ -168,7 +201,7 @@ def _ripple(found: Benchmark) -> Iterator[Finding]:
     if error > SHARE * max(smooth, floor):
         text = (
             f"With A(t) from the energy of each instant even the exact backbone stops at {per_cent(error)}: that "
-            f"amplitude ripples twice a cycle. The averaged action leaves {per_cent(smooth)}."
+            f"amplitude ripples twice a cycle. The averaged action leaves {at_most(smooth, found.reference)}."
         )
         yield Finding(2, text)
 
@@ -179,13 +212,13 @@ def _passing(found: Benchmark) -> Iterator[Finding]:
     passed = [c for c in settled if c.after is not None and c.before is not None]
     ahead = [c for c in settled if c.after is None]
     if passed:
-        yield Finding(1, _crossing(min(passed, key=lambda c: c.estimate_error)))
+        yield Finding(1, _crossing(min(passed, key=lambda c: c.estimate_error), found.reference))
     elif ahead:
-        yield Finding(1, _crossing(min(ahead, key=lambda c: c.estimate_error)))
+        yield Finding(1, _crossing(min(ahead, key=lambda c: c.estimate_error), found.reference))
 
 
-def _crossing(c: OrderCrossing) -> str:
-    name, error = estimator(c.estimate), per_cent(c.estimate_error)
+def _crossing(c: OrderCrossing, reference: Reference) -> str:
+    name, error = estimator(c.estimate), at_most(c.estimate_error, reference)
     if c.after is None:
         return f"The expansion stays behind {name} ({error}) to order {c.before}."
     return f"The expansion passes {name} ({error}) between orders {c.before} and {c.after}."
@@ -193,12 +226,13 @@ def _crossing(c: OrderCrossing) -> str:
 
 def _equal(found: Benchmark) -> Iterator[Finding]:
     pairs = [e for e in found.crossings.equal_coefficients if e.amplitude_from != "energy"]
-    told = [e for e in pairs if abs(e.series_error - e.expansion_error) > found.reference.floor]
+    told = [e for e in pairs if found.reference.told_apart(e.series_error, e.expansion_error)]
     if told:
         e = max(told, key=lambda pair: pair.coefficients)
         text = (
-            f"With {e.coefficients} coefficients each, the paper’s series (14) errs {per_cent(e.series_error)} and the "
-            f"expansion (order {e.order}) {per_cent(e.expansion_error)}."
+            f"With {e.coefficients} coefficients each, the paper’s series errs "
+            f"{at_most(e.series_error, found.reference)} and the expansion (order {e.order}) "
+            f"{at_most(e.expansion_error, found.reference)}."
         )
         yield Finding(2, text)
 
@@ -226,6 +260,6 @@ def _cured(found: Benchmark) -> str:
         return ""
     name = estimator(raw.method)
     return (
-        f" {capital(name)} errs {per_cent(raw.relative_rms_error)}, and {per_cent(row.relative_rms_error)} with its "
-        f"{REMOVED}."
+        f" {capital(name)} errs {at_most(raw.relative_rms_error, found.reference)}, and "
+        f"{at_most(row.relative_rms_error, found.reference)} with its {REMOVED}."
     )

@@ -6,9 +6,9 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 
-from ridgeback.common.numbers import listing
+from ridgeback.common.numbers import listing, per_cent
 from ridgeback.common.quantities import symbol
-from ridgeback.compare.benchmark.contenders import Row, Source
+from ridgeback.compare.benchmark.contenders import Reference, Row, Source
 from ridgeback.compare.motion.results import Case
 
 ESTIMATORS: Mapping[str, str] = {
@@ -53,7 +53,7 @@ def short_name(row: Row) -> str:
         case "slow-flow":
             return f"multiple scales, order {row.order}"
         case "series-model":
-            return f"{row.order} terms of (14)"
+            return f"series, {row.order} terms"
         case "estimate":
             plain = estimator(row.method.removesuffix("-corrected"))
             return f"{plain}, {REMOVED}" if row.corrected_by else plain
@@ -66,6 +66,26 @@ def short_name(row: Row) -> str:
     name = row.label.partition(", A(t)")[0].replace(", order", " of order").replace("Pade", "Padé")
     name = name.replace("A^2", "A²")
     return f"{name[0].lower() if name[1:2].islower() and not name.startswith('Pad') else name[0]}{name[1:]}"
+
+
+def spoken(row: Row) -> str:
+    """A contender in a sentence.
+
+    >>> spoken(Row("series-21", "", "series-model", order=21))
+    '21 terms of the paper’s series'
+    """
+    return f"{row.order} terms of the paper’s series" if row.kind == "series-model" else short_name(row)
+
+
+def at_most(error: float | None, reference: Reference, words: str = "at most ") -> str:
+    """An error as far as the reference knows it: below its floor, the floor.
+
+    >>> at_most(1.3e-5, Reference("", 0.0, 1.8e-4)), at_most(0.01, Reference("", 0.0, 1.8e-4), "≤ ")
+    ('at most 0.018 %', '1.0 %')
+    """
+    if error is not None and error < reference.floor:
+        return f"{words}{per_cent(reference.floor)}"
+    return per_cent(error)
 
 
 def plural(row: Row) -> bool:

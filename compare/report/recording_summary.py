@@ -72,11 +72,20 @@ def _sentences(found: RecordingComparison, made: Identification | None) -> Itera
     if found.over is not None:
         yield found.over.sentence()
     if made is not None:
-        yield f"What made it: {made.verdict}"
+        yield _what_made_it(made)
         if made.prediction is not None:
             yield forecast(made)
     if not found.doubt:
         yield f"The backbone’s relative standard deviation is {per_cent(_middle(_relative_sd(found)))} in the median."
+
+
+def _what_made_it(made: Identification) -> str:
+    """The class in a sentence; its section says how sure that is."""
+    others = len(set(made.indistinguishable) - {made.best.name})
+    if not made.described:
+        return f"What made it: no candidate describes this recording; the nearest is {made.best.title}."
+    rest = f"; {others} other {'class fits' if others == 1 else 'classes fit'} as well" if others else ""
+    return f"What made it: {made.best.title}, damping {made.best.damping_law}{rest}."
 
 
 def held(made: Identification) -> bool:

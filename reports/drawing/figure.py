@@ -99,6 +99,11 @@ def _read(series: Series, places: Array) -> list[float | None]:
     return [float(f"{v:.{digits}g}") if keep else None for v, keep in zip(values, inside, strict=True)]
 
 
-def toggles(*letters: str) -> tuple[tuple[str, str], ...]:
-    """Check boxes for some of the three ways."""
-    return tuple((letter, WAYS[letter]) for letter in letters)
+def toggles(*letters: str, series: bool = True) -> tuple[tuple[str, str], ...]:
+    """Check boxes for some of the three ways; without the paper's series the second holds models of other kinds.
+
+    >>> toggles("E", "S", series=False)
+    (('E', 'expansions'), ('S', 'models'))
+    """
+    names = {**WAYS, "S": WAYS["S"] if series else "models"}
+    return tuple((letter, names[letter]) for letter in letters)

@@ -96,7 +96,7 @@ def accuracy_cost(found: Benchmark, target: float) -> Figure:
         wide=wide,
         narrow=_ranked(which, target, label, NARROW, timed=timed),
         caption=_caption(which, timed=timed),
-        toggles=toggles(*letters),
+        toggles=toggles(*letters, series=bool(which.terms)),
         label=label,
         table="contenders",
     )
@@ -174,7 +174,7 @@ def _frame(which: Shown, panel: Panel, target: float) -> Iterable[str]:
         place = y - 5 if free else max(y, panel.top + 18) + 15
         yield group([text(panel.right, place, f"target {threshold(target)}", "m sm", "end")], "halo")
     if floor > panel.y.low:
-        words = f"below {per_cent(floor)} two readings of ω₀(t) disagree"
+        words = f"below {per_cent(floor)} {found.reference.open_words}"
         formulas = (*which.expansions, *which.in_python)
         low = [x for x, y, _ in _places(which, panel, formulas) if y > panel.bottom - 26]
         clear = all(x > panel.left + text_width(words, 12.6) + 16 for x in low)
@@ -253,14 +253,40 @@ def _families(which: Shown, panel: Panel, line_at: float | None) -> Iterable[str
     exact = [place for place in _places(which, panel, which.exact) if math.isfinite(place[0])]
     s += [dot(x, y, 4.5, "s", _title(row)) for x, y, row in exact]
     words = [_numbers(which, panel, which.terms, "s")]
-    words += _named(which, panel, which.terms, "s b", "series (14), by terms")
-    own = [x for x, _, _ in _places(which, panel, which.estimates) if math.isfinite(x)]
-    for x, y, _ in exact:
-        aside = bool(own) and x > min(own) - 30
+    words += _named(which, panel, which.terms, "s b", "paper’s series, by terms")
+    for x, y, row in exact if not _crowded(which, panel) else ():
         struck = line_at is not None and abs(y - line_at) < 11
-        place = (x + (9 if aside else -9), (line_at or 0.0) + 17 if struck else y + 4)
-        words.append(text(*place, "exact ω₀ at A(t) by energy", "s", "start" if aside else "end"))
+        words.append(text(x - 9, (line_at or 0.0) + 17 if struck else y + 4, _exact_name(row), "s", "end"))
     yield group([*s, group(words, "halo")], "fS")
+
+
+def _exact_name(row: Row) -> str:
+    return f"{short_name(row)} at A(t) by energy"
+
+
+def _crowded(which: Shown, panel: Panel) -> bool:
+    """Whether the name of the exact frequency has no room at its left: it then stands among those of the estimates."""
+    at = _finite(_places(which, panel, which.estimates))
+    if not at:
+        return False
+    edge, heights = _column(panel, at)
+    boxes = [(edge - text_width(short_name(row)), h, edge + 14) for (_, _, row), h in zip(at, heights, strict=True)]
+    boxes += [(x - 8, y, x + 8) for x, y, _ in at]
+    boxes += [(x - 6, y, x + 6) for x, y, _ in _finite(_places(which, panel, (*which.expansions, *which.flows)))]
+    return any(
+        x - 13 - text_width(_exact_name(row)) < right and x + 8 > left and abs(y - height) < 17
+        for x, y, row in _finite(_places(which, panel, which.exact))
+        for left, height, right in boxes
+    )
+
+
+def _finite(at: Sequence[tuple[float, float, Row]]) -> list[tuple[float, float, Row]]:
+    return [place for place in at if math.isfinite(place[0])]
+
+
+def _column(panel: Panel, at: Sequence[tuple[float, float, Row]]) -> tuple[float, list[float]]:
+    """Where names that stand left of all points end, and how high each stands."""
+    return min(x for x, _, _ in at) - 26, apart([y for _, y, _ in at], 16.0, panel.top + 34, panel.bottom - 14)
 
 
 def _name_is_below(at: Sequence[tuple[float, float, Row]], panel: Panel) -> bool:
@@ -299,18 +325,25 @@ def _named(
 
 def _estimates(which: Shown, panel: Panel, target: float | None) -> Iterable[str]:
     """Estimates with their names at the left, clear of the line of the target."""
-    at = [p for p in _places(which, panel, which.estimates) if math.isfinite(p[0])]
+    at = _finite(_places(which, panel, which.estimates))
     if not at:
         return
+    at += _finite(_places(which, panel, which.exact)) if _crowded(which, panel) else ()
     own = {row.method.removesuffix("-corrected"): (x, y) for x, y, row in _places(which, panel, which.corrected)}
-    left = min(x for x, _, _ in at)
-    edge = left - 26
-    heights = apart([y for _, y, _ in at], 16.0, panel.top + 34, panel.bottom - 14)
+    edge, heights = _column(panel, at)
     best = which.estimates[0].method
-    parts, words = [], []
+    parts, words, exact = [], [], []
     for (x, y, row), height in zip(at, heights, strict=True):
         name = short_name(row)
-        parts.append(trace("tk nf", "M", edge + 4, height, "H", edge + 14, "L", x, y))
+        led = max(edge + 14, min(x - 34, min(a for a, _, r in at if r.kind == "estimate") - 12))
+        if row.kind != "estimate":
+            exact += [
+                trace("sk nf", "M", edge + 4, height, "H", edge + 14, "L", x, y),
+                dot(x, y, 4.5, "s", _title(row)),
+            ]
+            exact.append(group([text(edge, height + 4, _exact_name(row), "s", "end")], "halo"))
+            continue
+        parts.append(trace("tk nf", "M", edge + 4, height, "H", led, "L", x, y))
         if row.method in own and math.isfinite(own[row.method][0]):
             a, b = own[row.method]
             parts.append(trace("tt nf", "M", x, y, "L", a, b))
@@ -322,6 +355,7 @@ def _estimates(which: Shown, panel: Panel, target: float | None) -> Iterable[str
         words.append(text(edge, height + 4, name, "t b" if row.method == best else "t", "end"))
     head = text(panel.right, panel.top + 16, f"estimates from {which.found.time.size} samples", "t b", "end")
     yield group([*parts, group([head, *words], "halo")], "fT")
+    yield group(exact, "fS") if exact else ""
 
 
 # --- the narrow drawing: names legible on a phone, errors and costs as ranked dots

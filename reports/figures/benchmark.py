@@ -73,7 +73,7 @@ def floor(axes: Axes, found: Benchmark) -> None:
 
 FAMILIES = (
     ("expansion", "s2", "expansions"),
-    ("series-model", "s1", "series (14)"),
+    ("series-model", "s1", "paper’s series"),
     ("slow-flow", "s2", "multiple scales"),
 )
 

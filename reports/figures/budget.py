@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -40,17 +40,20 @@ def budget_figure(rows: Sequence[BudgetRow]) -> Figure:
         wide=_draw(shown, label, narrow=False),
         narrow=_draw(shown, label, narrow=True),
         caption="Bar: total rms error, printed at the right. Marks: its parts, measured apart; rms values do not add "
-        f"up, and the table says what they leave unexplained.{_explained(rows)}",
-        toggles=toggles(*(letter_ for letter_ in "EST" if any(letter(row) == letter_ for row in shown))),
+        f"up, and the table says what they leave unexplained.{_sources(rows)}",
+        toggles=toggles(
+            *(letter_ for letter_ in "EST" if any(letter(row) == letter_ for row in shown)),
+            series=any(row.method.startswith("series-") for row in shown),
+        ),
         label=label,
         table="budget-table",
     )
 
 
-def _explained(rows: Sequence[BudgetRow]) -> str:
-    """What the paper's equation numbers stand for, where a label has them."""
-    named = any("(14)+(21)" in row.label for row in rows)
-    return " (14)+(21): the paper’s series (14) at the amplitude A(t) of the energy (21)." if named else ""
+def _sources(rows: Sequence[BudgetRow]) -> str:
+    """Where series and expansions take their amplitude from, where they stand."""
+    named = any(row.method.startswith(("series-", "lindstedt")) for row in rows)
+    return " Series and expansions are taken at A(t) from the energy of each instant." if named else ""
 
 
 def _draw(rows: Sequence[BudgetRow], label: str, *, narrow: bool) -> str:
@@ -62,12 +65,28 @@ def _draw(rows: Sequence[BudgetRow], label: str, *, narrow: bool) -> str:
     x = Scale(max(0.5 * min(parts), LEAST), min(2.0 * max(parts), 30.0), left, right, log=True)
     gaps = [0.0, *(8.0 * (letter(a) != letter(b)) for a, b in zip(rows[1:], rows, strict=False))]
     tops = 28 + np.cumsum(gaps) + step * np.arange(len(rows))
-    height = float(tops[-1]) + step + 4 if rows else 40.0
-    marks = []
+    bottom = float(tops[-1]) + step + 4 if rows else 40.0
+    marks = [*_key(rows, left, bottom + 16)]
     for value in x.ticks(3 if narrow else 7):
-        marks += [line(x(value), 20, x(value), height, "g"), text(x(value), 13, per_cent_tick(value), "m sm", "middle")]
+        marks += [line(x(value), 20, x(value), bottom, "g"), text(x(value), 13, per_cent_tick(value), "m sm", "middle")]
     marks += [_row(row, float(top), x, width) for row, top in zip(rows, tops, strict=True)]
-    return drawing(width, height, "narrow" if narrow else "wide", label, marks)
+    return drawing(width, bottom + 26, "narrow" if narrow else "wide", label, marks)
+
+
+def _key(rows: Sequence[BudgetRow], x: float, y: float) -> Iterator[str]:
+    """The marks of the parts that stand in the figure, with their names."""
+    for name in ("truncation", "averaging", "estimator"):
+        if any(getattr(row, name) for row in rows):
+            yield _mark(name, x + 6, y) + text(x + 18, y + 4, name, "m sm")
+            x += 36 + text_width(name, 12.6)
+
+
+def _mark(part: str, x: float, y: float) -> str:
+    if part == "truncation":
+        return f'<path d="M{places(x)} {places(y - 8)}v16" class="mk1"/>'
+    if part == "averaging":
+        return dot(x, y, 4.2, "mk2")
+    return f'<path d="M{places(x)} {places(y - 6)}l6 6-6 6-6-6z" class="mk3"/>'
 
 
 def _row(row: BudgetRow, top: float, x: Scale, width: float) -> str:
@@ -79,15 +98,9 @@ def _row(row: BudgetRow, top: float, x: Scale, width: float) -> str:
         rect(x.start, y - 4, end - x.start, 8, f"{style}f"),
     ]
     marks.append(text(width, y + 4, per_cent(row.total), style, "end"))
-    if row.truncation:
-        marks.append(
-            f'<path d="M{places(float(x.clipped(np.array([row.truncation]))[0]))} {places(y - 8)}v16" class="mk1"/>'
-        )
-    if row.averaging:
-        marks.append(dot(float(x.clipped(np.array([row.averaging]))[0]), y, 4.2, "mk2"))
-    if row.estimator:
-        at = float(x.clipped(np.array([row.estimator]))[0])
-        marks.append(f'<path d="M{places(at)} {places(y - 6)}l6 6-6 6-6-6z" class="mk3"/>')
+    for part in ("truncation", "averaging", "estimator"):
+        if size := getattr(row, part):
+            marks.append(_mark(part, float(x.clipped(np.array([size]))[0]), y))
     return group(marks, f"f{letter(row)}")
 
 

@@ -16,7 +16,7 @@ from ridgeback.compare.report.naming import short_name
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.apart import apart
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout, toggles
-from ridgeback.reports.drawing.marks import drawing, group, line, places, text
+from ridgeback.reports.drawing.marks import drawing, group, line, places, rect, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
 from ridgeback.reports.figures.accuracy_cost import LETTERS, STYLE, per_cent_tick
@@ -93,7 +93,10 @@ def in_time(found: Benchmark, decay: MotionComparison) -> Figure:
         wide=_draw(found, decay, drawn, clock, wide, label, narrow=False),
         narrow=_draw(found, decay, drawn, clock, narrow, label, narrow=True),
         caption=_caption(found, decay),
-        toggles=toggles(*(letter for letter in "EST" if any(d.letter == letter for d in drawn))),
+        toggles=toggles(
+            *(letter for letter in "EST" if any(d.letter == letter for d in drawn)),
+            series=any(d.row.kind == "series-model" for d in drawn),
+        ),
         data=readout((wide, narrow), series, name="t", unit=clock.time_unit, link="time"),
         label=label,
     )
@@ -102,9 +105,11 @@ def in_time(found: Benchmark, decay: MotionComparison) -> Figure:
 def _caption(found: Benchmark, decay: MotionComparison) -> str:
     low, high = (number(x, 3) for x in found.support)
     span = f"{low} to {high} {decay.case.time_unit}".strip()
+    below = f" Shaded below: under {per_cent(found.reference.floor)}, where {found.reference.open_words}."
     return (
         f"Thick: {found.reference.label}. Errors are running rms over one cycle, so that a change of sign does not "
-        f"look like accuracy; printed beside them, rms over t = {span}. Shaded: left out of every rms."
+        f"look like accuracy; printed beside them, rms over t = {span}. Shaded at the sides: left out of every rms."
+        f"{below if found.reference.floor > LEAST else ''}"
     )
 
 
@@ -144,6 +149,10 @@ def _draw(
     above, below = (
         [panel.shaded(panel.x.low, found.support[0]), panel.shaded(found.support[1], panel.x.high)] for panel in panels
     )
+    floor = found.reference.floor
+    if floor > lower.y.low:
+        top = lower.y(min(floor, lower.y.high))
+        below.insert(0, rect(lower.left, top, lower.right - lower.left, lower.bottom - top))
     above.append(upper.curve(decay.time, shown(decay.reference) * clock.factor, "rf nf"))
     for d in drawn:
         inside = np.where(_within(upper, d.omega * clock.factor), d.omega * clock.factor, np.nan)

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ridgeback.common.numbers import NONE, listing, number, per_cent
+from ridgeback.common.numbers import NONE, listing, number, per_cent, uncertain
 from ridgeback.compare.noise.results import NoiseCell, NoiseStudy
 from ridgeback.compare.report.naming import capital, estimator
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.figure import Figure
-from ridgeback.reports.drawing.marks import area, curve, dot, drawing, line, text
+from ridgeback.reports.drawing.marks import area, curve, dot, drawing, group, line, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale
 from ridgeback.reports.figures.accuracy_cost import per_cent_tick
@@ -78,8 +78,8 @@ def _small(study: NoiseStudy, method: str, snr: Array, rms: dict[str, Array], sc
         if np.isfinite(b):
             marks.append(dot(float(a), float(b), 3.0, "t", f"{number(float(snr[i]))} dB: {per_cent(float(own[i]))}"))
             if own[i] > scale[1]:
-                shift, anchor = (12, "start") if i < snr.size - 1 else (0, "end")
-                marks.append(text(float(a) + shift, panel.top - 4, "off scale", "t sm", anchor))
+                shift, anchor = (9, "start") if i < snr.size - 1 else (-9, "end")
+                marks.append(group([text(float(a) + shift, panel.top + 5, "off scale", "t sm", anchor)], "halo"))
     return drawing(204, 210, "one", f"{estimator(method)}: error against noise", marks)
 
 
@@ -125,7 +125,8 @@ def noise_table(study: NoiseStudy) -> Table:
     return Table(
         "noise-table",
         f"Rms error of ω₀ in white noise, {study.trials} seeded trials a cell; in brackets its ratio to the Cramér-Rao "
-        f"bound. {'' if study.complete else 'Interrupted: not all trials were run.'}".strip(),
+        f"bound ± one standard deviation; lost: above {per_cent(LOST)}."
+        f"{'' if study.complete else ' Interrupted: not all trials were run.'}",
         ("method", *(f"{number(snr)} dB" for snr in study.snr_db)),
         tuple(
             Row((capital(estimator(method)), *(_cell(cell) for cell in study.of(method))), _reason(study.of(method)))
@@ -137,7 +138,10 @@ def noise_table(study: NoiseStudy) -> Table:
 def _cell(cell: NoiseCell) -> str:
     if cell.rms is None:
         return NONE
-    return per_cent(cell.rms) + ("" if cell.ratio is None else f" ({number(cell.ratio, 2)})")
+    if cell.rms > LOST:
+        return "lost"
+    ratio = "" if cell.ratio is None else f" ({uncertain(cell.ratio, cell.ratio_sd)})"
+    return f"{per_cent(cell.rms)}{ratio}"
 
 
 def _reason(cells: Sequence[NoiseCell]) -> str:

@@ -7,12 +7,13 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ridgeback.common.numbers import number, per_cent, threshold
+from ridgeback.common.numbers import number, per_cent, rounded_down, threshold
 from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.report.error_grid import ErrorGrid
 from ridgeback.compare.study.results import Range, Study
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing import cells
+from ridgeback.reports.drawing.apart import text_width
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure
 from ridgeback.reports.drawing.marks import dot, drawing, group, line, places, text, trace
 from ridgeback.reports.drawing.panel import Panel
@@ -21,6 +22,8 @@ from ridgeback.reports.figures.clock import Clock
 
 KINDS = {1e-2: "c1", 1e-3: "c2", 1e-6: "c3"}
 LIMITS = (1e-6, 1e-4, 1e-3, 1e-2, 1e-1)
+TALL, FLAT = 290.0, 60.0
+"""Height of the map, and of one whose cells are all alike."""
 
 
 def letter(study: Study) -> str:
@@ -87,7 +90,12 @@ def _layout(study: Study, grid: ErrorGrid, *, narrow: bool, observed: bool) -> t
     low, high = padded([grid.exact / study.scale], share=0.15)
     room = 0.6 * (high - low)
     upper = Panel(x, Scale(low - 0.2 * room, high + 0.2 * room, 150.0, 24.0))
-    return upper, Panel(x, Scale(0.0, float(len(grid.orders)), 480.0, 190.0))
+    return upper, Panel(x, Scale(0.0, float(len(grid.orders)), 190.0 + (FLAT if _flat(grid) else TALL), 190.0))
+
+
+def _flat(grid: ErrorGrid) -> bool:
+    """Whether all orders are in the best band at every amplitude."""
+    return bool(np.isfinite(grid.bounds).all() and (np.abs(grid.errors) <= LIMITS[0]).all())
 
 
 def edges(grid: ErrorGrid) -> Array:
@@ -117,7 +125,8 @@ def _draw(
     if any(np.isfinite(powers).any() for _, _, powers in grid.observed):
         marks += _observed(grid, lower, narrow=narrow)
     marks.append(_marker(upper, lower, start[0], float(grid.amplitudes[start[1]])))
-    return drawing(NARROW if narrow else WIDE, 534, "narrow" if narrow else "wide", label, marks)
+    height = lower.bottom + 54
+    return drawing(NARROW if narrow else WIDE, height, "narrow" if narrow else "wide", label, marks)
 
 
 def _inside(panel: Panel, values: Array) -> Array:
@@ -192,8 +201,13 @@ def _motion(study: Study, decay: MotionComparison | None, panel: Panel) -> Itera
     y = panel.top - 8
     b = max(b, a + 1)
     yield trace("ann nf", "M", a, y, "H", b, "M", b, y - 4, "v", 8.0, "M", a, y - 4, "v", 8.0)
-    anchor, x = ("end", a - 6) if a > panel.left + 90 else ("start", b + 6)
-    yield text(x, y + 4, "this motion", "m sm", anchor)
+    free = text_width("this motion", 12.6) + 12
+    if a > panel.left + free:
+        yield text(a - 6, y + 4, "this motion", "m sm", "end")
+    elif b < panel.right - free:
+        yield text(b + 6, y + 4, "this motion", "m sm")
+    else:
+        yield group([text((a + b) / 2, y + 4, "this motion", "m sm", "middle")], "halo")
 
 
 def _observed(grid: ErrorGrid, panel: Panel, *, narrow: bool) -> Iterable[str]:
@@ -259,9 +273,11 @@ def _up(value: float) -> float | None:
 def reach_sentence(study: Study, target: float, order: int, up_to: float | None) -> str:
     """How far the chosen order holds, as a heading."""
     name = letter(study)
+    if np.ptp(study.reference) <= ROUNDING * abs(float(study.reference[0])):
+        return f"ω₀ is the same at every {name} studied"
     if up_to is None:
         return f"Order {order} keeps {threshold(target)} at no {name} studied"
-    end = f"{name} = {number(up_to, 3)} {study.amplitude_unit}".strip()
+    end = f"{name} = {number(rounded_down(up_to, 3))} {study.amplitude_unit}".strip()
     if up_to >= study.amplitudes[-1]:
         return f"Order {order} keeps {threshold(target)} over all of the range studied, to {end}"
     return f"Order {order} keeps {threshold(target)} up to {end}"

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import groupby
 
 from ridgeback.common.numbers import NONE, number, per_cent, rounded_down, threshold
-from ridgeback.common.quantities import duration, symbol
+from ridgeback.common.quantities import about, symbol
 from ridgeback.compare.benchmark.contenders import Row as Contender
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.results import BudgetRow
-from ridgeback.compare.report.naming import capital, short_name
+from ridgeback.compare.report.naming import capital, refused_names, short_name
 from ridgeback.compare.study.results import Certified, Range
 from ridgeback.reports.text.align import aligned
 
@@ -35,13 +36,27 @@ class Table:
     rows: tuple[Row, ...]
 
     def __post_init__(self) -> None:
-        """Pad the numbers of each column."""
-        columns = list(zip(*(row.cells for row in self.rows), strict=True))
+        """Pad the numbers of each column; a remark that several rows share stands once, in the caption."""
+        said = [row.remark for row in self.rows if not row.failed]
+        shared = [text for text in dict.fromkeys(said) if text and said.count(text) > 1]
+        notes = dict(zip(shared, NOTES, strict=False))
+        marked = [_noted(row, notes) for row in self.rows]
+        columns = list(zip(*(row.cells for row in marked), strict=True))
         padded = [columns[0], *(aligned(column) for column in columns[1:])] if columns else []
         cells = list(zip(*padded, strict=True))
-        object.__setattr__(
-            self, "rows", tuple(replace(row, cells=new) for row, new in zip(self.rows, cells, strict=True))
-        )
+        object.__setattr__(self, "rows", tuple(replace(row, cells=new) for row, new in zip(marked, cells, strict=True)))
+        object.__setattr__(self, "caption", " ".join((self.caption, *(f"{m} {text}" for text, m in notes.items()))))
+
+
+NOTES = ("¹", "²", "³", "⁴")
+
+
+def _noted(row: Row, notes: Mapping[str, str]) -> Row:
+    """A row whose remark stands in the caption, with the mark of it behind its name."""
+    if row.failed or row.remark not in notes:
+        return row
+    name, *numbers = row.cells
+    return replace(row, cells=(f"{name}\u2009{notes[row.remark]}", *numbers), remark="")
 
 
 def contender_table(found: Benchmark) -> Table:
@@ -50,7 +65,10 @@ def contender_table(found: Benchmark) -> Table:
     for row in found.contenders:
         groups.setdefault(short_name(row), []).append(row)
     ranked = {name: rows for name, rows in groups.items() if any(r.relative_rms_error is not None for r in rows)}
-    refused = {name: rows for name, rows in groups.items() if name not in ranked}
+    refused: dict[str, list[Contender]] = {}
+    for name, rows in groups.items():
+        if name not in ranked:
+            refused.setdefault(rows[0].refused or "it gives no value", []).extend(rows[:1])
     sources = [s for s in ("action", "energy", "fit") if any(r.amplitude_from == s for r in found.contenders)]
     both = len(sources) > 1
     named = {"action": "averaged action", "energy": "energy", "fit": "turning points"}
@@ -61,7 +79,8 @@ def contender_table(found: Benchmark) -> Table:
     span = f"{low} to {high} {found.case.time_unit}".strip()
     caption = f"Relative error of ω₀(t), t = {span}; mean is signed, negative means low."
     caption += (
-        " Cost: median of this run, C where it was compiled; a value of an estimate is its track’s share." * timed
+        " Cost: in this run, to one digit, C where it was compiled; a value of an estimate is its track’s share."
+        * timed
     )
     caption += " An error without A(t) stands in the first column." * both
     return Table(
@@ -72,11 +91,11 @@ def contender_table(found: Benchmark) -> Table:
             *(_contender(name, rows, sources if both else [], timed=timed) for name, rows in ordered),
             *(
                 Row(
-                    (capital(name), *(NONE,) * (len(heads) + 2 + 2 * timed)),
-                    f"Refused: {rows[0].refused}.",
+                    (capital(refused_names(rows)), *(NONE,) * (len(heads) + 2 + 2 * timed)),
+                    f"Refused: {why}.",
                     failed=True,
                 )
-                for name, rows in refused.items()
+                for why, rows in refused.items()
             ),
         ),
     )
@@ -97,10 +116,14 @@ def _contender(name: str, rows: Sequence[Contender], sources: Sequence[str], *, 
     cost: tuple[str, ...] = ()
     if timed:
         value = None if cheapest is None else 1e-9 * float(cheapest.time_ns_per_value or 0.0)
-        cost = (duration(value), duration(None if cheapest is None else cheapest.time_s_per_track))
+        cost = (_about(value), _about(None if cheapest is None else cheapest.time_s_per_track))
     remark = "" if best.ranked else f"Not ranked: covers {100 * best.coverage:.0f} % of the interior."
     texts = [per_cent(None if e is None else e.relative_rms_error, missing="") for e in errors]
     return Row((capital(name), *texts, per_cent(best.largest), per_cent(best.mean, signed=True), *cost), remark)
+
+
+def _about(seconds: float | None) -> str:
+    return NONE if seconds is None else about(seconds)
 
 
 def budget_table(rows: Sequence[BudgetRow]) -> Table:
@@ -135,8 +158,19 @@ def range_table(ranges: Sequence[Range], letter: str, unit: str) -> Table:
         f"Range of use: up to this {letter} the target holds, interpolated between those studied"
         + (f", in {unit}." if unit else "."),
         ("order", *(f"within {threshold(target)}" for target in targets)),
-        tuple(Row((str(order), *(_reach(reach, order, target) for target in targets))) for order in orders),
+        tuple(_alike([(order, tuple(_reach(reach, order, target) for target in targets)) for order in orders])),
     )
+
+
+def _alike(found: Sequence[tuple[int, tuple[str, ...]]]) -> Iterator[Row]:
+    """One row for neighbouring orders that reach equally far.
+
+    >>> [row.cells for row in _alike([(2, ("1.1",)), (4, ("1.1",)), (6, ("1.2",))])]
+    [('2 to 4', '1.1'), ('6', '1.2')]
+    """
+    for cells, group in groupby(found, key=lambda pair: pair[1]):
+        orders = [order for order, _ in group]
+        yield Row((str(orders[0]) if len(orders) == 1 else f"{orders[0]} to {orders[-1]}", *cells))
 
 
 def _reach(reach: dict[tuple[int, float], float | None], order: int, target: float) -> str:

@@ -85,7 +85,23 @@ def duration(seconds: float | None) -> str:
     """
     if seconds is None:
         return NONE
+    size, unit = _unit_of(seconds)
+    return f"{two_digits(seconds / size)} {unit}"
+
+
+def about(seconds: float) -> str:
+    """A measured time to one digit, as no two runs agree on a second one.
+
+    >>> about(3.4e-9), about(0.0026), about(1.6), about(0.48), about(9.6e-4)
+    ('3 ns', '3 ms', '2 s', '0.5 s', '1 ms')
+    """
+    rounded = float(f"{seconds:.1g}")
+    size, unit = _unit_of(rounded)
+    return f"{rounded / size:.1g} {unit}" if rounded < 10 * size else f"{rounded / size:.0f} {unit}"
+
+
+def _unit_of(seconds: float) -> tuple[float, str]:
     for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
         if seconds >= (0.1 if unit == "s" else 1.0) * size:
-            return f"{two_digits(seconds / size)} {unit}"
-    return f"{two_digits(seconds / 1e-9)} ns"
+            return size, unit
+    return 1e-9, "ns"

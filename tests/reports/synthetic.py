@@ -158,8 +158,8 @@ def _tracks(time: Array, peak: Array, omega: Array) -> tuple[Curve, ...]:
     border = 0.03 * (np.exp(-time / 0.5) + np.exp((time - END) / 0.5))
     ripple = _ripple(time, omega)
     return (
-        _curve("closed-form", "paper (14), closed form", "model", time, omega * (1 + ripple)),
-        _curve("series-5", "paper (14), 5 terms", "model", time, omega * (1 + ripple + 0.06 * np.exp(-time / 3))),
+        _curve("closed-form", "paper’s series, all terms", "model", time, omega * (1 + ripple)),
+        _curve("series-5", "paper’s series, 5 terms", "model", time, omega * (1 + ripple + 0.06 * np.exp(-time / 3))),
         _curve("averaged-action", "averaged action", "model", time, omega * (1 + 5e-4 * np.exp(-time / 3))),
         _curve("order-4", "expansion, order 4", "expansion", time, K * series(peak, 4)),
         _curve("order-20", "expansion, order 20", "expansion", time, omega * (1 + 2e-2 * (peak / np.pi) ** 22)),
@@ -192,8 +192,8 @@ def _scores(curves: tuple[Curve, ...]) -> tuple[Score, ...]:
 def _budget() -> tuple[BudgetRow, ...]:
     ripple, curvature = "The ripple of (21).", "Curvature of omega0(t)."
     return (
-        BudgetRow("closed-form", "paper (14), closed form", 0.0, 1.9e-3, None, 1e-6, 1.9e-3, 1e-5, ripple),
-        BudgetRow("series-5", "paper (14), 5 terms", 2.1e-2, 1.9e-3, None, 1e-6, 2.2e-2, 1e-5),
+        BudgetRow("closed-form", "paper’s series, all terms", 0.0, 1.9e-3, None, 1e-6, 1.9e-3, 1e-5, ripple),
+        BudgetRow("series-5", "paper’s series, 5 terms", 2.1e-2, 1.9e-3, None, 1e-6, 2.2e-2, 1e-5),
         BudgetRow("wigner-u", "Wigner peak of θ", None, None, 9.4e-3, 1e-6, 9.5e-3, 2e-4, curvature),
         BudgetRow("order-4", "expansion, order 4", 4.1e-2, 3e-4, None, 1e-6, 4.2e-2, 1e-4),
     )
@@ -508,7 +508,7 @@ def full_report() -> Report:
     needs = ("needs", "the equation and a start")
     return Report(
         title="Harmonic least squares and order 40 both follow ω₀(t)",
-        lead="The paper's series (14), cut after 21 terms, is 2.9 % off.",
+        lead="The paper's series, cut after 21 terms, is 2.9 % off.",
         summary=("The Wigner peak lies 0.95 % low over 2 to 18 s.", "Equation (21) ripples twice per cycle."),
         cards=(
             Card("Perturbation expansion", "0.011 %", "order 40", (("cost", "3 ns"), needs), "expansions"),

@@ -30,7 +30,8 @@ def refused(method: str, label: str, kind: Kind, why: str, *, order: int | None 
 def amplitudes(motion: Motion) -> Mapping[Source, Array]:
     """A(t) by each source that this motion has, on its samples.
 
-    ``energy`` is eq. (20)-(21), ``action`` the averaged motion's peak, ``fit`` the envelope of the turning points.
+    ``energy`` is the paper's eq. (20)-(21), ``action`` the averaged motion's peak, ``fit`` the envelope of the
+    turning points.
     """
     found: dict[Source, Array] = {}
     if motion.has_backbone:

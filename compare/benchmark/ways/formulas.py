@@ -32,7 +32,7 @@ RESUMMATIONS = ("pade", "map", "nome")
 RESUMMED = 24
 """Order of the series that is resummed, at most."""
 DEGREES = (2, 4, 10)
-"""Degrees in A^2 of the minimax fits: as many coefficients as 3, 5 and 11 terms of (14) have."""
+"""Degrees in A^2 of the minimax fits: as many coefficients as 3, 5 and 11 terms of the paper's series have."""
 RESOLVED = 32
 SMOOTH = 1e-9
 """A fit is tried where so many Chebyshev coefficients of omega0(A) come down to this share of the first: towards a

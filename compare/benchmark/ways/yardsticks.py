@@ -1,4 +1,4 @@
-"""What contenders are held against: the series (14) by terms, the exact backbone and the linear oscillator (3)."""
+"""What contenders are held against: the paper's series by terms, the exact backbone and the linear oscillator."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ridgeback.numeric.orbits.energy import is_linearly_damped
 from ridgeback.numeric.orbits.paper_model import series_frequency
 
 TERMS = (3, 5, 11, 21, 41)
-"""Terms of (14): the three that the paper prints, and as many coefficients as some orders have."""
+"""Terms of the paper's eq. (14): the three that it prints, and as many coefficients as some orders have."""
 
 
 def yardsticks(motion: Motion, sources: Mapping[Source, Array]) -> Iterator[Contender]:
@@ -35,12 +35,12 @@ def yardsticks(motion: Motion, sources: Mapping[Source, Array]) -> Iterator[Cont
 
 
 def series_model(motion: Motion, source: Source, x: Array) -> Iterator[Contender]:
-    """Eq. (14) by its number of terms."""
+    """The paper's series, eq. (14), by its number of terms."""
     for terms in TERMS:
         function = partial(series_frequency, k=motion.dynamics.natural_frequency, terms=terms)
         row = Row(
             f"series-{terms}-{source}",
-            f"(14), {terms} terms, A(t) from the {source}",
+            f"paper's series, {terms} terms, A(t) from the {source}",
             "series-model",
             order=terms,
             coefficients=terms,
@@ -52,7 +52,7 @@ def series_model(motion: Motion, source: Source, x: Array) -> Iterator[Contender
 
 
 def exact_at_energy(motion: Motion) -> Contender:
-    """The exact omega0 at A(t) of (21): by its closed form, or by quadrature, which is timed on the samples alone."""
+    """The exact omega0 at the energy's A(t): by closed form, or by quadrature, which is timed on the samples alone."""
     closed = motion.dynamics.closed_form
     x = motion.energy_peak
     cost = (

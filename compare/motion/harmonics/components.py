@@ -118,7 +118,7 @@ class Components(Displayed):
         parts = [f"a_{m + 1} from {self._value(m, 0)} to {self._value(m, -1)}" for m in strong]
         off = self.model_error
         model = "" if off is None else f"; the undamped orbit has them within {relative(off)} of their size"
-        return f"{self.name}, components of (7): {', '.join(parts)}{model}"
+        return f"{self.name}, components a_m(t): {', '.join(parts)}{model}"
 
     def _value(self, m: int, at: int) -> str:
         """A component at one time, or what it is below."""
@@ -133,7 +133,7 @@ class Components(Displayed):
         strokes = [Stroke(self.time, size[m], f"a_{m + 1}") for m in shown]
         if self.model is not None:
             strokes += [Stroke(self.time, np.abs(self.model[m]), f"a_{m + 1}, model", dashed=True) for m in shown[::2]]
-        title = f"{self.name}, components of eq. (7)"
+        title = f"{self.name}, components a_m(t)"
         return Picture(title, "time", "amplitude", tuple(strokes), logarithmic=True)
 
 
