@@ -92,10 +92,14 @@ def _table(answer: Answer) -> Table:
     cut = f" The first {MOST_ROWS} of {len(answer.rows())} rows." if len(answer.rows()) > MOST_ROWS else ""
     return Table(
         f"table-{answer.question}",
-        f"{_capital(answer.title)}; {'; '.join(f'{c.name}: {c.meaning}' for c in numbers)}.{cut}",
-        (", ".join(telling), *(c.name.replace("_", " ") for c in numbers)),
+        f"{_capital(answer.title)}; {'; '.join(f'{_words(c.name)}: {c.meaning}' for c in numbers)}.{cut}",
+        (", ".join(telling), *(_words(c.name) for c in numbers)),
         tuple(Row((_who(row, telling), *cells)) for row, cells in zip(rows, _across(columns, len(rows)), strict=True)),
     )
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")
 
 
 def _who(row: Mapping[str, Any], names: Sequence[str]) -> str:

@@ -12,7 +12,7 @@ from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.numeric.arrays import Array, floats
 from ridgeback.reports.drawing.apart import apart, text_width
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout
-from ridgeback.reports.drawing.marks import area, dot, drawing, group, line, text
+from ridgeback.reports.drawing.marks import area, dot, drawing, line, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded, tick_labels
 
@@ -21,6 +21,8 @@ STYLES = tuple(f"{way}l {dash} nf".replace("  ", " ") for dash in ("", "d1", "d2
 WIDE_SPAN = 30.0
 """Ratio of largest to smallest from which on an axis of positive values goes by decades."""
 LEAST = 1e-17
+SMALL = 300.0
+"""Width of a small drawing's key."""
 MOST_NAMES = 430.0
 """Pixels that names at the side take at most."""
 FEW_DECADES = 3
@@ -195,9 +197,10 @@ def side_by_side(key: str, pictures: Sequence[Picture], caption: str, table: str
         Id of the table that holds the numbers.
     """
     axes = axes_of(pictures)
+    lines = 1 + max((row for picture in pictures for _, row in _key(picture)), default=0)
     return Figure(
         key=key,
-        wide="".join(_small(picture, axes) for picture in pictures),
+        wide="".join(_small(picture, axes, lines) for picture in pictures),
         narrow="",
         caption=caption,
         many="three",
@@ -206,18 +209,28 @@ def side_by_side(key: str, pictures: Sequence[Picture], caption: str, table: str
     )
 
 
-def _small(picture: Picture, axes: Axes) -> str:
-    panel = _panel(axes, 46.0, 300.0, 36.0, 210.0)
+def _key(picture: Picture) -> list[tuple[float, int]]:
+    """Where each name of a small drawing begins: its x and its line."""
+    found, x, row = [], 0.0, 0
+    for stroke in picture.strokes[:6]:
+        width = text_width(stroke.label, 12.0) + 34
+        if x + width > SMALL and x > 0.0:
+            x, row = 0.0, row + 1
+        found.append((x, row))
+        x += width
+    return found
+
+
+def _small(picture: Picture, axes: Axes, lines: int) -> str:
+    """One of several, its key in ``lines`` lines between its title and its curves."""
+    top = 28.0 + 15.0 * lines
+    panel = _panel(axes, 46.0, 300.0, top, top + 174.0)
     marks = [text(0, 14, picture.title, "fgt b"), *_frame(panel, axes, most=4, rows=5)]
     marks += _strokes(panel, picture)
     marks.append(text(panel.right, panel.bottom + 32, picture.x_label, "m sm", "end"))
-    room = panel.right - panel.left
-    names, x, y = [], panel.left + 8, panel.top + 10
-    for stroke, style in zip(picture.strokes[:6], STYLES, strict=False):
-        width = text_width(stroke.label, 12.0) + 34
-        if x + width > panel.left + room and x > panel.left + 8:
-            x, y = panel.left + 8, y + 15
-        names.append(line(x, y, x + 18, y, style) + text(x + 23, y + 4, stroke.label, "sm"))
-        x += width
-    marks.append(group(names, "halo"))
-    return drawing(308, 248, "one", f"{picture.title}: {picture.y_label} against {picture.x_label}", marks)
+    for stroke, style, (x, row) in zip(picture.strokes, STYLES, _key(picture), strict=False):
+        y = 30.0 + 15.0 * row
+        marks.append(line(x, y, x + 18, y, style) + text(x + 23, y + 4, stroke.label, "sm"))
+    return drawing(
+        308, panel.bottom + 38, "one", f"{picture.title}: {picture.y_label} against {picture.x_label}", marks
+    )

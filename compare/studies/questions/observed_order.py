@@ -12,7 +12,7 @@ the points and, for the powers that are left out, what one and two powers more c
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,7 +23,7 @@ from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.measures.backbone import series_of
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, Grid, grids, thinned
+from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, Grid, grids
 from ridgeback.compare.studies.tasks import Column, Finished
 from ridgeback.numeric.arrays import Array
 
@@ -81,18 +81,45 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
     failed = 0
     for grid in grids(blocks):
         failed += grid.failed
-        rows += rows_of(grid)
-        at = thinned(grid.amplitudes.size)
-        for order, errors in zip(grid.orders, grid.error, strict=True):
-            line = np.where(errors == 0.0, np.nan, np.abs(errors))[at]
-            strokes.append(Stroke(np.log10(grid.amplitudes[at]), line, f"{grid.system.name}, order {order}"))
+        own = list(rows_of(grid))
+        rows += own
+        strokes += stroke_of(grid, own)
     passes, fails = (sum(row["verdict"] == word for row in rows) for word in ("pass", "fail"))
-    said = (f"{passes} of {len(rows)} orders of convergence are as theory has them, {fails} are not",)
-    picture = Picture(plan.title or "order of convergence", "log10 amplitude", "relative error", ())
-    picture = Picture(picture.title, picture.x_label, picture.y_label, tuple(strokes[:SHOWN_STROKES]), None, True)
+    said = (summary(len(rows), passes, fails),)
+    title = plan.title or "order of convergence"
+    picture = Picture(
+        title, "order of the expansion", "observed less theoretical order", tuple(strokes[:SHOWN_STROKES])
+    )
     passed = None if passes + fails == 0 else fails == 0
     title = "order of convergence, observed and theoretical"
     return Answer("observed-order", title, COLUMNS, tuple(rows), said, picture, failed, passed)
+
+
+def summary(count: int, passes: int, fails: int) -> str:
+    """How many orders are as theory has them, are not, and are not decided.
+
+    >>> summary(20, 10, 0), summary(2, 1, 1)
+    ('10 of 20 orders of convergence are as theory has them, none is not, 10 are not decided', \
+'1 of 2 orders of convergence is as theory has them, 1 is not')
+    """
+    wrong = f"{fails or 'none'} {'are' if fails > 1 else 'is'} not"
+    rest = count - passes - fails
+    open_ = f", {rest} {'are' if rest > 1 else 'is'} not decided" if rest else ""
+    return (
+        f"{passes} of {count} orders of convergence {'is' if passes == 1 else 'are'} as theory has them, {wrong}{open_}"
+    )
+
+
+def stroke_of(grid: Grid, rows: Sequence[Mapping[str, Any]]) -> Iterator[Stroke]:
+    """What is decided of one oscillator: how far each observed order is from the theoretical one, and its interval."""
+    known = [row for row in rows if row["verdict"] in ("pass", "fail")]
+    order, theory, power, half = (
+        np.array([row[name] for row in known], dtype=float)
+        for name in ("order", "theoretical", "observed", "half_width")
+    )
+    if known:
+        off = power - theory
+        yield Stroke(order, off, grid.system.name, off - half, off + half, dots=True)
 
 
 def rows_of(grid: Grid) -> Iterator[dict[str, Any]]:
