@@ -200,14 +200,18 @@ def test_a_page_is_not_printed_where_there_is_no_browser(tmp_path: Path, monkeyp
 
 
 def test_what_a_browser_prints_is_moved_to_its_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A stand-in for the browser that writes what it was asked to, or nothing."""
-    script = tmp_path / "chromium"
-    script.write_text('#!/bin/sh\nfor word; do case $word in --print-to-pdf=*) echo pdf > "${word#*=}";; esac; done\n')
+    """A stand-in for the browser that writes what it was asked to, or nothing; smaller print is one sheet less."""
+    script, page = tmp_path / "chromium", tmp_path / "page.html"
+    page.write_text("<html><head></head><body>two sheets</body></html>")
+    script.write_text(
+        '#!/bin/sh\nfor word; do case $word in --print-to-pdf=*) at="${word#*=}";; file:*) page="${word#file://}";; '
+        'esac; done\necho "/Type /Page" > "$at"\ngrep -q "zoom:0.95" "$page" || echo "/Type /Page" >> "$at"\n'
+    )
     script.chmod(0o755)
     monkeypatch.setattr(browser, "chromium", lambda: str(script))
-    browser.print_to_pdf("page.html", str(tmp_path / "page.pdf"))
-    assert (tmp_path / "page.pdf").read_text() == "pdf\n"
+    browser.print_to_pdf(str(page), str(tmp_path / "page.pdf"))
+    assert browser.sheets((tmp_path / "page.pdf").read_bytes()) == 1
     script.write_text("#!/bin/sh\n")
     with pytest.raises(OSError, match="printed nothing"):
-        browser.print_to_pdf("page.html", str(tmp_path / "other.pdf"))
+        browser.print_to_pdf(str(page), str(tmp_path / "other.pdf"))
     assert not (tmp_path / "other.pdf").exists()
