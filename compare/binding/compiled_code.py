@@ -7,6 +7,7 @@ own.
 from __future__ import annotations
 
 import ctypes
+import re
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
@@ -88,11 +89,10 @@ def _compiled(
         return NotCompiled("there is no C compiler")
     try:
         folder = Path(stack.enter_context(TemporaryDirectory(prefix="ridgeback-", ignore_cleanup_errors=True)))
-        files, library = [folder / f"{name}.c" for name in sources], folder / f"{OWN}.so"
-        for file, text in zip(files, sources.values(), strict=True):
-            file.write_text(text, encoding="utf-8")
+        file, library = folder / f"{OWN}.c", folder / f"{OWN}.so"
+        file.write_text("\n".join(_apart(name, text) for name, text in sources.items()), encoding="utf-8")
         patience = PATIENCE * len(sources)
-        done = finished([program, *_FLAGS, *map(str, files), "-o", str(library), "-lm"], patience)
+        done = finished([program, *_FLAGS, str(file), "-o", str(library), "-lm"], patience)
         if done is None:
             return NotCompiled(f"the C compiler did not finish within {patience:g} s")
         if done.code != 0:
@@ -100,6 +100,19 @@ def _compiled(
         return {name: _loaded(library, name, scales[name]) for name in sources}
     except (OSError, AttributeError, ValueError) as error:
         return NotCompiled(f"the temporary folder does not serve for compiled code ({' '.join(str(error).split())})")
+
+
+_STATIC = re.compile(r"^static [^(=;{\n]*?\b([A-Za-z_]\w*)\s*[\[(=]", flags=re.MULTILINE)
+
+
+def _apart(name: str, text: str) -> str:
+    r"""A source whose static names are its own, so that several stand in one file.
+
+    >>> _apart("a", "static const double points[2] = {0, 1};")
+    '#define points a_points\nstatic const double points[2] = {0, 1};\n#undef points\n'
+    """
+    own = sorted(set(_STATIC.findall(text)))
+    return "\n".join((*(f"#define {n} {name}_{n}" for n in own), text, *(f"#undef {n}" for n in own), ""))
 
 
 def source_of(formula: OfAmplitude, name: str) -> str:

@@ -10,10 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import signal
 
+from ridgeback.common.late import Late
 from ridgeback.common.show.brief import Brief
 from ridgeback.numeric.arrays import Array, freeze
+
+signal = Late("scipy.signal")
 
 RARE = 0.01
 """Probability of so high a line in white noise below which it is called one."""

@@ -12,10 +12,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import savgol_coeffs, savgol_filter
 
+from ridgeback.common.late import Late
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.harmonics.window_steps import Shape
+
+signal = Late("scipy.signal")
 
 LENGTHS = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 24.0, 32.0, 48.0, 64.0)
 """Windows tried, in cycles."""
@@ -52,13 +54,15 @@ def expected_error(model: SplineModel, half: int, degree: int, margin: int) -> f
     omega, amplitude = model.tone(1)
     size, step = 2 * half + 1, max(1, omega.size // CENTRES)
     at = np.arange(margin, max(omega.size - margin, margin + 1), step)
-    coefficients = savgol_coeffs(size, degree, deriv=1, delta=1.0 / rate, use="dot")
+    coefficients = signal.savgol_coeffs(size, degree, deriv=1, delta=1.0 / rate, use="dot")
     slope = np.empty(at.size)
     first, last = (at < half), (at >= omega.size - half)
     inner = ~(first | last)
     slope[inner] = np.lib.stride_tricks.sliding_window_view(model.phase, size)[at[inner] - half] @ coefficients
-    slope[first] = savgol_filter(model.phase[:size], size, degree, deriv=1, delta=1.0 / rate)[at[first]]
-    slope[last] = savgol_filter(model.phase[-size:], size, degree, deriv=1, delta=1.0 / rate)[at[last] - omega.size]
+    slope[first] = signal.savgol_filter(model.phase[:size], size, degree, deriv=1, delta=1.0 / rate)[at[first]]
+    slope[last] = signal.savgol_filter(model.phase[-size:], size, degree, deriv=1, delta=1.0 / rate)[
+        at[last] - omega.size
+    ]
     bias, strength = slope - omega[at], np.maximum(np.abs(amplitude), 1e-3 * np.abs(amplitude).max())[at]
     noise = np.sqrt(2.0 * (coefficients**2).sum()) * model.noise / strength
     return float(np.sqrt(np.mean((bias**2 + noise**2) / omega[at] ** 2)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
@@ -45,4 +45,4 @@ def whiteness(residual: Array, *, lags: int = 20) -> Whiteness:
     count = max(1, min(lags, MOST_LAGS, n // 5))
     r = np.array([float(centred[m:] @ centred[:-m]) for m in range(1, count + 1)]) / power
     statistic = float(n * (n + 2) * np.sum(r**2 / (n - np.arange(1, count + 1))))
-    return Whiteness(statistic, count, float(chi2.sf(statistic, count)), float(r[0]))
+    return Whiteness(statistic, count, float(chdtrc(count, statistic)), float(r[0]))

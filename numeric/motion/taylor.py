@@ -205,9 +205,18 @@ def taylor_solution(
 
 def _step(c: tuple[Precise, ...], k: float) -> Precise:
     """Return the step: e^-2 of the radius of convergence read off the last two coefficients (Jorba and Zou, 3.2)."""
-    size = mp.hypot(c[0], c[1] / k)
-    radii = [mp.root(size / abs(c[j]), j) for j in (len(c) - 2, len(c) - 1) if c[j]]
-    return min(radii, default=mp.inf) * mp.exp(-2)
+    size = _log2(mp.hypot(c[0], c[1] / k))
+    radii = [(size - _log2(c[j])) / j for j in (len(c) - 2, len(c) - 1) if c[j]]
+    if not radii:
+        return mp.inf
+    least = min(radii) - 2.0 * math.log2(math.e)
+    return mp.ldexp(mp.mpf(2.0 ** (least % 1.0)), math.floor(least))
+
+
+def _log2(x: Precise) -> float:
+    """The binary logarithm of a number's size, whatever that is: a step is read off a few digits."""
+    mantissa, exponent = x.man_exp
+    return math.log2(abs(mantissa)) + int(exponent)
 
 
 def _check_work(work: float, duration: float) -> None:

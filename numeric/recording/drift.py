@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.signal import detrend as scipy_detrend
-from scipy.signal import oaconvolve
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.late import Late
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import strongest_frequency
 from ridgeback.numeric.signal.windows import window
+
+signal = Late("scipy.signal")
 
 DETRENDS = ("none", "linear", "slow")
 CYCLES = 6.0
@@ -33,8 +34,8 @@ def slow_part(x: Array, rate: float) -> Array:
     """
     half = round(0.5 * CYCLES * TWO_PI / strongest_frequency(x, rate) * rate)
     w = window("blackman", min(half, (x.size - 1) // 2))
-    weights = oaconvolve(np.ones(x.size), w, mode="same")
-    return np.asarray(oaconvolve(x, w, mode="same") / weights, dtype=np.float64)
+    weights = signal.oaconvolve(np.ones(x.size), w, mode="same")
+    return np.asarray(signal.oaconvolve(x, w, mode="same") / weights, dtype=np.float64)
 
 
 def wandering(x: Array, rate: float) -> float:
@@ -60,7 +61,7 @@ def detrended(x: Array, rate: float, how: str) -> Array:
     if how not in DETRENDS:
         raise InputError(f"detrend {how!r} is unknown; use one of {', '.join(DETRENDS)}")
     if how == "linear":
-        return np.asarray(scipy_detrend(x, type="linear"), dtype=np.float64)
+        return np.asarray(signal.detrend(x, type="linear"), dtype=np.float64)
     return x - slow_part(x, rate) if how == "slow" else x
 
 

@@ -13,12 +13,14 @@ from fractions import Fraction
 import numpy as np
 from scipy.fft import rfft
 from scipy.interpolate import make_interp_spline
-from scipy.signal import resample_poly
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.late import Late
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.recording.stretches import Stamped
 from ridgeback.numeric.signal.samples import checked_work
+
+signal = Late("scipy.signal")
 
 JITTER = 0.02
 """Share of the step by which a time stamp may leave the uniform grid: decimal rounding."""
@@ -155,7 +157,7 @@ def slower(samples: Uniform, rate: float) -> Uniform:
         least = samples.rate / 2000
         raise InputError(f"resampling from {samples.rate:g} to {rate:g} is too far; use at least {least:g}")
     checked_work(20.0 * samples.values.size * ratio.denominator, "resampling", "cut the recording into parts")
-    values = resample_poly(samples.values, ratio.numerator, ratio.denominator, padtype="line")
+    values = signal.resample_poly(samples.values, ratio.numerator, ratio.denominator, padtype="line")
     exact = samples.rate * float(ratio)
     edge = REACH if values.size > 4 * REACH else 0
     at = (np.arange(values.size) / exact)[edge : values.size - edge]

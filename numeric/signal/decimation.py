@@ -8,11 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.ndimage import maximum_filter1d
-from scipy.signal import resample_poly
 
+from ridgeback.common.late import Late
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.signal.samples import TWO_PI, checked_rate, checked_real_samples, checked_swing
 from ridgeback.numeric.signal.search_band import SearchBand, find_search_band
+
+signal = Late("scipy.signal")
 
 LONG = 16_384
 """Samples above which a record is decimated."""
@@ -89,7 +91,9 @@ def every(samples: Samples, factor: int) -> Samples:
     >>> few.x.size, few.rate, few.start, bool(np.allclose(few.x, 1.0))
     (60, 20.0, 2.5, True)
     """
-    x = np.asarray(resample_poly(samples.x, 1, factor, window=("kaiser", FLAT))[RINGING:-RINGING], dtype=np.float64)
+    x = np.asarray(
+        signal.resample_poly(samples.x, 1, factor, window=("kaiser", FLAT))[RINGING:-RINGING], dtype=np.float64
+    )
     wrong = None if samples.wrong is None else every_flag(samples.wrong, factor)
     return Samples(x, samples.rate / factor, samples.start + RINGING * factor / samples.rate, factor, wrong)
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.signal import oaconvolve
 
+from ridgeback.common.late import Late
 from ridgeback.numeric.arrays import Array, ComplexArray
+
+signal = Late("scipy.signal")
 
 
 # Weighted least squares of a straight line through c over the window: value and slope decouple for a symmetric w.
@@ -16,7 +18,7 @@ def local_line(c: ComplexArray, w: Array, rate: float) -> tuple[ComplexArray, Co
     """
     half = w.size // 2
     j = np.arange(-half, half + 1)
-    present = oaconvolve(np.ones(c.size), w, mode="same")
-    value = oaconvolve(c, w, mode="same") / present
-    slope = oaconvolve(c, (w * j)[::-1] / (w * j * j).sum(), mode="same") * rate
+    present = signal.oaconvolve(np.ones(c.size), w, mode="same")
+    value = signal.oaconvolve(c, w, mode="same") / present
+    slope = signal.oaconvolve(c, (w * j)[::-1] / (w * j * j).sum(), mode="same") * rate
     return np.asarray(value, dtype=np.complex128), np.asarray(slope, dtype=np.complex128)

@@ -14,12 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 from scipy.ndimage import gaussian_filter1d
-from scipy.signal import decimate
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.late import Late
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.signal.samples import TWO_PI, Floats, checked_budget
 from ridgeback.numeric.signal.windows import half_width, window
+
+signal = Late("scipy.signal")
 
 MARGIN = 1.45
 """Half width of a search band as a factor: below 1.5, so that a second harmonic 1.45 times off it stays out."""
@@ -137,7 +139,7 @@ def guide_path(x: Array, rate: float, centre: float, low: float, high: float) ->
     """
     factor = int(math.pi * rate / (THINNED * high)) if x.size > LONG else 1
     if factor > 1:
-        thin = guide_path(decimate(x, factor, ftype="fir"), rate / factor, centre, low, high)
+        thin = guide_path(signal.decimate(x, factor, ftype="fir"), rate / factor, centre, low, high)
         return np.asarray(np.interp(np.arange(x.size), factor * np.arange(thin.size), thin), dtype=np.float64)
     seconds = min(GUIDE_CYCLES * TWO_PI / centre, (x.size - 1) / rate * 0.999)
     fine = max(1, round(0.25 * TWO_PI / centre * rate))

@@ -17,6 +17,7 @@ from ridgeback.reports.figures.accuracy_cost import per_cent_tick
 
 ESTIMATES = frozenset(recipe.name for recipe in RECIPES)
 LEAST = 1e-15
+PARTS = ("truncation", "averaging", "estimator")
 
 
 def letter(row: BudgetRow) -> str:
@@ -66,19 +67,20 @@ def _draw(rows: Sequence[BudgetRow], label: str, *, narrow: bool) -> str:
     gaps = [0.0, *(8.0 * (letter(a) != letter(b)) for a, b in zip(rows[1:], rows, strict=False))]
     tops = 28 + np.cumsum(gaps) + step * np.arange(len(rows))
     bottom = float(tops[-1]) + step + 4 if rows else 40.0
-    marks = [*_key(rows, left, bottom + 16)]
+    marks = [*_key(rows, left, bottom + 16, width)]
     for value in x.ticks(3 if narrow else 7):
         marks += [line(x(value), 20, x(value), bottom, "g"), text(x(value), 13, per_cent_tick(value), "m sm", "middle")]
     marks += [_row(row, float(top), x, width) for row, top in zip(rows, tops, strict=True)]
     return drawing(width, bottom + 26, "narrow" if narrow else "wide", label, marks)
 
 
-def _key(rows: Sequence[BudgetRow], x: float, y: float) -> Iterator[str]:
+def _key(rows: Sequence[BudgetRow], x: float, y: float, width: float) -> Iterator[str]:
     """The marks of the parts that stand in the figure, with their names."""
-    for name in ("truncation", "averaging", "estimator"):
-        if any(getattr(row, name) for row in rows):
-            yield _mark(name, x + 6, y) + text(x + 18, y + 4, name, "m sm")
-            x += 36 + text_width(name, 12.6)
+    names = [name for name in PARTS if any(getattr(row, name) for row in rows)]
+    x = min(x, width - sum(34 + text_width(name, 12.6) for name in names))
+    for name in names:
+        yield _mark(name, x + 6, y) + text(x + 18, y + 4, name, "m sm")
+        x += 34 + text_width(name, 12.6)
 
 
 def _mark(part: str, x: float, y: float) -> str:
@@ -98,7 +100,7 @@ def _row(row: BudgetRow, top: float, x: Scale, width: float) -> str:
         rect(x.start, y - 4, end - x.start, 8, f"{style}f"),
     ]
     marks.append(text(width, y + 4, per_cent(row.total), style, "end"))
-    for part in ("truncation", "averaging", "estimator"):
+    for part in PARTS:
         if size := getattr(row, part):
             marks.append(_mark(part, float(x.clipped(np.array([size]))[0]), y))
     return group(marks, f"f{letter(row)}")

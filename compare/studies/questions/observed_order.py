@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.stats import t as student
+from scipy.special import stdtrit
 
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
@@ -184,7 +184,7 @@ def fitted(amplitudes: Array, logarithms: Array, powers: int, scatter: float) ->
     rest = logarithms - design @ solution
     freedom = unit.size - len(columns)
     variance = float(rest @ rest) / freedom + scatter
-    width = float(student.ppf(0.975, freedom)) * math.sqrt(variance * np.linalg.pinv(design.T @ design)[1, 1])
+    width = float(stdtrit(freedom, 0.975)) * math.sqrt(variance * np.linalg.pinv(design.T @ design)[1, 1])
     return Slope(float(solution[1]), width, unit.size)
 
 

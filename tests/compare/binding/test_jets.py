@@ -6,13 +6,14 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
+from flint import arb
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.number_ring import FLOATS
 from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR
-from ridgeback.compare.binding.taylor_jet import RING, force_jet
+from ridgeback.compare.binding.taylor_jet import RING, at_precision, force_jet, midpoint
 from ridgeback.symbolic.arithmetic.closures import evaluator
 from ridgeback.symbolic.arithmetic.expression_series import Program
 from ridgeback.symbolic.systems.oscillator import U, V
@@ -46,8 +47,12 @@ FUNCTIONS = [
 
 def composed(expression, series, *, ring=RING):
     """Coefficients of the expression with a power series in the place of u."""
-    root = Program(expression, ring, {U: series}, U, V).root
-    return [root.get(n) for n in range(len(series))]
+    if ring is not RING:
+        root = Program(expression, ring, {U: series}, U, V).root
+        return [root.get(n) for n in range(len(series))]
+    with at_precision():
+        root = Program(expression, ring, {U: [arb(c) for c in series]}, U, V).root
+        return [midpoint(root.get(n)) for n in range(len(series))]
 
 
 @pytest.mark.parametrize("expression", FUNCTIONS, ids=str)
