@@ -70,8 +70,8 @@ ORDER: dict[str, tuple[str, ...]] = {
     "reports": ("text", "drawing", "figures"),
     "ridgeback": ("common", "console", "interface", "options", "answers", "verbs"),
 }
-# Imports by name, which the readers below do not see: the public names, libraries that not everybody has, and the two
-# things that a result asks of the reports, its picture and its page, when somebody asks it for them.
+# Imports by name, which the readers below do not see: the public names, libraries that not everybody has or that take
+# long, and the two things that a result asks of the reports, its picture and its page, when somebody asks it for them.
 BY_NAME: dict[str, frozenset[str]] = {
     "ridgeback/__init__.py": frozenset({"module"}),
     "ridgeback/cli.py": frozenset({"ridgeback.verbs."}),
@@ -79,6 +79,7 @@ BY_NAME: dict[str, frozenset[str]] = {
     "ridgeback/common/show/picture.py": frozenset({"ridgeback.reports.pictures"}),
     "ridgeback/common/show/page.py": frozenset({"ridgeback.reports.page"}),
     "compare/binding/heyoka.py": frozenset({"heyoka"}),
+    "numeric/late.py": frozenset({"scipy.signal"}),
 }
 OF_THE_HOUSE = frozenset({"faults", "fuzz", "kill", "mutants", "packaging"})
 """Folders of tests/ that stand for no folder of a room: what they try goes through the whole house."""

@@ -6,68 +6,15 @@ compiles the force to recurrences, ``numeric`` brings the ring they run over.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from typing import Any, Final
-
 import mpmath as mp
 import sympy
-from flint import arb, ctx
 
-from ridgeback.common.errors import InputError
-from ridgeback.common.number_ring import FUNCTIONS, NumberRing
 from ridgeback.common.recurrences import Input, solution
-from ridgeback.compare.binding.closures import mp_constant
 from ridgeback.numeric.motion.precise_ring import Jet, Precise
+from ridgeback.symbolic.arithmetic.ball_ring import REAL_BALLS, at_bits, midpoint
+from ridgeback.symbolic.arithmetic.balls import ball
 from ridgeback.symbolic.arithmetic.expression_series import Program, check_expandable
 from ridgeback.symbolic.systems.oscillator import U, V
-
-GUARD: Final = 16
-"""Bits beyond mpmath's precision, for the roundings of one series."""
-
-
-class _Balls(NumberRing):
-    """Ball arithmetic, four times as fast as mpmath's numbers; only what holds 0 and nothing else is 0."""
-
-    def absent(self, element: arb) -> bool:
-        return bool(element.is_zero())
-
-    def invert(self, element: arb) -> arb:
-        if element.contains(0):
-            raise InputError("a denominator, log or root is 0 here, where its power series is not analytic")
-        return 1 / element
-
-
-def _real(name: str) -> Callable[[arb], arb]:
-    """An elementary function that raises ValueError where it is not real."""
-
-    def value(x: arb) -> arb:
-        found: arb = getattr(x, name)()
-        if not found.is_finite():
-            raise ValueError(name)
-        return found
-
-    return value
-
-
-RING: Final = _Balls(
-    whole=arb,
-    functions={name: _real(name) for name in FUNCTIONS},
-    number=lambda constant: arb(mp_constant(constant)),
-)
-
-
-@contextmanager
-def at_precision() -> Iterator[None]:
-    """Balls at mpmath's precision of the moment, and a little more."""
-    with ctx.workprec(mp.mp.prec + GUARD):
-        yield
-
-
-def midpoint(ball: Any) -> Precise:
-    """The middle of a ball as one of mpmath's numbers."""
-    mantissa, exponent = ball.mid().man_exp()
-    return mp.mpf((int(mantissa), int(exponent)))
 
 
 def force_jet(force: sympy.Expr) -> Jet:
@@ -97,8 +44,9 @@ def force_jet(force: sympy.Expr) -> Jet:
     check_expandable(force, {U, V})
 
     def jet(u0: Precise, v0: Precise, degree: int) -> list[Precise]:
-        with at_precision():
-            u, v = Input(RING, [arb(mp.mpf(u0))]), Input(RING, [arb(mp.mpf(v0))])
-            return [midpoint(c) for c in solution(Program(force, RING, {U: u, V: v}, U, V).root, u, v, degree)]
+        with at_bits(mp.mp.prec):
+            u, v = (Input(REAL_BALLS, [ball(mp.mpf(x))]) for x in (u0, v0))
+            root = Program(force, REAL_BALLS, {U: u, V: v}, U, V).root
+            return [mp.mpf(midpoint(c)) for c in solution(root, u, v, degree)]
 
     return jet

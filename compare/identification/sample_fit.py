@@ -11,11 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ridgeback.common.late import Late
 from ridgeback.common.show.brief import Brief
 from ridgeback.numeric.arrays import Array, freeze
-
-signal = Late("scipy.signal")
+from ridgeback.numeric.late import signal
 
 RARE = 0.01
 """Probability of so high a line in white noise below which it is called one."""

@@ -13,11 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ridgeback.common.late import Late
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.harmonics.window_steps import Shape
-
-signal = Late("scipy.signal")
+from ridgeback.numeric.late import signal
 
 LENGTHS = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 24.0, 32.0, 48.0, 64.0)
 """Windows tried, in cycles."""

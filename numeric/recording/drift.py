@@ -7,13 +7,11 @@ import math
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.late import Late
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.late import signal
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import strongest_frequency
 from ridgeback.numeric.signal.windows import window
-
-signal = Late("scipy.signal")
 
 DETRENDS = ("none", "linear", "slow")
 CYCLES = 6.0

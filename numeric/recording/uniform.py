@@ -15,12 +15,10 @@ from scipy.fft import rfft
 from scipy.interpolate import make_interp_spline
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.late import Late
 from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.late import signal
 from ridgeback.numeric.recording.stretches import Stamped
 from ridgeback.numeric.signal.samples import checked_work
-
-signal = Late("scipy.signal")
 
 JITTER = 0.02
 """Share of the step by which a time stamp may leave the uniform grid: decimal rounding."""

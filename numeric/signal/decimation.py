@@ -9,12 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.ndimage import maximum_filter1d
 
-from ridgeback.common.late import Late
 from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.late import signal
 from ridgeback.numeric.signal.samples import TWO_PI, checked_rate, checked_real_samples, checked_swing
 from ridgeback.numeric.signal.search_band import SearchBand, find_search_band
-
-signal = Late("scipy.signal")
 
 LONG = 16_384
 """Samples above which a record is decimated."""

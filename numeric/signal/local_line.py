@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ridgeback.common.late import Late
 from ridgeback.numeric.arrays import Array, ComplexArray
-
-signal = Late("scipy.signal")
+from ridgeback.numeric.late import signal
 
 
 # Weighted least squares of a straight line through c over the window: value and slope decouple for a symmetric w.

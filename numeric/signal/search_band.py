@@ -16,12 +16,10 @@ from scipy import fft
 from scipy.ndimage import gaussian_filter1d
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.late import Late
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.late import signal
 from ridgeback.numeric.signal.samples import TWO_PI, Floats, checked_budget
 from ridgeback.numeric.signal.windows import half_width, window
-
-signal = Late("scipy.signal")
 
 MARGIN = 1.45
 """Half width of a search band as a factor: below 1.5, so that a second harmonic 1.45 times off it stays out."""

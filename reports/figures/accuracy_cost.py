@@ -17,6 +17,7 @@ from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, toggles
 from ridgeback.reports.drawing.marks import curve, dot, drawing, group, line, rect, text, trace
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale
+from ridgeback.reports.drawing.ticks import per_cent_tick, round_duration
 
 LETTERS = {"expansions": "E", "series model": "S", "estimates": "T", None: "S"}
 STYLE = {"E": "e", "S": "s", "T": "t"}
@@ -180,27 +181,6 @@ def _frame(which: Shown, panel: Panel, target: float) -> Iterable[str]:
         clear = all(x > panel.left + text_width(words, 12.6) + 16 for x in low)
         x = panel.left + 8 if clear else 0.3 * (panel.left + panel.right)
         yield group([text(x, panel.bottom - 8, words, "m sm")], "halo")
-
-
-def per_cent_tick(value: float) -> str:
-    """A decade of a relative error.
-
-    >>> per_cent_tick(1e-4), per_cent_tick(1.0), per_cent_tick(1e-9)
-    ('0.01 %', '100 %', '10⁻⁹')
-    """
-    return f"{100 * value:.10g} %" if value > 0.9e-6 else threshold(value)
-
-
-def round_duration(seconds: float) -> str:
-    """A round time on an axis.
-
-    >>> round_duration(1e-6), round_duration(0.1), round_duration(1e-10)
-    ('1 µs', '0.1 s', '0.1 ns')
-    """
-    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6), ("ns", 1e-9)):
-        if seconds > 0.09 * size if unit in ("s", "ns") else seconds > 0.9 * size:
-            return f"{number(seconds / size, 2)} {unit}"
-    return f"{number(seconds / 1e-9, 2)} ns"
 
 
 def _places(which: Shown, panel: Panel, rows: Sequence[Row]) -> list[tuple[float, float, Row]]:

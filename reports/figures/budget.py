@@ -13,7 +13,7 @@ from ridgeback.reports.drawing.apart import text_width
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, toggles
 from ridgeback.reports.drawing.marks import dot, drawing, group, line, places, rect, text
 from ridgeback.reports.drawing.scale import Scale
-from ridgeback.reports.figures.accuracy_cost import per_cent_tick
+from ridgeback.reports.drawing.ticks import per_cent_tick
 
 ESTIMATES = frozenset(recipe.name for recipe in RECIPES)
 LEAST = 1e-15

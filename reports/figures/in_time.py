@@ -19,7 +19,8 @@ from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, reado
 from ridgeback.reports.drawing.marks import drawing, group, line, places, rect, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
-from ridgeback.reports.figures.accuracy_cost import LETTERS, STYLE, per_cent_tick
+from ridgeback.reports.drawing.ticks import per_cent_tick
+from ridgeback.reports.figures.accuracy_cost import LETTERS, STYLE
 from ridgeback.reports.figures.accuracy_cost import shown as contending
 from ridgeback.reports.figures.clock import Clock, shown
 

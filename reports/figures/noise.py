@@ -14,7 +14,7 @@ from ridgeback.reports.drawing.figure import Figure
 from ridgeback.reports.drawing.marks import area, curve, dot, drawing, group, line, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale
-from ridgeback.reports.figures.accuracy_cost import per_cent_tick
+from ridgeback.reports.drawing.ticks import per_cent_tick
 from ridgeback.reports.text.tables import Row, Table
 
 AT_BOUND = 1.5

@@ -25,9 +25,10 @@ from ridgeback.reports import outside_sections, sections, study_sections
 from ridgeback.reports.drawing.canvas import padded
 from ridgeback.reports.drawing.figure import Series, _read
 from ridgeback.reports.drawing.marks import needed
+from ridgeback.reports.drawing.ticks import round_duration
 from ridgeback.reports.figures import benchmark as cost_figure
 from ridgeback.reports.figures import identification, in_time, noise, order_map
-from ridgeback.reports.figures.accuracy_cost import accuracy_cost, round_duration, shown
+from ridgeback.reports.figures.accuracy_cost import accuracy_cost, shown
 from ridgeback.reports.figures.answer import answer_figure
 from ridgeback.reports.figures.budget import _ruling
 from ridgeback.reports.figures.motion import motion

@@ -6,14 +6,15 @@ import mpmath
 import numpy as np
 import pytest
 import sympy
-from flint import arb
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.number_ring import FLOATS
 from ridgeback.compare.binding.closures import ARRAY, PRECISE, SCALAR
-from ridgeback.compare.binding.taylor_jet import RING, at_precision, force_jet, midpoint
+from ridgeback.compare.binding.taylor_jet import force_jet
+from ridgeback.symbolic.arithmetic.ball_ring import REAL_BALLS, at_bits, midpoint
+from ridgeback.symbolic.arithmetic.balls import ball
 from ridgeback.symbolic.arithmetic.closures import evaluator
 from ridgeback.symbolic.arithmetic.expression_series import Program
 from ridgeback.symbolic.systems.oscillator import U, V
@@ -45,14 +46,14 @@ FUNCTIONS = [
 ]
 
 
-def composed(expression, series, *, ring=RING):
+def composed(expression, series, *, ring=REAL_BALLS):
     """Coefficients of the expression with a power series in the place of u."""
-    if ring is not RING:
+    if ring is not REAL_BALLS:
         root = Program(expression, ring, {U: series}, U, V).root
         return [root.get(n) for n in range(len(series))]
-    with at_precision():
-        root = Program(expression, ring, {U: [arb(c) for c in series]}, U, V).root
-        return [midpoint(root.get(n)) for n in range(len(series))]
+    with at_bits(mpmath.mp.prec):
+        root = Program(expression, ring, {U: [ball(c) for c in series]}, U, V).root
+        return [mpmath.mpf(midpoint(root.get(n))) for n in range(len(series))]
 
 
 @pytest.mark.parametrize("expression", FUNCTIONS, ids=str)
