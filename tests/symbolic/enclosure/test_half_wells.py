@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from flint import arb, ctx, fmpq
+from flint import acb, arb, ctx, fmpq
 
-from ridgeback.symbolic.enclosure.half_wells import HalfWell, two_sided
+from ridgeback.symbolic.enclosure.half_wells import HalfWell, _radius, two_sided
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
 
@@ -21,3 +21,8 @@ def test_a_turning_point_is_found_from_its_energy(force: str, place: fmpq) -> No
                 assert found is not None
                 assert found.overlaps(arb(place))
                 assert found.rad() < 1e-9
+
+
+def test_a_complex_ball_lies_within_its_radius() -> None:
+    """Its corners: 3, 4, 5."""
+    assert 5 <= _radius(acb(arb(1, 3), arb(-2, 4))) < 5.0001

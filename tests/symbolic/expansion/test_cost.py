@@ -6,7 +6,7 @@ import pytest
 import sympy
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.expansion.cost import Budget, balls_of, effort_of, predict
+from ridgeback.symbolic.expansion.cost import Budget, balls_of, duration, effort_of, predict
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
@@ -75,6 +75,20 @@ def test_balls_are_foretold_within_a_factor_of_three(name: str, order: int, seco
     cost = predict(balls_of(find(name)), order)
     assert 1 / 3 < cost.seconds / seconds < 3
     assert 1 / 3 < cost.gigabytes / gigabytes < 3
+
+
+def test_times_are_told_in_the_unit_that_reads_best() -> None:
+    """The greatest of which there are two, or one hour."""
+    said = {
+        119: "119 s",
+        120: "2 min",
+        3599: "60 min",
+        3600: "1 h",
+        172799: "48 h",
+        172800: "2 days",
+        7e7: "2.22 years",
+    }
+    assert {seconds: duration(seconds) for seconds in said} == said
 
 
 @pytest.mark.parametrize(

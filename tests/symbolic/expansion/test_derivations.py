@@ -46,8 +46,18 @@ def test_published_frequency_coefficients(name: str) -> None:
 def test_a_series_is_headed_by_its_variable() -> None:
     own = replace(Oscillator.from_equation("u'' - m*(1 - u**2)*u' + u = 0"), small="m", damping=None)
     for oscillator, name in ((find("van-der-pol"), r"\varepsilon"), (own, "m"), (find("duffing"), "A")):
-        (formula,) = lindstedt(oscillator, 2).formulas()
+        series = lindstedt(oscillator, 2)
+        (formula,) = series.formulas()
         assert formula.startswith(rf"\omega_0({name}) = 1")
+        assert series.picture().x_label == {"A": "A (peak)", "m": "m"}.get(name, "eps")
+
+
+def test_time_in_other_units_leaves_the_amplitude_of_a_limit_cycle() -> None:
+    """With tau = 2 t, eps of u'' - 2 eps (1 - u^2) u' + 4 u = 0 is that of van der Pol."""
+    own = Oscillator.from_equation("u'' - 2*eps*(1 - u**2)*u' + 4*u = 0")
+    fast, slow = lindstedt(own, 4), lindstedt(find("van-der-pol"), 4)
+    assert fast.amplitude_series == slow.amplitude_series
+    assert fast.frequency == tuple(2 * c for c in slow.frequency)
 
 
 def test_van_der_pol_peak_amplitude_is_the_published_series() -> None:

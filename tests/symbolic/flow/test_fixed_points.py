@@ -56,6 +56,8 @@ def test_what_a_term_changes_is_how_far_it_moves_the_fixed_point(bend: int) -> N
     moved = abs(sympy.sqrt(far) / 2 - 1), abs((3 + bend * far) / (3 + bend * 4) - 1)
     changes = _changes(cast("SlowFlow", flow), float(sympy.sqrt(far)), (float(m),))
     assert changes[-1] == pytest.approx(float(max(moved)), rel=1e-3)
+    elsewhere = _changes(cast("SlowFlow", flow), 1.0, (float(m),))  # no fixed point: what it adds to a'/a, per radian
+    assert elsewhere[-1] == pytest.approx(float(m * growth[2]) / (3 + bend), rel=1e-12)
 
 
 def test_a_symbol_in_the_amplitude_equation_leaves_it_without_an_exact_series() -> None:

@@ -4,13 +4,14 @@ from fractions import Fraction
 from functools import cache
 
 import pytest
+import sympy
 from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.arithmetic.balls import polynomial_at
-from ridgeback.symbolic.arithmetic.rational_function import approximant, zeros
+from ridgeback.symbolic.arithmetic.balls import number_ball, polynomial_at
+from ridgeback.symbolic.arithmetic.rational_function import approximant, first_positive_zero, zeros
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -125,6 +126,18 @@ def test_zeros_are_isolated_and_certified() -> None:
     assert sorted(round(float(z.real), 9) for z in found if z.imag == 0) == [-0.5, 1.0]
 
 
+def test_zero_itself_is_no_positive_zero() -> None:
+    assert first_positive_zero((fmpq(0), fmpq(1))) is None
+    assert first_positive_zero((fmpq(0), fmpq(-2), fmpq(1))) == 2
+
+
+def test_an_approximant_says_how_many_coefficients_it_needs() -> None:
+    series = [fmpq(1, n + 1) for n in range(4)]
+    assert len(approximant(series, 2, 1)[0]) == 3
+    with pytest.raises(InputError, match=r"\[3/1\] needs 5 coefficients and 4 are known"):
+        approximant(series, 3, 1)
+
+
 # Changes of variable.
 
 mappings = st.sampled_from(
@@ -148,6 +161,7 @@ def test_image_and_preimage_are_inverse_and_the_image_stays_below_one(mapping: M
         w = mapping.image(x)
         assert mapping.preimage(w).overlaps(x)
         assert isinstance(mapping, Identity) or 0 < w < 1
+        assert number_ball(mapping.expression(sympy.Rational(share, 200))).overlaps(w)
 
 
 @settings(deadline=None, max_examples=40)
@@ -167,7 +181,7 @@ def test_the_series_of_the_inverse_is_that_of_the_preimage(mapping: Mapping, len
     "mapping",
     [Euler(Fraction(1)), Euler(Fraction(2), Fraction(2, 3)), CutPlane(Fraction(-1)), Pair(Fraction(2), Fraction(-1))],
 )
-@pytest.mark.parametrize(("growth", "n"), [(Fraction(0), 0), (HALF, 0), (Fraction(-1, 2), 3)])
+@pytest.mark.parametrize(("growth", "n"), [(Fraction(0), 0), (HALF, 0), (Fraction(-1, 2), 3), (Fraction(1), 2)])
 def test_a_mapped_series_is_the_same_series_through_its_order(mapping: Mapping, growth: Fraction, n: int) -> None:
     series = expansion("duffing", 16)
     form = mapped(series, mapping, growth=growth, n=n)
