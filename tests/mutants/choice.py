@@ -81,8 +81,8 @@ class Choice:
         used = {name: named_in(ast.parse((self.root / name).read_text(encoding="utf-8"))) for name in place}
 
         def rank(test: str) -> tuple[int, int]:
-            file, _, name = test.partition("::")
-            names = used[file].get(name.partition("[")[0], frozenset())
+            file, _, name = test.partition("[")[0].partition("::")
+            names = used[file].get(name.rpartition("::")[2], frozenset())
             far = 0 if place[file] == 0 else 1 if names & own else 2 if names & every else 3
             return far, place[file]
 
@@ -107,14 +107,15 @@ def names_of(node: ast.stmt) -> Iterator[str]:
 
 
 def named_in(tree: ast.Module) -> dict[str, frozenset[str]]:
-    """Of each test at the top of a file, the names that it uses."""
+    """Of each test of a file, the names that it uses."""
+    classes = [inner for node in tree.body if isinstance(node, ast.ClassDef) for inner in node.body]
     return {
         node.name: frozenset(
             inner.id if isinstance(inner, ast.Name) else inner.attr
             for inner in ast.walk(node)
             if isinstance(inner, ast.Name | ast.Attribute)
         )
-        for node in tree.body
+        for node in (*tree.body, *classes)
         if isinstance(node, ast.FunctionDef)
     }
 

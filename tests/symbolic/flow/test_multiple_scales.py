@@ -678,10 +678,10 @@ def test_without_damping_a_transient_keeps_its_amplitude() -> None:
 def test_the_time_said_to_fit_fits_and_is_not_far_from_the_last_one() -> None:
     flow, most = multiple_scales(make("u'' + sin(u)"), 2), 2.0**52 * 1e-6
     with pytest.raises(InputError, match="too large for its cosine") as refused:
-        transient(flow, [0.0, 1e9, 1e10], [], amplitude=0.1, phase=-1e9)
+        transient(flow, [0.0, 1e9, 1e10], [], amplitude=0.1)
     fits = float(str(refused.value).split("t = ")[2].split()[0])
-    found = transient(flow, [0.0, 1e9, fits], [], amplitude=0.1, phase=-1e9)
-    assert 0.7 * most < found.phase[-1] <= most
+    found = transient(flow, [0.0, 1e9, fits], [], amplitude=0.1)
+    assert 0.85 * most < found.phase[-1] <= most
 
 
 def test_bad_transients_are_refused() -> None:

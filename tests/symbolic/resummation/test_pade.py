@@ -189,6 +189,8 @@ def test_a_mapped_series_is_the_same_series_through_its_order(mapping: Mapping, 
     with ctx.workprec(1200):
         gaps = [abs(form.in_balls(A) - duffing(A)) for A in (arb(2) ** -20, arb(2) ** -21)]
         assert float((gaps[0] / gaps[1]).log() / arb(2).log()) == pytest.approx(18, abs=1e-2)
+        printed = form.expression().subs(sympy.Symbol("A", real=True), sympy.Rational(1, 7))
+        assert number_ball(printed).overlaps(form.in_balls(arb(fmpq(1, 7))))
 
 
 def test_a_mapping_without_its_singularity_is_refused() -> None:
