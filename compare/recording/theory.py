@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
@@ -23,6 +23,8 @@ MANY = 100.0
 """Standard deviations beyond which their number says no more."""
 APART = 2.0
 """Standard deviations from which on two backbones are said to differ."""
+NEARER = 5.0
+"""How many times nearer a pendulum comes for which amplitudes are taken for degrees, where that is said."""
 
 
 class Agreement(Enum):
@@ -40,8 +42,8 @@ class Agreement(Enum):
 class TheoryBackbone:
     """The exact backbone of a named oscillator at the amplitudes of a measured one.
 
-    The points of a measured backbone share noise, so the deviation of their mean is taken as the median one of a
-    point, not divided by the root of their number.
+    The points of a measured backbone share noise, so their number does not make a distance more significant: it is
+    counted in deviations point by point, root mean square, about 1 for the oscillator that made the recording.
     """
 
     title: str
@@ -54,9 +56,11 @@ class TheoryBackbone:
     """Mean of measured / theory - 1."""
     rms: float
     deviations: float
-    """Size of the mean in standard deviations of a point; NaN where none are known."""
+    """Rms of measured less theory in standard deviations of each point; NaN where none are known."""
     covered: float
     """Share of the points at which the theory oscillates."""
+    degrees: bool = False
+    """Whether the theory is of an angle, and the amplitudes seem to be in degrees."""
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -72,18 +76,24 @@ class TheoryBackbone:
 
     def sentence(self) -> str:
         """The judgement in words."""
+        degrees = "; an angle in degrees needs --unit deg" if self.degrees else ""
         if self.agreement is Agreement.UNCOVERED:
             low, high = (f"{end(self.amplitude):.3g}" for end in (np.min, np.max))
-            degrees = "; an angle in degrees needs --unit deg" if "sin(" in self.equation else ""
             return f"{self.title} oscillates at none of the measured amplitudes, {low} to {high}{degrees}."
-        part = "" if self.covered == 1 else f" over the {100 * self.covered:.0f} % of it at which that oscillates"
+        part = "" if self.covered == 1 else f", over the {100 * self.covered:.0f} % of it where that oscillates"
         size = f"{offset(self.mean)} on average ({per_cent(self.rms)} rms){part}"
         if self.agreement is Agreement.DIFFERS:
             many = number(self.deviations, 2) if self.deviations < MANY else f"over {MANY:g}"
-            return f"The measured backbone lies {size} against {self.title}, {many} of its deviations: they differ."
+            return (
+                f"Against {self.title} the measured backbone lies {size}; that is {many} of its standard deviations: "
+                f"they differ{degrees}."
+            )
         if self.agreement is Agreement.UNTOLD:
-            return f"The measured backbone, whose uncertainty is not known, lies {size} against {self.title}."
-        return f"The measured backbone lies {size} against {self.title}, within {APART:g} of its standard deviations."
+            return f"Against {self.title} the measured backbone, whose uncertainty is not known, lies {size}{degrees}."
+        return (
+            f"Against {self.title} the measured backbone lies {size}, within {APART:g} of its standard deviations: "
+            "they agree."
+        )
 
 
 def over_measured(oscillator: Oscillator, measured: Backbone, *, known: bool = True) -> TheoryBackbone:
@@ -101,7 +111,16 @@ def over_measured(oscillator: Oscillator, measured: Backbone, *, known: bool = T
         Whether its deviations can be trusted.
     """
     deviation = measured.curve_omega_sd if known else np.full_like(measured.curve_omega_sd, np.nan)
-    return over_curve(oscillator, measured.curve_amplitude, measured.curve_omega, deviation)
+    found = over_curve(oscillator, measured.curve_amplitude, measured.curve_omega, deviation)
+    return replace(found, degrees=found.agreement is not Agreement.AGREES and in_degrees(oscillator, measured, found))
+
+
+def in_degrees(oscillator: Oscillator, measured: Backbone, found: TheoryBackbone) -> bool:
+    """Whether a pendulum's theory would come NEARER times nearer, or oscillate at all, for amplitudes in degrees."""
+    if "sin(" not in oscillator.equation or measured.units in ("rad", "radians"):
+        return False
+    turned = over_curve(oscillator, np.radians(found.amplitude), measured.curve_omega, measured.curve_omega_sd)
+    return turned.covered > 0.0 and (not found.covered or NEARER * turned.rms < found.rms)
 
 
 def over_curve(oscillator: Oscillator, amplitude: Array, omega: Array, omega_sd: Array) -> TheoryBackbone:
@@ -111,16 +130,16 @@ def over_curve(oscillator: Oscillator, amplitude: Array, omega: Array, omega_sd:
     if not inside.any():
         return TheoryBackbone(oscillator.title, oscillator.equation, amplitude, expected, *(float("nan"),) * 3, 0.0)
     error = omega[inside] / expected[inside] - 1
-    spread = float(np.median(omega_sd[inside] / omega[inside]))
-    mean = float(np.mean(error))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        apart = np.abs(omega[inside] - expected[inside]) / omega_sd[inside]
     return TheoryBackbone(
         title=oscillator.title,
         equation=oscillator.equation,
         amplitude=amplitude,
         omega=expected,
-        mean=mean,
+        mean=float(np.mean(error)),
         rms=float(np.sqrt(np.mean(error**2))),
-        deviations=abs(mean) / spread if spread != 0 else float("inf"),
+        deviations=float(np.sqrt(np.mean(apart**2))),
         covered=float(np.mean(inside)),
     )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ridgeback.common.numbers import number, per_cent
+from ridgeback.common.quantities import symbol, unit_text
 from ridgeback.compare.identification.results import Candidate, Identification, Parameter, Prediction
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout
@@ -16,12 +17,14 @@ from ridgeback.reports.figures.recording import Band, side_by_side
 from ridgeback.reports.text.tables import Row, Table
 
 CLOCK = Clock("s")
+SPELT = {"w": "omega", "phase": "phi"}
+"""Stems of parameters whose symbol is another one."""
 STYLES = ("el nf", "sl d1 nf", "el d2 nf", "sl d3 nf")
 
 
 def unit_of(found: Identification) -> str:
     """The signal's unit behind a comma."""
-    return f", {found.unit}" if found.unit else ""
+    return f", {unit_text(found.unit)}" if found.unit else ""
 
 
 def candidates_figure(found: Identification) -> Figure:
@@ -155,7 +158,7 @@ def parameter_table(candidate: Candidate, key: str = "parameters", of: str = "")
     """
     return Table(
         key,
-        f"{f'{of}, ' if of else ''}{candidate.title}: {candidate.equation}",
+        f"{f'{of}, ' if of else ''}{candidate.title}, {candidate.damping_law} damping",
         ("parameter", "value", "95 % interval"),
         tuple(Row((_named(p), *_with_interval(p))) for p in candidate.parameters),
     )
@@ -174,5 +177,12 @@ def _with_interval(parameter: Parameter) -> tuple[str, str]:
 
 
 def _named(parameter: Parameter) -> str:
-    name = f"{parameter.name}, {parameter.meaning}" if parameter.meaning else parameter.name
-    return f"{name}, in {parameter.unit}" if parameter.unit else name
+    """A parameter as the equation above has it, with its meaning and its unit.
+
+    >>> _named(Parameter("phase0", 0.1, 0.0, "rad", "phase at the start"))
+    'φ₀, phase at the start, in rad'
+    """
+    stem = parameter.name.rstrip("0123456789")
+    sign = symbol(SPELT.get(stem, stem) + parameter.name[len(stem) :])
+    name = f"{sign}, {unit_text(parameter.meaning)}" if parameter.meaning else sign
+    return f"{name}, in {unit_text(parameter.unit)}" if parameter.unit else name

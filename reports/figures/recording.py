@@ -51,7 +51,7 @@ def side_by_side(key: str, bands: Sequence[Band], *, x_title: str, caption: str,
     """
     wide = [_band_panel(band, i, len(bands), narrow=False) for i, band in enumerate(bands)]
     narrow = [_band_panel(band, i, len(bands), narrow=True) for i, band in enumerate(bands)]
-    height = (356.0, 300.0 * len(bands))
+    height = (356.0, 300.0 * len(bands) - 28.0)
     series = [Series(band.title, band.x, band.y) for band in bands]
     series += [Series(name, band.x, y) for band in bands for name, y, _ in band.over]
     return Figure(
@@ -123,9 +123,9 @@ def backbone_figure(recording: RecordingComparison) -> Figure:
         Band("growth rate a′/a, 1/s", x, recording.growth_rate, np.nan_to_num(recording.growth_rate_sd)),
     )
     caption = (
-        "Left: fundamental frequency against the amplitude of the fundamental; right: growth rate a′/a, negative in "
+        "Fundamental frequency and growth rate a′/a, negative in a decay, against the amplitude of the fundamental. "
     )
-    caption += f"a decay. {recording.doubt}." if recording.doubt else "a decay. Bands: 95 %."
+    caption += f"{recording.doubt}." if recording.doubt else "Bands: 95 %."
     if theory is not None:
         caption += f" {theory.sentence()}"
     return side_by_side(

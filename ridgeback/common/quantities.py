@@ -16,6 +16,7 @@ _GREEK = {
 }
 # fmt: on
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def in_pi(value: float, *, digits: int = 3) -> str:
@@ -75,6 +76,15 @@ def symbol(name: str) -> str:
     plain = re.sub(r"[\\{}]|_(?=\{?\d)", "", name)
     stem = plain.rstrip("0123456789")
     return _GREEK.get(stem, stem) + plain[len(stem) :].translate(_SUBSCRIPTS)
+
+
+def unit_text(unit: str) -> str:
+    """A unit as it is printed in text, its powers above the line.
+
+    >>> unit_text("rad/(s u^2)"), unit_text("m/s^2"), unit_text("mm")
+    ('rad/(s u²)', 'm/s²', 'mm')
+    """
+    return re.sub(r"\^(-?\d+)", lambda power: power[1].translate(_SUPERSCRIPTS), unit)
 
 
 def duration(seconds: float | None) -> str:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from ridgeback.compare.recording.theory import Agreement, exact_at, over_measured
+from ridgeback.compare.recording.theory import Agreement, exact_at, over_curve, over_measured
 from ridgeback.numeric.backbone.backbone import backbone
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.symbolic.systems.catalogue import find
@@ -54,3 +56,21 @@ def test_the_pendulum_at_its_fundamental_amplitude():
     expected = 1 - np.array([0.2, 0.5]) ** 2 / 16 + np.array([0.2, 0.5]) ** 4 / 1024
     assert inside.all()
     np.testing.assert_allclose(omega, expected, atol=2e-5)
+
+
+def test_a_curve_that_crosses_the_measured_one_does_not_agree():
+    """The mean of the differences is 0, each of them ten deviations."""
+    amplitude = np.linspace(0.1, 1.0, 10)
+    omega = 2.0 + 0.02 * np.sign(amplitude - 0.55)
+    found = over_curve(find("linear").with_parameters({"k": "2"}), amplitude, omega, np.full(10, 0.002))
+    assert found.mean == pytest.approx(0.0, abs=1e-12)
+    assert found.deviations == pytest.approx(10.0)
+    assert found.agreement is Agreement.DIFFERS
+
+
+def test_a_pendulum_in_degrees_is_told_from_one_in_radians(measured):
+    pendulum = find("pendulum").with_parameters({"k": "2"})
+    degrees = replace(measured, curve_amplitude=2.0 * measured.curve_amplitude / measured.curve_amplitude.max())
+    assert over_measured(pendulum, degrees).sentence().endswith("they differ; an angle in degrees needs --unit deg.")
+    assert "--unit" not in over_measured(pendulum, replace(degrees, units="rad")).sentence()
+    assert "--unit" not in over_measured(pendulum.with_parameters({"k": "3"}), degrees).sentence()
