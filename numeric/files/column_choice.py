@@ -6,6 +6,8 @@ import re
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
+import numpy as np
+
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.files.columns import Columns
 
@@ -52,6 +54,8 @@ AFTER_A_SLASH = re.compile(r"(.*\S)\s+/\s*(\S+)\s*")
 DEGREES = ("deg", "degs", "degree", "degrees", "°", "grad")
 """Units of angles of which 360 are a turn."""
 ALL = "all"
+EVEN = 0.02
+"""Share of the usual step by which one may differ in a column without a name that is taken for the time."""
 SHOWN = 12
 """Column names that a message lists."""
 
@@ -134,11 +138,28 @@ def time_index(columns: Columns, wanted: str | int | None, rate: float | None) -
     if hits:
         return hits[0]
     if rate is None and columns.rate is None:
+        if rises_evenly(columns):
+            return 0
         raise InputError(
             f"{columns.source} has no time column among {listed(columns)}; "
             f"name it (--time-column), or give the sampling rate in its place (--rate)"
         )
     return None
+
+
+def rises_evenly(columns: Columns) -> bool:
+    """Whether the first of several columns without names rises in even steps, other than those of a count.
+
+    >>> def two(step):
+    ...     return Columns(("1", "2"), (9, 9), lambda i: step * np.arange(9.0), str, "run.csv")
+    >>> rises_evenly(two(0.1)), rises_evenly(two(1.0)), rises_evenly(two(-0.1))
+    (True, False, False)
+    """
+    if len(columns.names) < 2 or columns.names != tuple(str(i + 1) for i in range(len(columns.names))):
+        return False
+    steps = np.diff(columns.values(0))
+    usual = float(np.median(steps)) if steps.size and np.isfinite(steps).all() else 0.0
+    return usual > 0.0 and usual != 1.0 and bool((np.abs(steps - usual) <= EVEN * usual).all())
 
 
 def signal_indices(

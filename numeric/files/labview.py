@@ -18,7 +18,9 @@ from ridgeback.numeric.files.columns import DAMAGE, Columns, first_line
 
 Parsed = Callable[[str, str], Columns]
 END = re.compile(r"^\*\*\*End_of_Header\*\*\*.*$", re.MULTILINE)
-STEP = re.compile(r"^Delta_X[\t,;]+([^\t,;\r\n]+)", re.MULTILINE)
+COMMA = re.compile(r"^Decimal_Separator[\t;]+,", re.MULTILINE)
+STEP, UNITS = "Delta_X", "Y_Unit_Label"
+"""Lines of the second header: a value for each channel."""
 EMPTY_X, REMARKS = "x_value", "comment"
 """Columns that LabVIEW writes always, and often leaves empty."""
 SAME = 1e-9
@@ -50,8 +52,31 @@ def of_lvm(parsed: Parsed, text: str, source: str) -> Columns:
     if len(headers) > 2:
         lines = lines[: next((i for i, line in enumerate(lines) if not line.strip()), len(lines))]
     table = parsed("\n".join(lines), source)
-    step = STEP.search(text, headers[0].end(), headers[1].start())
-    return with_step(without_empty(table), None if step is None else step[1], len(headers) - 1)
+    header, comma = text[headers[0].end() : headers[1].start()], COMMA.search(text, 0, headers[0].start()) is not None
+    steps = stated(header, STEP, comma=comma)
+    named = with_units(without_empty(table), stated(header, UNITS, comma=comma))
+    return with_step(named, steps[0] if steps else None, len(headers) - 1)
+
+
+def stated(header: str, name: str, *, comma: bool) -> list[str]:
+    r"""What a header says of each channel; a ``comma`` may be a decimal one.
+
+    >>> stated("Delta_X\t0,01\t\n", "Delta_X", comma=True), stated("Y_Unit_Label,mm,V", "Y_Unit_Label", comma=False)
+    (['0,01'], ['mm', 'V'])
+    """
+    line = next((line for line in header.splitlines() if line.startswith(name)), "")
+    cells = [cell.strip() for cell in re.split(r"[\t;]" if comma else r"[\t,;]", line)[1:]]
+    return cells[:-1] if cells and not cells[-1] else cells
+
+
+def with_units(table: Columns, units: list[str]) -> Columns:
+    """The columns with their units, where there is one for each that holds samples."""
+    samples = [i for i, name in enumerate(table.names) if name.strip().lower() not in (EMPTY_X, REMARKS)]
+    if len(samples) != len(units):
+        return table
+    unit = dict(zip(samples, units, strict=True))
+    names = (f"{name} [{unit[i]}]" if unit.get(i) else name for i, name in enumerate(table.names))
+    return replace(table, names=tuple(names))
 
 
 def without_empty(table: Columns) -> Columns:

@@ -17,6 +17,7 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.files.column_choice import (
     SECONDS,
     find_column,
+    is_time,
     name_and_units,
     signal_indices,
     time_index,
@@ -30,6 +31,7 @@ from ridgeback.numeric.signal.samples import checked_rate
 
 ALIKE, MOSTLY = 0.02, 0.9
 """Steps of a time column that differ by less than this share are alike; it is even where most of them are."""
+TAKEN = "The first column has no name and rises evenly: it was taken for the time in seconds (--time-column, --rate)."
 Wanted = str | int | Sequence[str | int] | None
 
 
@@ -59,6 +61,8 @@ def signals(
     del data  # what columns need of it they hold
     columns = replace(columns, values=lru_cache(maxsize=2)(columns.values))  # the times, for channel after channel
     clock = time_index(columns, time_column, rate)
+    if clock is not None and time_column is None and not is_time(columns.names[clock]):
+        columns = replace(columns, note=f"{columns.note} {TAKEN}".strip())
     by = None if run is None else find_column(columns, run)
     for index in signal_indices(columns, wanted, (clock, by)):
         if columns.sizes[index] > MOST_SAMPLES:

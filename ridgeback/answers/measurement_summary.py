@@ -6,8 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ridgeback.numeric.backbone.damping import damping, with_deviation
+
 if TYPE_CHECKING:
     from ridgeback.compare.recording.measurement import Measurement
+    from ridgeback.numeric.arrays import Array
     from ridgeback.numeric.backbone.curve import Backbone
     from ridgeback.numeric.tracking.track import Track
 
@@ -16,6 +19,8 @@ MOST_ROWS = 30
 SLOW = 0.05
 """Frequencies below which cycles are counted per day."""
 DAY = 86_400.0
+SMALL = 1e-4
+"""Values below which a power of ten is written."""
 
 
 def summary(one: Measurement) -> list[str]:
@@ -56,17 +61,32 @@ def backbone_lines(curve: Backbone) -> list[str]:
     """Amplitude, growth rate and damping ratio from the largest amplitude to the smallest, with one sigma."""
     top, bottom = int(np.argmax(curve.curve_amplitude)), int(np.argmin(curve.curve_amplitude))
     unit = f" {curve.units}" if curve.units else ""
-    ratio = -curve.curve_growth_rate / curve.curve_omega
-    rate, sd = curve.curve_growth_rate, curve.curve_growth_rate_sd
+    ratio = damping(curve.curve_growth_rate, curve.curve_growth_rate_sd, curve.curve_omega, curve.curve_omega_sd)
     slow = float(curve.curve_omega[top]) < 2 * np.pi * SLOW
-    per_day = [f"{DAY * rate[i]:.5g} +- {DAY * sd[i]:.2g}" for i in (top, bottom)]
+
+    def both(values: Array, deviations: Array) -> str:
+        return " to ".join(uncertain(float(values[i]), float(deviations[i])) for i in (top, bottom))
+
+    rate, rate_sd = curve.curve_growth_rate, curve.curve_growth_rate_sd
     return [
-        f"amplitude: {curve.curve_amplitude[top]:.6g} to {curve.curve_amplitude[bottom]:.6g}{unit}",
-        "growth rate a'/a: "
-        + " to ".join(f"{rate[i]:.5g} +- {sd[i]:.2g} 1/s" for i in (top, bottom))
-        + (f" ({' to '.join(per_day)} per day)" if slow else ""),
-        "damping ratio: " + " to ".join(f"{ratio[i]:.4g} +- {sd[i] / curve.curve_omega[i]:.2g}" for i in (top, bottom)),
+        f"amplitude: {both(curve.curve_amplitude, curve.curve_amplitude_sd)}{unit}",
+        f"growth rate a'/a: {both(rate, rate_sd)} 1/s"
+        + (f" ({both(DAY * rate, DAY * rate_sd)} per day)" if slow else ""),
+        f"damping ratio: {both(ratio.ratio, ratio.ratio_sd)}",
     ]
+
+
+def uncertain(value: float, deviation: float) -> str:
+    """A value to the second digit of its deviation; a small one with a power of ten.
+
+    >>> uncertain(3.14159, 0.0123), uncertain(-5.7792e-7, 5.4e-10), uncertain(1.0, float("nan"))
+    ('3.142 +- 0.012', '(-5.7792 +- 0.0054)e-07', '1 +- nan')
+    """
+    size = abs(value)
+    if not (np.isfinite(deviation) and deviation > 0.0 and 0.0 < size < SMALL):
+        return with_deviation(value, deviation)
+    power = int(np.floor(np.log10(size)))
+    return f"({with_deviation(value / 10.0**power, deviation / 10.0**power)})e{power:+03d}"
 
 
 def thinned(count: int) -> list[int]:

@@ -38,6 +38,17 @@ def test_an_lvm_file_has_no_empty_column_and_a_rate(timed: bool) -> None:
     assert np.allclose(found.values(len(found.names) - 1), U, atol=1e-6)
 
 
+@pytest.mark.parametrize("separator", ["\t", ";"])
+def test_a_step_with_a_decimal_comma_and_the_units_of_the_channels_are_read(separator: str) -> None:
+    text = HEADER.format(columns="No").replace("Separator\tTab", "Separator\tTab\nDecimal_Separator\t,")
+    text = text.replace("X0\t0.0\t", "Y_Unit_Label\tmm\t\nX0\t0,0\t").replace("0.02", "0,02")
+    text += "\n".join(f"\t{u:.6f}\t".replace(".", ",") for u in U.tolist())
+    found = READERS[".lvm"](text.replace("\t", separator).encode(), "run.lvm")
+    assert found.names == ("Voltage [mm]",)
+    assert found.rate == pytest.approx(50.0)
+    assert np.allclose(found.values(0), U, atol=1e-6)
+
+
 def test_the_first_of_several_segments_is_read_and_said() -> None:
     second = HEADER.split("***End_of_Header***\t\n\t\n")[1]
     text = lvm(timed=True).decode() + "\n\t\n" + second + "0\t9.0\t\n0.02\t9.5\t\n"

@@ -76,10 +76,15 @@ def test_tables_as_instruments_and_spreadsheets_write_them(tmp_path: Path, data:
     assert any("lines before the table were left out" in note for note in found.notes) == (b"Serial" in data)
 
 
-def test_numbers_without_a_header_need_a_rate_or_a_column(tmp_path: Path) -> None:
+def test_numbers_without_a_header_have_an_even_first_column_for_time_or_need_one(tmp_path: Path) -> None:
     path = tmp_path / "run.txt"
     path.write_text(rows(" ", False))
-    assert np.array_equal(read_recording(path, time_column="1").values, VALUES)
+    found = read_recording(path)
+    assert np.array_equal(found.values, VALUES)
+    assert found.rate == pytest.approx(20.0)
+    assert any("taken for the time" in note for note in found.notes)
+    assert not any("taken for" in note for note in read_recording(path, time_column="1").notes)
+    path.write_text(rows(" ", False, 1.0))
     with pytest.raises(InputError, match=r"--time-column.*--rate"):
         read_recording(path)
 
