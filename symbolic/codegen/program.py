@@ -159,6 +159,12 @@ class Function:
         """Whether what rounding loses is carried along: the value is then the sum of two, made by the last addition."""
         return any(isinstance(statement, Step) and statement.rest for statement in self.body)
 
+    @property
+    def carries(self) -> bool:
+        """Whether some steps are compensated: more than exact first terms, which keep a rest too."""
+        pairs = (Operation.TWO_SUM, Operation.TWO_PRODUCT)
+        return any(isinstance(statement, Step) and statement.operation in pairs for statement in self.body)
+
 
 @dataclass(frozen=True)
 class Form:

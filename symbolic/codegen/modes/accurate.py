@@ -59,10 +59,11 @@ def _with_horner(function: Function) -> Function:
     for statement in function.body:
         operands = () if isinstance(statement, Horner) else statement.operands
         number = next((o for o in operands if isinstance(o, Number)), None)
-        if number is None:
+        at = next((o for o in operands if isinstance(o, str)), None)
+        if number is None or at is None or statement.operation is not Operation.MULTIPLY:  # type: ignore[union-attr]
             body.append(statement)
         else:
-            name, at = statement.name, next(o for o in operands if isinstance(o, str))
+            name = statement.name
             body += [Horner(name, at, (number,)), Step(name, Operation.MULTIPLY, (at, name))]
     return replace(function, body=tuple(body))
 
@@ -72,7 +73,8 @@ def _place(function: Function) -> int | None:
     places = [i for i, statement in enumerate(function.body) if isinstance(statement, Horner)]
     rest = function.body[places[0] + 1 :] if len(places) == 1 else ()
     plain = all(isinstance(s, Step) and s.operation is Operation.MULTIPLY for s in rest)
-    return places[0] if len(places) == 1 and plain and function.polynomial is not None else None
+    own = function.polynomial is not None and function.polynomial.variables == (function.domain.argument,)
+    return places[0] if len(places) == 1 and plain and own else None
 
 
 class _Pair:
@@ -144,12 +146,16 @@ def _before(steps: Steps, body: tuple[Statement, ...], at: str) -> str | None:
     """What stands before Horner's rule; the square of the argument keeps its rounding error, whose name is returned."""
     rest = None
     for statement in body:
-        if isinstance(statement, Step) and statement.name == at and len(set(statement.operands)) == 1:
+        if isinstance(statement, Step) and statement.name == at and _is_square(statement):
             rest = f"{at}_low"
             steps.assign(at, Operation.TWO_PRODUCT, *statement.operands, rest=rest)
         else:
             steps.taken.append(statement)
     return rest
+
+
+def _is_square(step: Step) -> bool:
+    return step.operation is Operation.MULTIPLY and len(set(step.operands)) == 1
 
 
 def _factors(function: Function, place: int, held: set[str]) -> Iterator[Operand]:

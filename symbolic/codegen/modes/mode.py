@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
-from itertools import chain, takewhile
+from itertools import chain
 from typing import Final
 
 from ridgeback.common.errors import InputError
@@ -26,16 +26,12 @@ GOALS: Final[Mapping[Mode, Fraction]] = {
 """Units in the last place of the exact polynomial that the bound should come to."""
 
 
-MOST: Final = 320
-"""Operations that modes strict and fma may come to for the sake of the goal."""
-
-
 def in_mode(form: Form, function: Function) -> Function:
     """The function as its mode evaluates it, with what is proved about its rounding.
 
-    The cheapest evaluation that comes to the goal is taken; where none does without costing too much, in modes strict
-    and fma the one with the smallest bound of those that carry no errors along, and in accurate what carries most.
-    Without a bound to judge by it is Horner's rule, in parts where it is long.
+    The cheapest evaluation that comes to the goal is taken; where none does, that with the smallest bound.  Without a
+    bound in units in the last place to judge by, in modes strict and fma it is Horner's rule, in parts where it is
+    long, and in accurate what carries most errors along.
 
     Raises InputError in mode accurate for a function that is not Horner's rule in one variable, times powers and k, and
     in all for one whose rounding must have a bound and has none.
@@ -46,14 +42,15 @@ def in_mode(form: Form, function: Function) -> Function:
         if function.bounded or form.mode == "accurate":
             raise
         made, found = split(function), None
-    return replace(made, notes=(*made.notes, *rounding_notes(form, made, found)))
+    told = (f"Evaluation: {cost(form, made)} operations, rounding errors carried along.",) * made.carries
+    return replace(made, notes=(*made.notes, *rounding_notes(form, made, found), *told))
 
 
 def _chosen(form: Form, function: Function) -> tuple[Function, Bound | None]:
     goal, exact = GOALS[form.mode], form.mode == "accurate"
-    plain = () if exact else (split(function), *leading(form, function))
+    plain = (split(function), *leading(form, function))
     made = function
-    for made in chain(plain, _carried(form, function)):
+    for made in chain(plain, compensated(form, function)):
         if made not in plain[:1] and surely_above(form, made, goal):
             continue
         found = bound(form, made)
@@ -61,7 +58,7 @@ def _chosen(form: Form, function: Function) -> tuple[Function, Bound | None]:
             return made, found
         if (found is None or found.ulps is None) and not exact:
             return made, found
-    judged = [(one, bound(form, one)) for one in plain or (made,)]
+    judged = [(one, bound(form, one)) for one in ((made,) if exact else (*plain, made))]
     return min(judged, key=lambda pair: _size(pair[1]))
 
 
@@ -70,12 +67,6 @@ def _size(found: Bound | None) -> tuple[float, float]:
     if found is None:
         return math.inf, math.inf
     return math.inf if found.ulps is None else float(found.ulps), float(found.absolute)
-
-
-def _carried(form: Form, function: Function) -> Iterator[Function]:
-    """What carries errors along, from cheap to costly."""
-    within = MOST if form.mode != "accurate" else math.inf
-    return takewhile(lambda made: cost(form, made) <= within, compensated(form, function))
 
 
 def cost(form: Form, function: Function) -> int:

@@ -9,7 +9,7 @@ and the product that also give their rounding error give it exactly: what is los
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Final
 
@@ -72,12 +72,12 @@ class Analysis:
                 self._step(statement)
         return self.of(result)
 
-    def run_to_sum(self, function: Function, exact: arb) -> Computed:
+    def run_to_sum(self, body: Sequence[Statement], function: Function, exact: arb) -> Computed:
         """The same for code whose last addition is of a value and its low part, whose exact sum is known better.
 
         What follows are products with the factor of the polynomial, ``exact`` being without it.
         """
-        body, polynomial = function.body, function.polynomial
+        polynomial = function.polynomial
         place = max(i for i, s in enumerate(body) if isinstance(s, Step) and s.operation is Operation.ADD)
         if place == len(body) - 1 and polynomial is not None and polynomial.factor:
             exact = exact * self.known[polynomial.factor].exact
@@ -105,6 +105,12 @@ class Analysis:
         if grid is None or grid < self.real.low:
             return False
         return bool(size <= arb(2) ** min(grid + self.real.digits, self.real.high - 1))
+
+    def _may_underflow(self, exact: arb, error: arb) -> bool:
+        """Whether a value may be so small, and is not 0, that fewer digits are left of it."""
+        return not (exact == 0 and error == 0) and not abs(exact) - error >= arb(2) ** (
+            self.real.low + self.real.digits
+        )
 
     def _horner(self, horner: Horner) -> None:
         tail = self._tail(horner, self.known[horner.at]) if horner.loops else None
@@ -155,7 +161,8 @@ class Analysis:
                 grid = of_product(x[0], x[1])
                 if any(is_power_of_two(one) for one in x) and not self.holds((abs(exact) + error).upper(), grid):
                     lost = half_spacing(abs(exact) + error, self.real)  # of an overflow; the rest is for an underflow
-                    whole = (error + arb(2) ** (self.real.low - 1)).upper() if lost.is_finite() else lost
+                    under = arb(2) ** (self.real.low - 1) if self._may_underflow(exact, error) else ZERO
+                    whole = (error + under).upper() if lost.is_finite() else lost
                     one, other = x if is_power_of_two(x[0]) else (x[1], x[0])
                     return Computed(exact, whole, (abs(one.exact) * other.before).upper())
                 return self.rounded(exact, error, grid)

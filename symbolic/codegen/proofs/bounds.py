@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Callable
+import math
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final, TypeAlias
 
-from flint import arb, arb_poly, ctx
+from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
-from ridgeback.symbolic.arithmetic.balls import ball, whole_power
+from ridgeback.symbolic.arithmetic.balls import ball
 from ridgeback.symbolic.codegen.number import Real, fraction
 from ridgeback.symbolic.codegen.program import Form, Function, Horner, Statement
-from ridgeback.symbolic.codegen.proofs.analysis import KEPT, Analysis, Computed, half_spacing
+from ridgeback.symbolic.codegen.proofs.analysis import KEPT, Computed, half_spacing
+from ridgeback.symbolic.codegen.proofs.runs import Run, Seen, least, runner
 
 BITS: Final = 128
 WORK: Final = 12000
@@ -22,8 +23,6 @@ WORK: Final = 12000
 FEWEST: Final = 8
 SHARP: Final = arb(1.02)
 """A box whose bound is so near to that at its middle is not halved."""
-EXPANDED: Final = 64
-"""The highest degree of a polynomial whose exact values are found by expanding it."""
 PROBES: Final = 12
 """Points at which a bound is tried before it is proved."""
 
@@ -40,9 +39,10 @@ class Bound:
     """The absolute one without the last rounding."""
     size: Fraction
     """What the exact value is at most, without its sign."""
-
-
-Run: TypeAlias = Callable[[arb], Computed]
+    least: Fraction = Fraction(0)
+    """``relative`` and ``ulps`` are for values of the variable of at least this size, without their sign."""
+    zero: float = math.nan
+    """About where the exact value may be zero, where ``relative`` is None."""
 
 
 def bound(form: Form, function: Function) -> Bound | None:
@@ -51,7 +51,7 @@ def bound(form: Form, function: Function) -> Bound | None:
     None when an argument has no default, or the domain has no known end.  Raises InputError where a denominator or a
     root may vanish.
     """
-    run = _runner(form, function)
+    run = runner(form, function)
     if run is None:
         return None
     with ctx.workprec(BITS):
@@ -60,79 +60,46 @@ def bound(form: Form, function: Function) -> Bound | None:
 
 def surely_above(form: Form, function: Function, ulps: Fraction) -> bool:
     """Whether the bound, where there is one, is above so many units in the last place, as seen at a few points."""
-    run = _runner(form, function)
+    run = runner(form, function)
     if run is None:
         return False
     with ctx.workprec(BITS):
         low, high = start(function), Fraction(function.domain.high)
         places = (ball(low + (high - low) * (2 * i + 1) / (2 * PROBES - 1)) for i in reversed(range(PROBES)))
         found = map(run, places)
-        return any(one.exact != 0 and in_last_places(one, form.real) > ball(ulps) for one in found)
+        return any(one.whole.exact != 0 and in_last_places(one.whole, form.real) > ball(ulps) for one in found)
 
 
-def _runner(form: Form, function: Function) -> Run | None:
-    """The analysis on a part of the domain."""
-    variable = function.domain.argument
-    others = {a.name: a.default for a in function.arguments if a.name != variable}
-    if not function.domain.known or None in others.values():
-        return None
-    fixed = {name: Computed(arb(value), arb(0)) for name, value in others.items() if value is not None}
-    constants: dict[int, Computed] = {}  # by identity: they live as long as the form
-
-    def run(box: arb) -> Computed:
-        analysis = Analysis({**fixed, variable: Computed(box, arb(0))}, form, constants)
-        if function.compensated and function.polynomial is not None:
-            return analysis.run_to_sum(function, exact_value(function, box))
-        return analysis.run(function.body, function.result)
-
-    return run
-
-
-def exact_value(function: Function, box: arb) -> arb:
-    """A polynomial in one variable on a ball, by its exact coefficients and without its factor.
-
-    Where it is not too long it is expanded about the middle, |p(m + r z) - p(m)| <= sum |p_i| r^i for |z| <= 1.
-    """
-    polynomial = function.polynomial
-    assert polynomial is not None  # noqa: S101 - asked only where there is one
-    powers = {p[0]: c for p, c in polynomial.terms.items()}
-    low, high = min(powers, default=0), max(powers, default=0)
-    if high <= EXPANDED:
-        dense = arb_poly([powers[p].ball if p in powers else 0 for p in range(high + 1)])
-        middle, *others = dense(arb_poly([box.mid(), box.rad()])).coeffs() or [arb(0)]
-        return middle + arb(0, sum(map(abs, others), arb(0)).upper())
-    total = arb(0)
-    stride = 2 if all((p - low) % 2 == 0 for p in powers) else 1
-    for p in range(high, low - 1, -stride):
-        total = total * whole_power(box, stride) + (powers[p].ball if p in powers else 0)
-    return total * whole_power(box, low)
+Box: TypeAlias = tuple[Fraction, Fraction, Seen]
+"""A part of the domain and what was seen on it."""
 
 
 def _over(function: Function, run: Run, real: Real) -> Bound:
     low, high = start(function), Fraction(function.domain.high)
+    if function.domain.argument not in function.read():
+        return _worst(function, [(low, high, run(arb(0)))], real)
     length = sum(_cost(statement) for statement in function.body) + 1
     budget = max(FEWEST, WORK // length)
-    boxes: list[tuple[float, Fraction, Fraction, Computed]] = []
+    boxes: list[tuple[float, Fraction, Fraction, Seen]] = []
 
     def push(left: Fraction, right: Fraction) -> None:
         found = run(ball(left).union(ball(right)))
-        measure = _size(found)
-        heapq.heappush(boxes, (-measure, left, right, found))
+        heapq.heappush(boxes, (-_size(found), left, right, found))
 
-    count = min(16, max(6, budget // 2))
+    count = min(16, max(6, budget // 2 * 2))
     for i in range(count):
         push(low + (high - low) * i / count, low + (high - low) * (i + 1) / count)
-    done: list[Computed] = []
+    done: list[Box] = []
     while boxes and budget > 0:
         _, left, right, found = heapq.heappop(boxes)
         middle = (left + right) / 2
         budget -= 3
-        if found.error.is_finite() and _near(found, run(ball(middle))):
-            done.append(found)
+        if found.whole.error.is_finite() and _near(found, run(ball(middle)), rest=left <= 0 <= right):
+            done.append((left, right, found))
             continue
         push(left, middle)
         push(middle, right)
-    return _worst(function, [*done, *(box[3] for box in boxes)], real, high)
+    return _worst(function, [*done, *(box[1:] for box in boxes)], real)
 
 
 def _cost(statement: Statement) -> int:
@@ -141,30 +108,45 @@ def _cost(statement: Statement) -> int:
     return 2 * KEPT + len(statement.coefficients) // 2 if statement.loops else len(statement.coefficients)
 
 
-def _size(found: Computed) -> float:
-    relative = found.error / found.exact.abs_lower()
-    return float(relative.upper()) if relative.is_finite() else float("inf")
+def _relative(found: Computed) -> arb:
+    return found.error / found.exact.abs_lower()
 
 
-def _near(found: Computed, middle: Computed) -> bool:
-    return bool(found.error / found.exact.abs_lower() <= SHARP * middle.error / abs(middle.exact))
+def _size(found: Seen) -> float:
+    sizes = [_relative(one) for one in found.parts]
+    return max(float(x.upper()) if x.is_finite() else float("inf") for x in sizes)
 
 
-def _worst(function: Function, found: list[Computed], real: Real, high: Fraction) -> Bound:
-    if not all(one.error.is_finite() for one in found):
-        variable = function.domain.argument
+def _near(found: Seen, middle: Seen, *, rest: bool) -> bool:
+    """Whether a part's bound is near that at its middle; where it is of a binade, near what it is over its pieces."""
+    if len(found.parts) > 1:
+        return all(one.exact != 0 and one.exact.rad() * 8 < abs(one.exact.mid()) for one in found.parts)
+    one, inner = found.whole, middle.whole
+    return not (rest and one.exact.contains(0)) and bool(_relative(one) <= SHARP * inner.error / abs(inner.exact))
+
+
+def _worst(function: Function, boxes: list[Box], real: Real) -> Bound:
+    """The largest of each kind of error."""
+    whole = [box[2].whole for box in boxes]
+    if not all(one.error.is_finite() for one in whole):
+        variable, high = function.domain.argument, function.domain.high
         raise InputError(
             f"the code of {function.name} may divide by zero, overflow or take the root of a negative number for "
-            f"{variable} up to {float(high):.6g}; give a shorter range"
+            f"{variable} up to {high:.6g}; give a shorter range"
         )
     absolute, before, size = (
         max(map(upper, values))
-        for values in ([x.error for x in found], [x.before for x in found], [abs(x.exact) for x in found])
+        for values in ([x.error for x in whole], [x.before for x in whole], [abs(x.exact) for x in whole])
     )
-    if any(one.exact.contains(0) for one in found):
-        return Bound(None, absolute, None, before, size)
-    relative = max(upper((one.error / one.exact.abs_lower()).upper()) for one in found)
-    return Bound(relative, absolute, max(upper(in_last_places(one, real)) for one in found), before, size)
+    if absolute == 0:
+        return Bound(absolute, absolute, absolute, before, size)
+    zeros = [(left + right) / 2 for left, right, seen in boxes if any(one.exact.contains(0) for one in seen.parts)]
+    if zeros:
+        return Bound(None, absolute, None, before, size, zero=float(min(zeros, key=abs)))
+    parts = [one for box in boxes for one in box[2].parts]
+    relative, ulps = (max(map(upper, x)) for x in (map(_relative, parts), (in_last_places(p, real) for p in parts)))
+    held = any(len(box[2].parts) > 1 for box in boxes)
+    return Bound(relative, absolute, ulps, before, size, least=fraction(least(function, real)) if held else Fraction(0))
 
 
 def in_last_places(one: Computed, real: Real) -> arb:

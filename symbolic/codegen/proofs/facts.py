@@ -6,13 +6,18 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Final, TypeAlias
 
+from flint import ctx, fmpq
+
 from ridgeback.common.errors import InputError
+from ridgeback.symbolic.arithmetic.balls import ball
 from ridgeback.symbolic.certificates.at_amplitudes import certified_frequencies
 from ridgeback.symbolic.codegen.fit.fit import Fit
 from ridgeback.symbolic.codegen.fit.truncation import errors_up_to
 from ridgeback.symbolic.codegen.formulas.closed_forms import MeanForm, SineSeries
 from ridgeback.symbolic.codegen.formulas.symbolic_mean import SymbolicMean
+from ridgeback.symbolic.codegen.number import Number
 from ridgeback.symbolic.codegen.proofs.notes import upwards
+from ridgeback.symbolic.codegen.proofs.runs import exact_value
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
 from ridgeback.symbolic.resummation.elliptic_nome import NomeForm
@@ -28,6 +33,11 @@ SHARES: Final = (Fraction(1, 4), Fraction(1, 2), Fraction(3, 4))
 """Where in the range the error is certified."""
 INSIDE: Final = Fraction(999, 1000)
 """A range ends this far before a pole."""
+NEAR: Final = Fraction(1001, 1000)
+"""A radius of convergence that is found to so many times less than the end of the oscillation is that end."""
+BITS: Final = 256
+ZERO: Final = Fraction(1, 2**24)
+"""How near a zero is come to, as a share of the range."""
 
 
 def reach_of(oscillator: Oscillator, series: Series, formula: Series | Resummation) -> Fraction | None:
@@ -54,14 +64,62 @@ def before_pole(reach: Fraction, formula: Series | Resummation) -> Fraction:
 
 
 def end_of(oscillator: Oscillator, series: Series, formula: Formula, limit: float | None) -> Fraction | None:
-    """The end of the domain where none is given: the end of the oscillation, or of the series' convergence."""
+    """The end of the domain where none is given: the end of the oscillation, or of the series' convergence.
+
+    A series converges no further than its radius, wherever the oscillation ends, and is of no use from where it is 0.
+
+    >>> from ridgeback.symbolic.expansion.lindstedt import lindstedt
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> series = lindstedt(find("rotating-hoop"), 8)
+    >>> float(end_of(find("rotating-hoop"), series, series, 3.14159))  # the series converges up to here
+    1.31682
+    """
     if isinstance(formula, Fit):
         return formula.end
     if isinstance(formula, SymbolicMean):
         return None
     if isinstance(formula, MeanForm | SineSeries):
         return None if limit is None else INSIDE * Fraction(limit)
-    return reach_of(oscillator, series, formula) if limit is None else before_pole(Fraction(limit), formula)
+    if limit is None:
+        found = reach_of(oscillator, series, formula)
+    else:
+        found = before_pole(Fraction(limit), formula)
+        reach = reach_of(oscillator, series, formula) if isinstance(formula, Expansion | PowerExpansion) else None
+        found = found if reach is None or found < NEAR * reach else reach
+    return found if found is None or not isinstance(formula, Expansion) else before_zero(formula, found)
+
+
+def before_zero(series: Expansion, end: Fraction) -> Fraction:
+    """The same range, or less where the polynomial is 0 in it, as no frequency is before the oscillation ends.
+
+    >>> from ridgeback.symbolic.expansion.energy_integral import energy_integral
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> float(before_zero(energy_integral(find("kepler"), 8), Fraction(1, 2)))  # 0 at -0.47253...
+    0.472021
+    """
+    if series.names or series.constants or not all(isinstance(c, fmpq) for c in series.coefficients):
+        return end
+    powers = {p: Number(c) for p, c in enumerate(series.coefficients) if c != 0}
+    zero = min((z for side in (1, -1) if (z := _first_zero(powers, side * end)) is not None), default=None)
+    return end if zero is None else Fraction(f"{float(INSIDE * zero):.6g}")
+
+
+def _first_zero(powers: dict[int, Number], end: Fraction) -> Fraction | None:
+    """The size of an amplitude just before which a polynomial with c_0 > 0 is positive from 0 on; None up to the end.
+
+    Steps that double as long as the polynomial is proved positive over the next, and are halved where it is not.
+    """
+    at, step = Fraction(0), end / 16
+    with ctx.workprec(BITS):
+        while at != end:
+            step = step if abs(at + step) <= abs(end) else end - at
+            if exact_value(powers, ball(at).union(ball(at + step))) > 0:
+                at, step = at + step, 2 * step
+            elif abs(step) < abs(end) * ZERO:
+                return abs(at)
+            else:
+                step /= 2
+    return None
 
 
 def certified_facts(

@@ -30,17 +30,31 @@ def rounding_notes(form: Form, function: Function, found: Bound | None) -> tuple
 
 def bound_note(function: Function, found: Bound) -> str:
     """A bound over a domain in words."""
-    domain = function.domain
-    name, end = domain.argument, domain.high
-    inside = f"|{name}| <= {end!r}" if domain.low == -end else f"0 <= {name} <= {end!r}"
-    others = (a for a in function.arguments if a.name != name and a.name in function.read())
-    inside += "".join(f" and {a.name} = {f'{a.default!r}'.removesuffix('.0')}" for a in others if a.default is not None)
+    inside = _inside(function, found)
+    if found.absolute == 0:
+        return f"Rounding: none{inside}, the result is exact."
     if found.relative is None or found.ulps is None:
-        return f"Rounding: for {inside} the error is at most {upwards(found.absolute)}, proved in ball arithmetic."
+        why = (
+            f"none in units in the last place, as the value may be 0 near {function.domain.argument} = {found.zero:.4g}"
+        )
+        return f"Rounding:{inside} the error is at most {upwards(found.absolute)}, proved in ball arithmetic; {why}."
     return (
-        f"Rounding: for {inside} the relative error is at most {upwards(found.relative)} "
+        f"Rounding:{inside} the relative error is at most {upwards(found.relative)} "
         f"({upwards(found.ulps, 3)} units in the last place), proved in ball arithmetic."
     )
+
+
+def _inside(function: Function, found: Bound) -> str:
+    """For which arguments a bound holds; nothing where it does for all."""
+    domain, read = function.domain, function.read()
+    name, end = domain.argument, domain.high
+    others = [a for a in function.arguments if a.name != name and a.name in read and a.default is not None]
+    places = [f"{a.name} = {f'{a.default!r}'.removesuffix('.0')}" for a in others]
+    if name in read:
+        size = f"|{name}|" if domain.low == -end else name
+        least = upwards(found.least) if found.least else "" if domain.low == -end else "0"
+        places = [f"{least} <= {size} <= {end!r}" if least else f"{size} <= {end!r}", *places]
+    return f" for {' and '.join(places)}" if places else ""
 
 
 # --- a bound without a domain ---
