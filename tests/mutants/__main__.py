@@ -5,8 +5,9 @@ is killed when a test fails, or does not end, that passes on the unchanged code:
 the tests that name what is changed, then those that reach it through other files, for so many seconds of processor time
 as ``--seconds`` says.  The tests are collected once; every mutant lives in a copy of that process.
 Prints every mutant with the test that killed it, the survivors to be looked at, those known to change nothing
-(``equivalent.toml``), and the share killed.  With ``--log`` it takes up where it stopped, and tries again those whose
-file has changed.  A seed draws a mutant as long as its line stands, whatever becomes of the others.
+(``equivalent.toml``: they are not tried, and count among all as not killed), and the share killed.  With ``--log`` it
+takes up where it stopped, and tries again those whose file has changed.  A seed draws a mutant as long as its line
+stands, whatever becomes of the others.
 """
 
 from __future__ import annotations
@@ -43,16 +44,18 @@ class Trial:
     """Tries mutants in the place of pytest's loop over the tests."""
 
     def __init__(self, given: argparse.Namespace, every: Sequence[Mutant], choice: Choice) -> None:
-        self.given, self.choice, self.log = given, choice, Log(ROOT, given.log)
+        self.given, self.choice, self.log, self.same = given, choice, Log(ROOT, given.log), equivalents()
         self.chosen = [m for m in every if m.name in self.log.known] if given.survivors else drawn(every, given)
 
     def killer(self, mutant: Mutant) -> str | None:
-        """What came of a mutant; None for one that is still to be tried."""
+        """What came of a mutant; empty for one that changes nothing, None for one that is still to be tried."""
+        if mutant.name in self.same:
+            return ""
         return self.log.last(mutant) if self.given.survivors else self.log.killer(mutant)
 
     def open(self) -> list[Mutant]:
         """Those to be tried."""
-        known = [(mutant, self.killer(mutant)) for mutant in self.chosen]
+        known = [(mutant, self.killer(mutant)) for mutant in self.chosen if mutant.name not in self.same]
         return [mutant for mutant, test in known if test is None or (not test and self.given.survivors)]
 
     def pytest_runtestloop(self, session: pytest.Session) -> bool:
@@ -110,21 +113,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.chdir(ROOT)
         pytest.main(["-q", "-s", "-p", "no:cacheprovider", *needed], plugins=[trial])
     tried = [(mutant, test) for mutant in trial.chosen if (test := trial.killer(mutant)) is not None]
-    summary(tried, equivalents())
+    summary(tried, trial.same)
     print(f"{len(tried)} tried of {len(trial.chosen)}, from {len(every)} places; seed {given.seed}")
     return 0
 
 
 def summary(tried: Sequence[tuple[Mutant, str]], reasons: Mapping[str, str]) -> None:
     """The survivors, and the shares killed: of all, and of those that are not known to change nothing."""
-    for mutant, test in tried:
-        if mutant.name in reasons:
-            wrong = f"; but killed by {test}" if test else ""
-            print(f"equivalent: {mutant.path}:{mutant.line} {mutant.what}: {reasons[mutant.name]}{wrong}")
+    equal = [mutant for mutant, _ in tried if mutant.name in reasons]
+    print(*(f"equivalent: {m.path}:{m.line} {m.what}: {reasons[m.name]}" for m in equal), sep="\n")
     print(*(f"survivor: {m.path}:{m.line} {m.what}" for m, test in tried if not (test or m.name in reasons)), sep="\n")
     for room in sorted({mutant.path.partition("/")[0] for mutant, _ in tried}):
         here = [(bool(test), m.name in reasons) for m, test in tried if m.path.startswith(f"{room}/")]
-        killed, same = sum(test for test, _ in here), sum(equal and not test for test, equal in here)
+        killed, same = (sum(column) for column in zip(*here, strict=True))
         print(f"{room}: {killed} of {len(here)} killed, {killed} of {len(here) - same} that change anything")
 
 

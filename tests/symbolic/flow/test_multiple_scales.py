@@ -696,6 +696,13 @@ def test_bad_transients_are_refused() -> None:
         transient(flow, [0.0, 1.0], [], amplitude=-1.0)
 
 
+def test_the_share_that_is_told_rises_with_the_fourth_power_of_the_degree() -> None:
+    told: list[tuple[float, str]] = []
+    multiple_scales(find("damped-pendulum"), 5, progress=lambda share, step: told.append((share, step)))
+    assert [share for share, _ in told] == [(n / 6) ** 4 for n in range(2, 7)]
+    assert told[0][1] == "weighted degree 2 of 5"
+
+
 # -- cost ------------------------------------------------------------------------------------------------------------
 
 
