@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ridgeback.numeric.backbone.damping import damping, with_deviation
+from ridgeback.numeric.tracking.track import NORMAL_95
 
 if TYPE_CHECKING:
     from ridgeback.compare.recording.measurement import Measurement
@@ -87,6 +89,33 @@ def uncertain(value: float, deviation: float) -> str:
         return with_deviation(value, deviation)
     power = int(np.floor(np.log10(size)))
     return f"({with_deviation(value / 10.0**power, deviation / 10.0**power)})e{power:+03d}"
+
+
+def briefly(row: Mapping[str, Any]) -> dict[str, Any]:
+    """A row for the eye: each value with its deviation, frequencies in Hz, what follows from them left out.
+
+    >>> briefly({"time_s": 0.5, "frequency_hz": 1.25, "standard_deviation_rad_s": 0.02, "valid": True})
+    {'time, s': 0.5, 'frequency, Hz': '1.2500 +- 0.0032', 'valid': True}
+    """
+    found: dict[str, Any] = {"time, s": row["time_s"]} if "time_s" in row else {}
+    for title, value, deviation in (
+        ("amplitude", row.get("amplitude"), row.get("amplitude_standard_deviation")),
+        ("frequency, Hz", row.get("frequency_hz"), frequency_deviation(row)),
+        ("a'/a, 1/s", row.get("growth_rate_per_s"), row.get("growth_rate_standard_deviation_per_s")),
+        ("damping ratio", row.get("damping_ratio"), row.get("damping_ratio_standard_deviation")),
+    ):
+        if value is not None:
+            known = np.isfinite([value, np.nan if deviation is None else deviation]).all()
+            found[title] = uncertain(float(value), float(deviation or 0.0)) if known else float(value)
+    return found | ({"valid": row["valid"]} if "valid" in row else {})
+
+
+def frequency_deviation(row: Mapping[str, Any]) -> float | None:
+    """One sigma of a row's frequency in Hz, the bias in it where the row has an interval; None where none is known."""
+    if row.get("low_95_rad_s") is not None:
+        return float(row["high_95_rad_s"] - row["low_95_rad_s"]) / (2.0 * NORMAL_95) / (2.0 * np.pi)
+    known = row.get("omega_standard_deviation_rad_s", row.get("standard_deviation_rad_s"))
+    return None if known is None else float(known) / (2.0 * np.pi)
 
 
 def thinned(count: int) -> list[int]:

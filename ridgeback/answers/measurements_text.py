@@ -17,7 +17,7 @@ COMBINED = "combined"
 
 
 def measurements_text(found: Measurements, style: str, *, backbone: bool, every: bool = True) -> str:
-    """All signals that were measured in the form asked for, tracks or backbones; text of ``every`` row, or of some."""
+    """All signals that were measured in the form asked for, tracks or backbones; text with ``every`` number or some."""
     if style == "json":
         return json_text(as_json(found, backbone=backbone))
     if style == "csv":
@@ -132,12 +132,14 @@ def named(one: Measurement) -> dict[str, Any]:
 
 def one_text(one: Measurement, *, backbone: bool, every: bool = True) -> str:
     """Heading, notes, summary and table of one signal."""
-    from ridgeback.answers.measurement_summary import summary, thinned
+    from ridgeback.answers.measurement_summary import briefly, summary, thinned
 
     rows = rows_of(one, backbone=backbone)
-    shown = rows if every else [rows[i] for i in thinned(len(rows))]
-    table = aligned(list(columns_of(rows)), shown) if rows else "no rows"
-    rest = "" if len(shown) == len(rows) else f"\n{len(shown)} of {len(rows)} rows; --all or -o FILE gives every one"
+    shown = rows if every else [briefly(rows[i]) for i in thinned(len(rows))]
+    table = aligned(list(columns_of(shown)), shown) if rows else "no rows"
+    rest = (
+        "" if every else f"\n{len(shown)} of {len(rows)} rows, with one sigma; --all or -o FILE gives all that there is"
+    )
     notes = "".join(f"\n{note}" for note in (*one.notes, *misfit(one)))
     lines = "".join(f"\n{line}" for line in summary(one))
     return f"{heading(one)}{notes}\n{lines}\n\n{table}{rest}\n\n{how(one)}\n"

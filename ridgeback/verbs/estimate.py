@@ -47,7 +47,9 @@ OF_A_FILE = ("column", "time_column", "rate", "quantity", "span", "resample", "f
     show_default=True,
     help="Backbones to average: of the runs and stretches of a channel, or of all channels too.",
 )
-@click.option("--all", "every", is_flag=True, help="Every row of the table in the terminal, not some thirty.")
+@click.option(
+    "--all", "every", is_flag=True, help="Every row and column of the table in the terminal, not some thirty."
+)
 @plot_option("the signal, frequency, backbone and damping with their bands")
 @click.option(
     "--planes",
@@ -83,7 +85,7 @@ def command(
     Rows of time_s, omega_rad_s, frequency_hz, the amplitude of the fundamental and its rate of change a'/a
     (growth_rate_per_s), each with the standard deviation that noise causes; the bias, where the estimator knows it;
     "valid" is false near the borders, where it does not see a whole window.  In the terminal a summary stands above
-    some thirty of the rows; --all or a file has every one.
+    some thirty of the rows, values beside their deviations; --all or a file has every row and column.
 
     --backbone gives rows of amplitude (of the first harmonic, in the unit of the samples; the turning point with
     --half-cycles) with amplitude_standard_deviation, omega_rad_s, frequency_hz, omega_standard_deviation_rad_s,

@@ -54,6 +54,23 @@ def test_a_track_has_amplitude_and_damping_beside_frequency(ridgeback: Ridgeback
         assert float(row["omega_rad_s"]) == pytest.approx(8.0 - 0.3 * a**2, rel=1e-3)
 
 
+def test_the_terminal_is_given_thirty_short_rows_and_all_only_when_asked(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    path = written(tmp_path / "a.csv", t=T, u=decay())
+    brief = ridgeback("estimate", path, *QUICK).out.splitlines()
+    head = next(i for i, line in enumerate(brief) if line.lstrip().startswith("time, s"))
+    assert brief[head].split("  ") != [brief[head]]
+    rows = brief[head + 1 : head + 31]
+    assert all(row.endswith(("true", "false")) for row in rows)
+    assert max(map(len, [brief[head], *rows])) <= 100
+    assert brief[head + 31].startswith("30 of 500 rows")
+    time, omega = 2.0 * T[-1] / 29, 2.0 * np.pi * float(rows[2].split()[4])
+    assert float(rows[2].split()[0]) == pytest.approx(time, abs=1.0 / RATE)
+    assert omega == pytest.approx(8.0 - 0.3 * np.exp(-0.1 * time), rel=1e-3)
+    full = ridgeback("estimate", path, *QUICK, "--all").out
+    assert "omega_rad_s" in full
+    assert full.count("\n") > 500
+
+
 def test_one_missing_value_leaves_two_stretches_and_a_common_backbone(ridgeback: Ridgeback, tmp_path: Path) -> None:
     x = decay()
     x[250] = np.nan
