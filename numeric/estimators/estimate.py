@@ -101,7 +101,7 @@ MODEL_FIT = "model-fit"
 """The method that needs an oscillator beside the signal."""
 HARDLY_KNOWN = 0.1
 """Half width of a 95 % interval, relative to omega, beyond which a value is not counted as valid."""
-MORE_PER_CYCLE, VERY_LONG = 12.0, 200_000
+MORE_PER_CYCLE, VERY_LONG = 12.0, 65_536
 """Samples a cycle that methods other than auto keep of a record of more samples than that."""
 QUADRATIC = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner", "polynomial-wigner")
 """Methods whose distribution has cross terms on the harmonics."""
@@ -141,7 +141,7 @@ def estimate(
     method : str
         One of METHODS, or ``"model-fit"``.  ``"auto"`` takes the method and the window that should have the least error
         on a model of the signal, says why in ``used.why``, and decimates records of more than 16,384 samples first,
-        where the rate allows; the others do so with records of more than 200,000.
+        where the rate allows; the others do so with records of more than 65,536.
     band : (float, float), optional
         Lowest and highest frequency looked at, rad per time unit; by default a band around the strongest component is
         found from the data.  A Wigner peak is refused in a band around a harmonic of a stronger component: a cross term

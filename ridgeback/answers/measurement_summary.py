@@ -21,8 +21,8 @@ MOST_ROWS = 30
 SLOW = 0.05
 """Frequencies below which cycles are counted per day."""
 DAY = 86_400.0
-SMALL = 1e-4
-"""Values below which a power of ten is written."""
+SMALL, SHARP = 1e-4, 1e-6
+"""Values below which a power of ten is written; deviations over values below which one is written of the deviation."""
 
 
 def summary(one: Measurement) -> list[str]:
@@ -79,12 +79,16 @@ def backbone_lines(curve: Backbone) -> list[str]:
 
 
 def uncertain(value: float, deviation: float) -> str:
-    """A value to the second digit of its deviation; a small one with a power of ten.
+    """A value to the second digit of its deviation, at most to the seventh of its own; a small one by a power of ten.
 
     >>> uncertain(3.14159, 0.0123), uncertain(-5.7792e-7, 5.4e-10), uncertain(1.0, float("nan"))
     ('3.142 +- 0.012', '(-5.7792 +- 0.0054)e-07', '1 +- nan')
+    >>> uncertain(3.14159265, 2e-9)
+    '3.141593 +- 2.0e-09'
     """
     size = abs(value)
+    if 0.0 < deviation < SHARP * size:
+        return f"{value:.7g} +- {deviation:.1e}"
     if not (np.isfinite(deviation) and deviation > 0.0 and 0.0 < size < SMALL):
         return with_deviation(value, deviation)
     power = int(np.floor(np.log10(size)))

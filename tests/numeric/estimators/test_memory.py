@@ -63,11 +63,11 @@ def test_the_prediction_holds_within_a_factor_of_three() -> None:
 
 
 def test_a_very_long_record_is_decimated_by_every_method_as_far_as_its_harmonics_allow() -> None:
-    t = np.arange(210_000) / 960.0
+    t = np.arange(70_000) / 960.0
     x = np.cos(2 * np.pi * 10.0 * t) + 0.01 * np.random.default_rng(1).normal(size=t.size)
     plain = estimate(x, 960.0, method="hilbert", bias=False)
     assert plain.used.decimated_by == 7
-    assert np.abs(plain.inside().frequency_hz - 10.0).max() < 0.2
+    assert np.abs(np.mean(plain.inside().frequency_hz) - 10.0) < 1e-3
     fifth = estimate(x, 960.0, method="hilbert", harmonic=5, bias=False)
     assert float(np.median(np.diff(fifth.time))) == pytest.approx(4 / 960.0)
-    assert estimate(x[:190_000], 960.0, method="hilbert", bias=False).used.decimated_by < 2
+    assert estimate(x[:60_000], 960.0, method="hilbert", bias=False).used.decimated_by < 2
