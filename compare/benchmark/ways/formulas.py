@@ -6,9 +6,10 @@ the motion has.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from typing import TypeAlias
 
 import numpy as np
@@ -24,6 +25,8 @@ from ridgeback.compare.motion.motion import Motion, exact_omega
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.symbolic.codegen.fit.fit import Fit, minimax
+from ridgeback.symbolic.codegen.fit.surrogate import Surrogate, surrogate
+from ridgeback.symbolic.enclosure.well import well_of
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.by_name import resum
 from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -137,20 +140,22 @@ def resummations(rest: Oscillator, expansion: Expansion, at: At) -> Iterator[Tri
 
 def fits(motion: Motion, rest: Oscillator, at: At) -> Iterator[Tried]:
     """Minimax polynomials in A^2, fitted to the exact omega0 over the amplitudes of this motion."""
+    largest = _largest(at)
+    exact = cache(lambda: surrogate(well_of(rest), largest))
     for degree in DEGREES:
         label = f"minimax fit of degree {degree} in A^2"
         try:
-            fit = fitted(rest, motion.dynamics, _largest(at), degree)
+            fit = fitted(rest, motion.dynamics, largest, degree, exact)
             yield generated(fit, Named(f"minimax-{2 * degree}", label, "minimax", 2 * degree, degree + 1))
         except InputError as error:
             yield refused(f"minimax-{2 * degree}", label, "minimax", str(error), order=2 * degree)
 
 
-def fitted(rest: Oscillator, dynamics: Dynamics, largest: Fraction, degree: int) -> Fit:
+def fitted(rest: Oscillator, dynamics: Dynamics, largest: Fraction, degree: int, exact: Callable[[], Surrogate]) -> Fit:
     """The minimax fit of a degree; InputError where proving one would take minutes, or there is none."""
     if not is_smooth(dynamics, float(largest)):
         raise InputError("the exact omega0 is not smooth enough in A^2 over these amplitudes for a proved fit")
-    return minimax(rest, largest, degree=degree)
+    return minimax(rest, largest, degree=degree, exact=exact())
 
 
 def is_smooth(dynamics: Dynamics, largest: float) -> bool:

@@ -118,6 +118,7 @@ def minimax(
     degree: int | None = None,
     tolerance: Fraction | None = None,
     real: Real = FLOAT64,
+    exact: Surrogate | None = None,
 ) -> Fit:
     """Fit omega0(A) of a conservative oscillator up to an amplitude, in A^2 where its potential is even, else in A.
 
@@ -133,6 +134,8 @@ def minimax(
         In place of a degree: the lowest degree is taken whose proved relative error is at most this.
     real
         Format of the coefficients.
+    exact
+        What encloses the frequency over the range, where that is known already: the same for every degree.
 
     Raises
     ------
@@ -154,7 +157,7 @@ def minimax(
     if up_to <= 0:
         raise InputError(f"the range up to {float(up_to):.6g} is empty; it must end above 0")
     well = well_of(oscillator)
-    exact = surrogate(well, up_to)
+    exact = exact or surrogate(well, up_to)
     reached = "none of them alternates"
     with ctx.workprec(exact.bits):
         for d in (degree,) if degree is not None else range(1, MOST_DEGREE + 1):
