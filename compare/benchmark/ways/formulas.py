@@ -151,7 +151,13 @@ def fits(motion: Motion, rest: Oscillator, at: At) -> Iterator[Tried]:
             yield refused(f"minimax-{2 * degree}", label, "minimax", str(error), order=2 * degree)
 
 
-def fitted(rest: Oscillator, dynamics: Dynamics, largest: Fraction, degree: int, exact: Callable[[], Surrogate]) -> Fit:
+def fitted(
+    rest: Oscillator,
+    dynamics: Dynamics,
+    largest: Fraction,
+    degree: int,
+    exact: Callable[[], Surrogate | None] = lambda: None,
+) -> Fit:
     """The minimax fit of a degree; InputError where proving one would take minutes, or there is none."""
     if not is_smooth(dynamics, float(largest)):
         raise InputError("the exact omega0 is not smooth enough in A^2 over these amplitudes for a proved fit")
