@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from time import perf_counter
 
 import numpy as np
 
@@ -148,6 +149,8 @@ class Motion:
     """Largest difference of u between the two integrations over the samples they share."""
     cycle: CycleFrequency
     averaged: AveragedDecay | None
+    averaged_seconds: float
+    """What the averaged motion took; not a number where there is none."""
     energy_peak: Array
     """A(t) by eq. (20)-(21), or the envelope of the turning points for a limit cycle."""
 
@@ -254,9 +257,10 @@ def integrate_motion(chosen: Setting, *, digits: int | None = DIGITS) -> Motion:
         precise = integrate_taylor(
             dynamics, chosen.initial, duration=duration, rate=rate / CHECKED, digits=digits, events=False
         )
-    averaged = None
+    averaged, began = None, perf_counter()
     if dynamics.restoring is not None:
         averaged = averaged_decay(dynamics, chosen.initial, trajectory.time)
+    averaged_seconds = math.nan if averaged is None else perf_counter() - began
     return Motion(
         setting=chosen,
         dynamics=dynamics,
@@ -265,6 +269,7 @@ def integrate_motion(chosen: Setting, *, digits: int | None = DIGITS) -> Motion:
         disagreement=math.nan if digits is None else _disagreement(trajectory, precise),
         cycle=cycle_frequency(trajectory, dynamics=dynamics),
         averaged=averaged,
+        averaged_seconds=averaged_seconds,
         energy_peak=_energy_peak(dynamics, trajectory),
     )
 

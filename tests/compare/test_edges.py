@@ -171,7 +171,7 @@ def test_contenders_that_another_distribution_or_machine_does_not_give(monkeypat
         outsiders._called(Point("own", "elsewhere:own", "ridgeback.estimators"), TIME, 1.0)
     monkeypatch.setattr(formulas, "is_smooth", lambda *_: False)
     with pytest.raises(InputError, match="not smooth enough"):
-        formulas.fitted(find("pendulum"), STUB(), Fraction(1), 2, STUB)
+        formulas.fitted(find("pendulum"), STUB(), Fraction(1), 2)
 
 
 def test_an_estimate_that_fails_on_what_it_describes_keeps_its_bias() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator, Mapping
 from functools import partial
 
@@ -13,7 +12,6 @@ from ridgeback.compare.benchmark.ways.contender import Contender
 from ridgeback.compare.benchmark.ways.timing import nanoseconds
 from ridgeback.compare.motion.motion import Motion, exact_omega
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.orbits.averaging import averaged_decay
 from ridgeback.numeric.orbits.energy import is_linearly_damped
 from ridgeback.numeric.orbits.paper_model import series_frequency
 
@@ -70,9 +68,7 @@ def averaged(motion: Motion) -> Iterator[Contender]:
     """The exact omega0 of the averaged action, which needs no trajectory, and the same under linear damping."""
     if motion.averaged is None:
         return
-    began = time.perf_counter()
-    averaged_decay(motion.dynamics, motion.setting.initial, motion.time)
-    seconds = time.perf_counter() - began
+    seconds = motion.averaged_seconds
     ways = {"averaged-action": ("exact omega0 of the averaged action", motion.averaged.omega)}
     mu = motion.dynamics.damping
     if mu and is_linearly_damped(motion.dynamics, float(motion.averaged.peak[0])):
