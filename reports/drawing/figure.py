@@ -19,13 +19,14 @@ WAYS: Mapping[str, str] = {"E": "expansions", "S": "series model", "T": "estimat
 
 @dataclass(frozen=True)
 class Series:
-    """One curve as the readout knows it; ``per_cent`` writes its values as relative errors."""
+    """One curve as the readout knows it; ``per_cent`` writes its values as relative errors, ``steps`` holds each value."""
 
     name: str
     x: Array
     y: Array
     unit: str = ""
     per_cent: bool = False
+    steps: bool = False
 
 
 @dataclass(frozen=True)
@@ -74,13 +75,19 @@ def readout(
         How many places are read.
     """
     x = panels[0][0].x
-    at = np.linspace(x.low, x.high, places)
+    ends = np.log10([x.low, x.high]) if x.log else np.array([x.low, x.high])
+    grid = np.linspace(*ends, places)
+    at = 10.0**grid if x.log else grid
+    boxes = [
+        [[*(box := panel.box())[:4], *(ends if x.log else box[4:6]), *box[6:]] for panel in group] for group in panels
+    ]
     return {
         "name": name,
         "unit": unit,
         "link": link,
-        "at": [float(f"{v:.5g}") for v in at],
-        "boxes": [[panel.box() for panel in group] for group in panels],
+        "at": [float(f"{v:.5g}") for v in grid],
+        "boxes": [[[float(v) for v in box] for box in group] for group in boxes],
+        **({"log": True} if x.log else {}),
         "series": [[s.name, "%" if s.per_cent else s.unit, _read(s, at)] for s in series],
     }
 
@@ -91,10 +98,11 @@ def _read(series: Series, places: Array) -> list[float | None]:
         return [None] * places.size
     x, y = series.x[good], series.y[good]
     reach = 2.0 * float(np.median(np.diff(x))) + (places[1] - places[0])
+    held = y[np.clip(np.searchsorted(x, places, side="right") - 1, 0, x.size - 1)]
     near = np.abs(x[np.clip(np.searchsorted(x, places), 0, x.size - 1)] - places)
     before = np.abs(x[np.clip(np.searchsorted(x, places) - 1, 0, x.size - 1)] - places)
     inside = (np.minimum(near, before) <= reach) & (places >= x[0] - reach) & (places <= x[-1] + reach)
-    values = np.interp(places, x, y)
+    values = held if series.steps else np.interp(places, x, y)
     digits = 3 if series.per_cent else 6
     return [float(f"{v:.{digits}g}") if keep else None for v, keep in zip(values, inside, strict=True)]
 

@@ -134,7 +134,7 @@ def answer_figure(key: str, picture: Picture, caption: str = "", table: str = ""
     wide = _panel(axes, 70.0, WIDE - min(names, MOST_NAMES) - 10, 30.0, 300.0)
     narrow = _panel(axes, 52.0, 356.0, 30.0, 250.0)
     label = f"{picture.y_label} against {picture.x_label}"
-    series = [Series(stroke.label, floats(stroke.x), floats(stroke.y)) for stroke in picture.strokes]
+    series = [Series(s.label, floats(s.x), floats(s.y), steps=s.steps) for s in picture.strokes]
     return Figure(
         key=key,
         wide=drawing(WIDE, 344, "wide", label, [*_whole(wide, axes, picture, 8), *_beside(wide, picture)]),
@@ -146,7 +146,7 @@ def answer_figure(key: str, picture: Picture, caption: str = "", table: str = ""
             [*_whole(narrow, axes, picture, 4), *_below(narrow, picture)],
         ),
         caption=caption or picture.title,
-        data={} if axes.log_x else readout(((wide,), (narrow,)), series, name=picture.x_label, unit="", link=""),
+        data=readout(((wide,), (narrow,)), series, name=picture.x_label, unit="", link=""),
         label=label,
         table=table,
     )

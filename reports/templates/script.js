@@ -56,6 +56,7 @@
   // the whole of the axis that figures share
   const ends = r => r.d.at ? [r.d.at[0], r.d.at[r.d.at.length - 1]] : r.d.planes[0].box.slice(4, 6);
   const span = (r, box) => r.range ?? [box[4], box[5]];
+  const abscissa = (d, x) => d.log ? 10 ** x : x;
   const say = (r, text) => { $(".out", r.figure).textContent = text; };
   const show = (r, x) => {
     $$(".xh", r.figure).forEach(e => e.remove());
@@ -67,9 +68,10 @@
     }
     if (!r.d.at) return;
     const grid = r.d.at, i = Math.round((x - grid[0]) / (grid[grid.length - 1] - grid[0]) * (grid.length - 1));
+    if (grid[i] === undefined) { say(r, ""); return; } // a linked figure reads where this one has nothing
     const said = r.d.series.map(([name, unit, v]) => v[i] === null || v[i] === undefined ? "" :
       name + " " + (unit === "%" ? percent(v[i]) : short(v[i]) + (unit ? " " + unit : "")));
-    say(r, (r.d.name + " = " + short(grid[i]) + " " + r.d.unit).trim() + "   " + said.filter(Boolean).join("   "));
+    say(r, (r.d.name + " = " + short(abscissa(r.d, grid[i])) + " " + r.d.unit).trim() + "   " + said.filter(Boolean).join("   "));
   };
   const linked = r => readers.filter(o => o === r || (r.d.link && o.d.link === r.d.link));
   const move = (r, x) => {
@@ -328,7 +330,7 @@
   };
   const uri = (kind, text) => "data:" + kind + ";charset=utf-8," + encodeURIComponent(text);
   const quoted = n => '"' + n.replaceAll('"', '""') + '"', rows = all => all.map(row => row.join(",")).join("\n") + "\n";
-  const curves = d => [[d.name, ...d.series.map(s => s[0])].map(quoted), ...d.at.map((x, i) => [x, ...d.series.map(s => s[2][i] ?? "")])];
+  const curves = d => [[d.name, ...d.series.map(s => s[0])].map(quoted), ...d.at.map((x, i) => [d.log ? +abscissa(d, x).toPrecision(5) : x, ...d.series.map(s => s[2][i] ?? "")])];
   const cells = d => [["order", d.letter, "bound", "sign"].map(quoted),
     ...d.orders.flatMap((n, i) => d.amplitudes.map((a, j) => [n, a, d.bounds[i][j] ?? "", quoted(d.signs[i][j])]))];
   const plain = cell => quoted(cell.textContent.replace(/[\u2007\u2008]/g, "").replaceAll("−", "-").trim());

@@ -195,6 +195,17 @@ def test_arrow_keys_read_a_curve_and_linked_figures_follow(browser: Browser, pag
     assert browser.complaints() == []
 
 
+def test_every_figure_is_read_from_end_to_end(browser: Browser, pages: dict[str, Path]) -> None:
+    """Linked figures that cover another stretch say nothing beyond their own, and raise nothing."""
+    for side in SIDES:
+        browser.open(pages[side])
+        for key in browser.evaluate("[...document.querySelectorAll('figure.reads')].map(f => f.id)"):
+            browser.evaluate(f"document.querySelector('#{key} .drawing').focus()")
+            for end in ("Home", "End"):
+                browser.press(end)
+        assert browser.complaints() == []
+
+
 def test_sliders_move_value_error_and_curve(browser: Browser, pages: dict[str, Path]) -> None:
     """The value is that of the code in the page at the very amplitude, the error the grid's own, rounded up."""
     browser.open(pages["full"])
