@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -19,7 +20,7 @@ WAYS: Mapping[str, str] = {"E": "expansions", "S": "series model", "T": "estimat
 
 @dataclass(frozen=True)
 class Series:
-    """One curve as the readout knows it; ``per_cent`` writes its values as relative errors, ``steps`` holds each value."""
+    """One curve as the readout knows it: ``per_cent`` writes values as relative errors, ``steps`` holds each of them."""
 
     name: str
     x: Array
@@ -75,18 +76,18 @@ def readout(
         How many places are read.
     """
     x = panels[0][0].x
-    ends = np.log10([x.low, x.high]) if x.log else np.array([x.low, x.high])
-    grid = np.linspace(*ends, places)
+    low, high = (math.log10(end) if x.log else end for end in (x.low, x.high))
+    grid = np.linspace(low, high, places)
     at = 10.0**grid if x.log else grid
-    boxes = [
-        [[*(box := panel.box())[:4], *(ends if x.log else box[4:6]), *box[6:]] for panel in group] for group in panels
-    ]
+    boxes = [[panel.box() for panel in group] for group in panels]
+    if x.log:
+        boxes = [[[*box[:4], low, high, *box[6:]] for box in group] for group in boxes]
     return {
         "name": name,
         "unit": unit,
         "link": link,
         "at": [float(f"{v:.5g}") for v in grid],
-        "boxes": [[[float(v) for v in box] for box in group] for group in boxes],
+        "boxes": boxes,
         **({"log": True} if x.log else {}),
         "series": [[s.name, "%" if s.per_cent else s.unit, _read(s, at)] for s in series],
     }
