@@ -20,7 +20,7 @@ WAYS: Mapping[str, str] = {"E": "expansions", "S": "series model", "T": "estimat
 
 @dataclass(frozen=True)
 class Series:
-    """One curve as the readout knows it: ``per_cent`` writes values as relative errors, ``steps`` holds each of them."""
+    """One curve as the readout knows it: ``per_cent`` writes values as relative errors, ``steps`` holds each one."""
 
     name: str
     x: Array
