@@ -153,7 +153,7 @@ def _rest_title(found: Derivation) -> str:
     names = [formula.title[:1].lower() + formula.title[1:] for formula in found.formulas[1:]]
     passed = sum(check.passed is True for check in found.certificate)
     checks = f"{passed} exact check{'s' if passed > 1 else ''} passed" if passed else ""
-    text = listing([*names, *((checks,) if checks else ())])
+    text = "; ".join([*names, *((checks,) if checks else ())])
     return text[:1].upper() + text[1:]
 
 

@@ -124,10 +124,10 @@ def _costs(found: Benchmark) -> str:
 def _times(ratio: float) -> str:
     """A ratio of measured times, to one digit.
 
-    >>> _times(8.3e5), _times(41.0)
-    ('8 × 10⁵', '40')
+    >>> _times(8.3e5), _times(1.2e5), _times(41.0)
+    ('8 × 10⁵', '10⁵', '40')
     """
-    return scientific(ratio, digits=1) if ratio >= FEW else number(float(f"{ratio:.1g}"), 1)
+    return scientific(ratio, digits=1).removeprefix("1 × ") if ratio >= FEW else number(float(f"{ratio:.1g}"), 1)
 
 
 def findings(found: Benchmark, decay: MotionComparison, derived: Derived | None, start: float) -> tuple[str, ...]:

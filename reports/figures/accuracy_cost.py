@@ -144,7 +144,7 @@ def _panel(which: Shown, target: float) -> Panel:
     floor = which.found.reference.floor
     low, high = min(*errors, max(floor, LEAST)), min(max(errors), 30.0)
     span = high / low
-    low, high = low / max(span**0.08, 2.2), high * max(span**0.14, 2.2)
+    low, high = low / max(span**0.11, 2.2), high * max(span**0.14, 2.2)
     if low < target < high < target * (target / low) ** (HEAD / (1.0 - HEAD)):
         high = target * (target / low) ** (HEAD / (1.0 - HEAD))
     x = Scale(0.4 * min(costs), 4.0 * max(costs), 70.0, 968.0, log=True)
@@ -266,7 +266,7 @@ def _finite(at: Sequence[tuple[float, float, Row]]) -> list[tuple[float, float, 
 
 def _column(panel: Panel, at: Sequence[tuple[float, float, Row]]) -> tuple[float, list[float]]:
     """Where names that stand left of all points end, and how high each stands."""
-    return min(x for x, _, _ in at) - 26, apart([y for _, y, _ in at], 16.0, panel.top + 34, panel.bottom - 14)
+    return min(x for x, _, _ in at) - 26, apart([y for _, y, _ in at], 16.0, panel.top + 34, panel.bottom - 30)
 
 
 def _name_is_below(at: Sequence[tuple[float, float, Row]], panel: Panel) -> bool:

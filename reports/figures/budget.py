@@ -53,7 +53,7 @@ def budget_figure(rows: Sequence[BudgetRow]) -> Figure:
 
 def _sources(rows: Sequence[BudgetRow]) -> str:
     """Where series and expansions take their amplitude from, where they stand."""
-    named = any(row.method.startswith(("series-", "lindstedt")) for row in rows)
+    named = any(row.method == "closed-form" for row in rows)
     return " Series and expansions are taken at A(t) from the energy of each instant." if named else ""
 
 

@@ -14,7 +14,7 @@ from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.report.naming import short_name
 from ridgeback.numeric.arrays import Array
-from ridgeback.reports.drawing.apart import apart
+from ridgeback.reports.drawing.apart import apart, text_width
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout, toggles
 from ridgeback.reports.drawing.marks import drawing, group, line, places, rect, text
 from ridgeback.reports.drawing.panel import Panel
@@ -162,7 +162,7 @@ def _draw(
     marks += [upper.zooming(above), lower.zooming(below)]
     marks += _beside(found, drawn, lower) if not narrow else _below(drawn, lower)
     marks += [group(_upper_names(found, decay, drawn, upper, clock), "halo nz")]
-    height = lower.bottom + (58.0 + 17.0 * ((len(drawn) + 1) // 2) if narrow else 40.0)
+    height = lower.bottom + (58.0 + 17.0 * -(-len(drawn) // _across(drawn)) if narrow else 40.0)
     return drawing(NARROW if narrow else WIDE, height, "narrow" if narrow else "wide", label, marks)
 
 
@@ -219,13 +219,22 @@ def _beside(found: Benchmark, drawn: Sequence[Drawn], panel: Panel) -> list[str]
     return marks
 
 
+def _across(drawn: Sequence[Drawn]) -> int:
+    """How many curves the narrow drawing names on a line: two where name and error have room side by side."""
+    wide = (text_width(f"{_brief(d)}{per_cent(d.row.relative_rms_error)}", 11.5) for d in drawn)
+    return 2 if max(wide, default=0.0) < 142.0 else 1
+
+
+def _brief(d: Drawn) -> str:
+    return short_name(d.row).replace("harmonic least squares", "least squares")
+
+
 def _below(drawn: Sequence[Drawn], panel: Panel) -> list[str]:
-    """The narrow drawing names the curves below, two a line, each behind a piece of its own."""
-    marks = []
+    """The narrow drawing names the curves below, each behind a piece of its own."""
+    marks, across = [], _across(drawn)
     for i, d in enumerate(drawn):
-        x, y = 4.0 + 184.0 * (i % 2), panel.bottom + 58.0 + 17.0 * (i // 2)
-        name = short_name(d.row).replace("harmonic least squares", "least squares")
-        parts = [line(x, y - 4, x + 20, y - 4, d.style), text(x + 26, y, name, STYLE[d.letter])]
+        x, y = 4.0 + 184.0 * (i % across), panel.bottom + 58.0 + 17.0 * (i // across)
+        parts = [line(x, y - 4, x + 20, y - 4, d.style), text(x + 26, y, _brief(d), STYLE[d.letter])]
         parts.append(text(x + 176, y, per_cent(d.row.relative_rms_error), STYLE[d.letter], "end"))
         marks.append(group(parts, f"f{d.letter}"))
     return marks

@@ -193,5 +193,8 @@ def certified_table(found: Certified, unit: str) -> Table:
         + f", enclosed against the exact frequency in ball arithmetic: proved to within {per_cent(largest)}. "
         "A dash means that the formula does not hold there.",
         ("formula", *(f"{symbol(found.variable)} = {number(a)}" for a in found.amplitudes)),
-        tuple(Row((capital(row.method), *(per_cent(e, signed=True) for e in row.errors))) for row in found.rows),
+        tuple(
+            Row((capital(row.method).replace("Pade", "Padé"), *(per_cent(e, signed=True) for e in row.errors)))
+            for row in found.rows
+        ),
     )

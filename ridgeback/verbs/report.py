@@ -344,7 +344,16 @@ def as_typed(arguments: Sequence[str]) -> str:
             next(rest, None)
         elif word != "--open" and not word.startswith(("--output=", "-o", "--pdf=")):
             kept.append(word)
-    return shlex.join(["ridgeback", *kept])
+    return " ".join(map(quoted, ["ridgeback", *kept]))
+
+
+def quoted(word: str) -> str:
+    """A word as a shell takes it: in double quotes where it holds a prime and nothing that a shell reads in them.
+
+    >>> print(quoted("u'' + u**3 = 0"), quoted("page.html"), quoted("$HOME isn't"))
+    "u'' + u**3 = 0" page.html '$HOME isn'"'"'t'
+    """
+    return f'"{word}"' if "'" in word and not set(word) & set('"$`\\!\n') else shlex.quote(word)
 
 
 def publish(report: Report, output: str, style: str) -> None:

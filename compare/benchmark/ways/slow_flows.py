@@ -15,6 +15,7 @@ import numpy as np
 import sympy
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.numbers import number
 from ridgeback.compare.benchmark.contenders import Row
 from ridgeback.compare.benchmark.ways.contender import Contender, refused
 from ridgeback.compare.motion.model_curves import slow_flow_curve
@@ -41,6 +42,14 @@ def slow_flows(motion: Motion) -> Iterator[Contender]:
             seconds = time.perf_counter() - began
         except (InputError, ValueError) as error:
             yield refused(f"multiple-scales-{order}", label, "slow-flow", str(error), order=order)
+            continue
+        ended = float(motion.time[curve.omega.size - 1]) if curve.omega.size else 0.0
+        if ended < motion.zone.lower:
+            why = (
+                f"its amplitude equation cannot be integrated beyond t = {number(ended, 2)}: at this order it does not "
+                "reach the amplitude of the start"
+            )
+            yield refused(f"multiple-scales-{order}", label, "slow-flow", why, order=order)
             continue
         omega = np.full(motion.time.size, np.nan)
         omega[: curve.omega.size] = curve.omega
