@@ -19,10 +19,10 @@ class _RealBalls(NumberRing):
     """Only what is exactly 0 is 0, and what may be 0 divides nothing."""
 
     def absent(self, element: arb) -> bool:
-        return bool(element.is_zero())
+        return bool(element == 0)  # also of the whole 0 of an empty sum
 
     def invert(self, element: arb) -> arb:
-        if element.contains(0):
+        if arb(element).contains(0):
             raise InputError("a denominator, log or root is 0 here, where its power series is not analytic")
         return 1 / element
 
