@@ -48,7 +48,7 @@ class Measurement(Brief):
     component: int = 0
     """Counts the oscillations of one signal from 1, the strongest; 0 where only that is asked for."""
     unmeasured: str = ""
-    """Why there is no backbone along a track; empty where there is one."""
+    """Why there is no backbone; empty where there is one."""
 
     @property
     def track(self) -> Track | None:
@@ -136,7 +136,7 @@ def of_harmonic(recording: Recording, found: Estimation, multiple: int, band: An
             size = estimate_amplitude(used.x, used.rate, harmonic=multiple, band=band, start=used.start)
     except InputError as error:
         notes = (*notes, f"No amplitude: {error}.")
-    return Measurement(recording, found.track, None, notes, size)
+    return Measurement(recording, found.track, None, notes, size, unmeasured="a harmonic has none of its own")
 
 
 def measure(recording: Recording, *, harmonic: int = 1, halves: bool = False, **settings: object) -> Measurement:

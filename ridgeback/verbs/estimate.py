@@ -225,7 +225,8 @@ def check_backbones(found: Measurements) -> None:
     from ridgeback.common.errors import InputError
 
     if all(one.backbone is None for one in found.measured):
-        raise InputError(found.measured[0].notes[-1].rstrip("."))
+        first = found.measured[0]
+        raise InputError(f"{first.recording.label}: no backbone, {first.unmeasured}")
 
 
 def tell(found: Measurements) -> None:
@@ -262,4 +263,4 @@ def without_backbone(found: Measurements) -> Iterator[str]:
     given = {signal_of(one.recording) for one in found.measured if one.backbone is not None}
     for one in found.measured:
         if signal_of(one.recording) not in given:
-            yield f"{one.recording.label}: no backbone, {one.notes[-1].rstrip('.')}"
+            yield f"{one.recording.label}: no backbone, {one.unmeasured}"

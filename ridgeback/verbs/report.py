@@ -60,6 +60,7 @@ class Source:
     files: tuple[str, ...]
     column: str | None
     time_column: str | None
+    run_column: str | None
     cycles: float | None
     treatment: Treatment
 
@@ -94,6 +95,7 @@ class Source:
     help='The recording\'s samples; several names, or "all", for several channels on one page.',
 )
 @click.option("--time-column", default=None, metavar="NAME", help="The recording's times.")
+@click.option("--run-column", default=None, metavar="NAME", help="The column that numbers runs, all on one page.")
 @treatment_options
 @click.option(
     "--predict-from", type=POSITIVE, default=None, metavar="CYCLES", help="Predict the rest of a recording from these."
@@ -136,6 +138,7 @@ def command(
     recordings: tuple[str, ...],
     column: str | None,
     time_column: str | None,
+    run_column: str | None,
     predict_from: float | None,
     treatment: Treatment,
     trials: int,
@@ -182,12 +185,12 @@ def command(
             refuse_unused("a report on a drift", *(name for name in context.params if name not in BESIDE_A_DRIFT))
             report = of_drift(motion, unique(laws, "--drift"), shown, progress, timed=not no_timings)
         elif not recordings:
-            belonging = {"--column": column, "--time-column": time_column, "--predict-from": predict_from}
+            places = {"--column": column, "--time-column": time_column, "--run-column": run_column}
             treating = {f"--{name}": value for name, value in treatment.given().items()}
-            refuse({**belonging, **treating}, "belongs to --recording FILE")
+            refuse({**places, "--predict-from": predict_from, **treating}, "belongs to --recording FILE")
             report = of_motion(motion, scope, shown, progress)
         else:
-            source = Source(recordings, column, time_column, predict_from, treatment)
+            source = Source(recordings, column, time_column, run_column, predict_from, treatment)
             report = of_recordings(source, motion, scope, shown, progress)
     try:
         publish(report, output, style)
@@ -301,9 +304,9 @@ def of_recordings(source: Source, motion: Motion, scope: Scope, shown: str, prog
         raise click.UsageError("--set needs a SYSTEM whose parameters it sets; name one, or leave it out")
     if not motion.choice.made:
         refuse({"--title": motion.title}, "names a SYSTEM beside the recording")
-    reading = Reading(source.column, source.time_column, motion.rate, treatment=source.treatment)
+    reading = Reading(source.column, source.time_column, motion.rate, source.run_column, source.treatment)
     oscillator = entitled(motion.choice.oscillator(), motion.title) if motion.choice.made else None
-    if len(source.files) > 1 or several(source.column):
+    if len(source.files) > 1 or several(source.column) or source.run_column is not None:
         from ridgeback.compare.report.several.runs_report import runs_report
 
         refuse_unused("a page on several recordings", "predict_from", "trials")

@@ -274,9 +274,20 @@ def test_a_signal_without_a_backbone_is_named(ridgeback: Ridgeback, tmp_path: Pa
     done = ridgeback("estimate", *files, *BAND, "--backbone", "--format", style)
     assert done.code == 3
     last = done.err.splitlines()[-1]
-    assert "noise.csv, u: no backbone, No amplitude: " in last
+    assert "noise.csv, u: no backbone, no oscillation stands out of the noise" in last
     assert "a.csv, u: no backbone" not in last
     assert "amplitude" in done.out
+
+
+def test_a_backbone_that_is_refused_has_the_reason_and_no_other_note(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    """A second blow: no smooth oscillation, beside a drift that is a note."""
+    x = decay() + np.where(T > 10.0, np.sin(8.0 * (T - 10.0)), 0.0) + 0.02 * T
+    x += 0.003 * np.random.default_rng(2).standard_normal(T.size)
+    done = ridgeback("estimate", written(tmp_path / "a.csv", t=T, u=x), "--backbone")
+    assert done.code == 2
+    assert "a.csv, u: no backbone, " in done.err
+    assert "wanders" not in done.err
+    assert len(done.err.splitlines()) == 1
 
 
 def test_a_stretch_without_a_backbone_is_a_note(ridgeback: Ridgeback, tmp_path: Path) -> None:
