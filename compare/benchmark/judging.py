@@ -90,8 +90,8 @@ def reference_of(motion: Motion, support: Mask) -> Reference:
 
     return Reference(
         label="cycle frequency of the integrated solution",
-        numerical_error=max(rms(motion.cycle.interpolation_error_at(time)), integration_error(motion)),
-        definition=rms(motion.cycle.spread_at(time)),
+        numerical_error=max(rms(motion.interpolation_error[support]), integration_error(motion)),
+        definition=rms(motion.spread[support]),
     )
 
 

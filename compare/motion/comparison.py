@@ -137,7 +137,7 @@ def assemble(
         velocity=motion.trajectory.velocity,
         integrators=_integrators(motion),
         amplitudes=_amplitudes(motion),
-        reference=motion.reference_curve(),
+        reference=motion.reference_curve,
         frequency_ends=(float(motion.known_omega[0]), float(motion.known_omega[-1])),
         interior=(motion.zone.lower, motion.zone.upper),
         curves=curves,
@@ -224,7 +224,7 @@ def _images(motion: Motion, curves: tuple[Curve, ...]) -> tuple[Image, Image, Si
             run.rate,
             top=SIGNED_TOP * fastest,
             name=f"Wigner distribution of {name}",
-            overlays=(motion.reference_curve(), *(() if wigner is None else (wigner,))),
+            overlays=(motion.reference_curve, *(() if wigner is None else (wigner,))),
             note="Between two components lies their cross term, which oscillates along time.",
         ),
     )

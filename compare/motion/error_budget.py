@@ -46,17 +46,17 @@ def _interior(motion: Motion, curve: Curve, error: Array) -> Array:
 
 def reference_error(motion: Motion) -> float:
     """Relative numerical error of the reference, rms over the interior."""
-    return _relative_rms(motion, motion.cycle.interpolation_error_at)
+    return _relative_rms(motion, motion.interpolation_error)
 
 
 def definition_spread(motion: Motion) -> float:
     """Relative spread between readings of omega0(t) from different events, rms over the interior."""
-    return _relative_rms(motion, motion.cycle.spread_at)
+    return _relative_rms(motion, motion.spread)
 
 
-def _relative_rms(motion: Motion, error: Callable[[Array], Array]) -> float:
-    inside = motion.time[motion.zone.interior(motion.time)]
-    return rms(error(inside) / motion.cycle.at(inside)) or 0.0
+def _relative_rms(motion: Motion, error: Array) -> float:
+    inside = motion.zone.interior(motion.time)
+    return rms(error[inside] / motion.reference(motion.time)[inside]) or 0.0
 
 
 def _model_row(motion: Motion, curve: Curve) -> BudgetRow | None:

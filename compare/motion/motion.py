@@ -199,9 +199,20 @@ class Motion:
         crossings = self.trajectory.crossings
         return np.asarray(crossings.time[crossings.rising])
 
+    @cached_property
+    def spread(self) -> Array:
+        """How far two readings of the motion differ, on the samples."""
+        return self.cycle.spread_at(self.time)
+
+    @cached_property
+    def interpolation_error(self) -> Array:
+        """How well the reading that is taken is interpolated, on the samples."""
+        return self.cycle.interpolation_error_at(self.time)
+
+    @cached_property
     def reference_curve(self) -> Curve:
         """The reference on the samples."""
-        omega = self.reference(self.time)
+        omega = self._reference_on_samples
         return Curve(
             name="reference",
             label="cycle frequency",
@@ -209,7 +220,7 @@ class Motion:
             time=self.time,
             omega=omega,
             valid=np.isfinite(omega),
-            standard_deviation=self.cycle.uncertainty_at(self.time),
+            standard_deviation=self.interpolation_error + self.spread,
             note="From the event-located zero crossings of the integrated solution, curvature within a cycle removed.",
         )
 

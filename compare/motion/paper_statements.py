@@ -141,7 +141,7 @@ def _offset(levels: Orders) -> str:
 
 def _slopes(e: Evidence) -> str:
     low, high = e.motion.zone.lower, e.motion.zone.upper
-    base = slope(e.motion.reference_curve(), low, high)
+    base = slope(e.motion.reference_curve, low, high)
     if base is None or abs(base) * (high - low) < LEAST_CHANGE * float(e.motion.known_omega.mean()):
         return ""
     found = {

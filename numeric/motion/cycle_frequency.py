@@ -59,7 +59,7 @@ class PhaseReading:
     def interpolation_error(self, t: Array) -> Array:
         """Return the difference from the spline of degree lower by two, which is the less accurate one."""
         index = self._index(t)
-        return np.abs(self.omega(t) - self.step / self.lower.derivative()(index))
+        return np.abs(self.step / self.spline.derivative()(index) - self.step / self.lower.derivative()(index))
 
     def phase(self, t: Array) -> Array:
         """Return the phase since the first event."""
