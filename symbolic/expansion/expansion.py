@@ -12,15 +12,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, Final
 
 import sympy
-from flint import arb, fmpq
+from flint import arb, ctx, fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.horner import polynomial_value
 from ridgeback.symbolic.arithmetic import truncated
-from ridgeback.symbolic.arithmetic.balls import natural_frequency, polynomial_at, scalar_ball
+from ridgeback.symbolic.arithmetic.balls import natural_frequency, number_ball, polynomial_at, scalar_ball
 from ridgeback.symbolic.arithmetic.rendering import (
     as_sympy,
     coefficient_row,
@@ -41,6 +41,9 @@ from ridgeback.symbolic.expansion.amplitude import (
 from ridgeback.symbolic.expansion.shown import ShownExpansion
 from ridgeback.symbolic.series.spaces import Scalar
 from ridgeback.symbolic.series.trigonometric import Trig, degree, harmonic
+
+ROUNDING: Final = 32
+"""Bits beyond those of a number of mpmath, with which an irrational coefficient is rounded to it."""
 
 
 @dataclass(frozen=True)
@@ -207,10 +210,9 @@ class Expansion(ShownExpansion):
         """
         if isinstance(value, Fraction | sympy.Rational):
             return sum((c * sympy.Rational(value) ** n for n, c in enumerate(self.frequency)), sympy.S.Zero)
-        if type(value).__module__.startswith("mpmath"):
-            convert = type(value)
-            return polynomial_value([convert(c.p) / convert(c.q) for c in self.frequency], value)
         rounded, even = self._rounded
+        if type(value).__module__.startswith("mpmath"):
+            return polynomial_value([_like(c, value) for c in self.frequency], value)
         return polynomial_value(rounded, value * value if even else value)
 
     @cached_property
@@ -379,3 +381,16 @@ def check_order(order: object, *, lowest: int = 0) -> int:
     if order < lowest:
         raise InputError(f"order {order} is below {lowest}; use {lowest} or more")
     return order
+
+
+def _like(coefficient: sympy.Expr, value: Any) -> Any:
+    """A coefficient as a number of mpmath of the kind and precision of another one."""
+    if coefficient.is_Rational:
+        return type(value)(coefficient.p) / type(value)(coefficient.q)
+    if hasattr(value, "_mpi_"):
+        raise InputError(
+            f"the coefficient {coefficient} is irrational, which intervals of mpmath do not take; use balls"
+        )
+    with ctx.workprec(value.context.prec + ROUNDING):
+        mantissa, exponent = number_ball(coefficient).mid().man_exp()
+    return value.context.mpf((int(mantissa), int(exponent)))

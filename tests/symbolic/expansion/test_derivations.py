@@ -3,9 +3,10 @@
 from dataclasses import replace
 from fractions import Fraction
 
+import mpmath
 import pytest
 import sympy
-from flint import fmpq, fmpz
+from flint import arb, ctx, fmpq, fmpz
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -50,6 +51,20 @@ def test_a_series_is_headed_by_its_variable() -> None:
         (formula,) = series.formulas()
         assert formula.startswith(rf"\omega_0({name}) = 1")
         assert series.picture().x_label == {"A": "A (peak)", "m": "m"}.get(name, "eps")
+
+
+@pytest.mark.parametrize("equation", ["u'' + sin(u) = 0", "u'' + 2*u + u**3 = 0", "u'' + pi**2*u + u**3/3 = 0"])
+def test_in_multiple_precision_a_series_is_its_enclosure(equation: str) -> None:
+    series = lindstedt(Oscillator.from_equation(equation), 6)
+    with mpmath.workdps(40), ctx.workprec(200):
+        found = series(mpmath.mpf(1) / 4)
+        assert abs(arb(mpmath.nstr(found, 45)) / series.in_balls(arb(1) / 4) - 1) < arb(10) ** -39
+    interval = mpmath.iv.mpf(1) / 4
+    if equation.startswith("u'' + sin"):
+        assert series(interval).a <= series(0.25) <= series(interval).b
+    else:
+        with pytest.raises(InputError, match="irrational"):
+            series(interval)
 
 
 def test_time_in_other_units_leaves_the_amplitude_of_a_limit_cycle() -> None:
