@@ -31,8 +31,6 @@ NOTHING = 1e-3
 """Noise over amplitude below which an equation's slow flow, a series, is not held against it."""
 NEAR_BEST = 9.0
 """Times the least sum of squares, that an equation may leave which is tried for another quantity."""
-MOST = 0.8
-"""Of the width of the samples, that the amplitude of the first harmonic can have: 2 / pi for a square wave."""
 AS_OTHER = ("duffing-hardening", "duffing-softening", "pendulum", "helmholtz-duffing")
 """Smooth laws with harmonics, one of which the quantity must agree with."""
 
@@ -88,8 +86,6 @@ def fits_as(ready: Prepared, measured: Backbone, quantity: str, others: list[Mod
     turned = replace(ready.recording, values=displaced(x, ready.models.best, quantity))
     with suppress(InputError):
         data = prepare(turned, ready.track, kept=ready.kept, measured=behind(measured, ORDERS[quantity]))
-        if data.length > MOST * float(np.ptp(turned.values)):
-            return
         for model in others:
             with suppress(InputError):
                 yield fit(model, data)
