@@ -10,6 +10,7 @@ from scipy.special import chdtri
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.components.jumps import jump
 from ridgeback.numeric.components.lines import LEAST, clearest_line
 from ridgeback.numeric.harmonics.local_fit import harmonic_fit
 from ridgeback.numeric.harmonics.signal_model import SignalModels
@@ -44,7 +45,8 @@ def doubt(models: SignalModels, x: Array, left: Array, rate: float, guide: Array
     ``sound`` are the samples that count.
     """
     return (
-        in_the_way(left, rate, models.best)
+        jump(models, left, sound)
+        or in_the_way(left, rate, models.best)
         or unfinished(models, left)
         or uneven(models.best, x, rate, guide)
         or somewhere(models.best, left, rate, sound)

@@ -1,0 +1,183 @@
+"""Whether a frequency jumps: a bend of the phase at one time explains with few parameters what takes splines many.
+
+About the best model's phase phi and logarithm l of the amplitude the samples are linear in small changes of both,
+
+    y = x - a cos phi + P phi + A l = P q + A r + d + noise,       P = -a sin phi,  A = a cos phi,
+
+so that any other q and r come by linear least squares, beside an offset d: polynomials in time, and polynomials with a
+bend, (t - t_j)+, of both at one time or of r alone.  All sums are moments of products of P, A and 1 over stretches
+between the places that are tried.  Parameters count as those of the components do (``separation``): a jump is one where
+the bend of the phase gains GAIN over smooth polynomials, over a bend of the amplitude alone, and over every spline that
+was tried.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.harmonics.signal_model import SignalModels
+from ridgeback.numeric.harmonics.spline_model import SplineModel
+from ridgeback.numeric.signal.samples import TWO_PI
+
+GAIN, PER_PARAMETER = 12.0, 5.0
+"""Fall of the criterion that is wanted, and what a parameter counts."""
+SMOOTH, BENT = (1, 2, 3, 4, 5), (1, 2, 3)
+"""Degrees of the polynomials without and with a bend."""
+OFFSET = 5
+"""Degree of the offset."""
+APART, BORDER, MOST, FINER = 1.5, 3.0, 96, 13
+"""Cycles from one place that is tried to the next and that are left at the ends, how many places at most, and how many
+about the best of them."""
+LOUD = 1e-3
+"""Noise over amplitude below which what a model of a clean signal leaves is no noise."""
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Sums of products of P, A and 1 times u^n from each place on, ``[3, 3, n, place]``, and with y ``[3, n, place]``.
+
+    The places are the samples number ``first``, of which the first is 0; u is time from -1 to 1, ``square`` the sum of
+    y^2.
+    """
+
+    first: NDArray[np.intp]
+    place: Array
+    pairs: Array
+    target: Array
+    square: float
+
+
+def moments(model: SplineModel, left: Array, sound: Mask, first: NDArray[np.intp]) -> Moments:
+    """Those of a model that leaves ``left`` of the samples, from some samples on."""
+    phase, size, counts = model.phase, model.size, sound.astype(float)
+    u, log = np.linspace(-1.0, 1.0, phase.size), np.log(np.maximum(size, np.finfo(float).tiny))
+    P, A = -size * counts * np.sin(phase), size * counts * np.cos(phase)
+    offset = model.samples(keep=lambda harmonic: harmonic == 0)
+    y = (left + offset) * counts + P * (phase - line(u, phase)) + A * (log - line(u, log))
+    most, weights = 2 * max(SMOOTH) + 3, (P, A, counts)
+
+    def sums(values: Array, count: int) -> Array:
+        rows = []
+        for _ in range(count):
+            rows.append(np.cumsum(np.add.reduceat(values, first)[::-1])[::-1])
+            values = values * u
+        return np.array(rows)
+
+    pairs = np.array([[sums(one * other, most) for other in weights] for one in weights])
+    return Moments(first, u[first], pairs, np.array([sums(one * y, max(SMOOTH) + 1) for one in weights]), float(y @ y))
+
+
+def line(u: Array, values: Array) -> Array:
+    """The straight line through the ends."""
+    return np.asarray(values[0] + (values[-1] - values[0]) * 0.5 * (u + 1.0))
+
+
+@dataclass(frozen=True)
+class Column:
+    """P, A or 1 (``of`` 0, 1 or 2) times u^power, or times (u - place)+ where ``bent``."""
+
+    of: int
+    power: int
+    bent: bool = False
+
+
+def columns(degree: int, bends: tuple[int, ...] = ()) -> list[Column]:
+    """Those of polynomials of a degree of P and of A, with the bends of some of them, and of the offset."""
+    smooth = [Column(of, n) for of in (0, 1) for n in range(degree + 1)]
+    return [*smooth, *(Column(of, 0, True) for of in bends), *(Column(2, n) for n in range(OFFSET + 1))]
+
+
+def factor(one: Column, place: float) -> Array:
+    """The coefficients of u^0, u^1, ... by which a column multiplies P or A, beyond the place where it is bent.
+
+    >>> factor(Column(0, 2), 0.5).tolist(), factor(Column(0, 0, True), 0.5).tolist()
+    ([0.0, 0.0, 1.0], [-0.5, 1.0])
+    """
+    return np.array([-place, 1.0]) if one.bent else np.eye(one.power + 1)[-1]
+
+
+def left_over(found: Moments, wanted: list[Column], j: int) -> float:
+    """The least sum of squares of y by these columns, bent at place ``j``."""
+
+    def product(one: Column, other: Column) -> float:
+        at = j if one.bent or other.bent else 0
+        both = np.convolve(factor(one, found.place[j]), factor(other, found.place[j]))
+        return float(both @ found.pairs[one.of, other.of, : both.size, at])
+
+    def onto(one: Column) -> float:
+        by = factor(one, found.place[j])
+        return float(by @ found.target[one.of, : by.size, j if one.bent else 0])
+
+    normal = np.array([[product(one, other) for other in wanted] for one in wanted])
+    right = np.array([onto(one) for one in wanted])
+    scale = np.sqrt(np.maximum(np.diag(normal), np.finfo(float).tiny))
+    solution = np.linalg.lstsq(normal / np.outer(scale, scale), right / scale, rcond=1e-12)[0]
+    return max(0.0, found.square - float(solution @ (right / scale)))
+
+
+def jump(models: SignalModels, left: Array, sound: Mask) -> str:
+    """Why models cannot be trusted where the frequency jumps; empty where it does not.
+
+    Parameters
+    ----------
+    models : SignalModels
+        Of the oscillation.
+    left : array of float, shape (N,)
+        What the best of them leaves of the samples.
+    sound : array of bool, shape (N,)
+        Samples that count.
+
+    Examples
+    --------
+    >>> from ridgeback.numeric.harmonics.signal_model import signal_models
+    >>> t, noise = np.arange(800) / 16.0, 0.03 * np.random.default_rng(1).normal(size=800)
+    >>> for jumps in (0.0, 0.1):
+    ...     x = np.cos(6.0 * t + jumps * np.maximum(t - 20.0, 0.0)) + noise
+    ...     models = signal_models(x, 16.0, np.full(800, 6.0), half=30, multiples=())
+    ...     print(jump(models, x - models.best.samples(), np.ones(800, dtype=bool))[:24])
+    <BLANKLINE>
+    the frequency jumps near
+    """
+    best = models.best
+    count = min(MOST, int((models.cycles - 2.0 * BORDER) / APART))
+    if count < 2 or best.band_noise < LOUD * float(best.size.max()):
+        return ""
+    at, bent, others = 0.0, 0.0, [score_of(model, best) for model in models.others]
+    ends = BORDER, models.cycles - BORDER
+    for places in (count, FINER):
+        turned = TWO_PI * np.linspace(*ends, places)
+        first = np.searchsorted(np.maximum.accumulate(best.phase - best.phase[0]), turned)
+        found = moments(best, left, sound, np.unique(np.append(0, first)))
+        scores = np.array([min(scored(found, best, d, (0, 1), j) for d in BENT) for j in range(1, found.first.size)])
+        bent, at = float(scores.min()), float(best.time[found.first[1 + int(scores.argmin())]])
+        middle = float(turned[int(scores.argmin())]) / TWO_PI
+        ends = middle - APART, middle + APART
+        others += [scored(found, best, d, (1,), j) for d in BENT for j in range(1, found.first.size)]
+    others += [scored(found, best, d, (), 0) for d in SMOOTH]
+    if bent > min(others) - GAIN:
+        return ""
+    return (
+        f"the frequency jumps near {at:.4g} after the first sample: a bend of the phase there explains with few "
+        "parameters what takes smooth models many; give a --span on one side of it"
+    )
+
+
+def scored(found: Moments, best: SplineModel, degree: int, bends: tuple[int, ...], j: int) -> float:
+    """What polynomials with bends leave, over the variance of the noise, and what their parameters count.
+
+    Those of the offset and of the harmonics, which are the best model's, count for as many values of the noise as they
+    take up.
+    """
+    left = left_over(found, columns(degree, bends), j) / best.band_noise**2
+    parameters = 2 * (degree + 1) + len(bends) + (1 if bends else 0)
+    return left + PER_PARAMETER * parameters + OFFSET + 1 + (best.parameters - 3 * best.basis.count)
+
+
+def score_of(model: SplineModel, best: SplineModel) -> float:
+    """The same of a spline, by the noise of the best."""
+    left = model.noise**2 * max(1, model.count - model.parameters) / best.band_noise**2
+    return left + PER_PARAMETER * 2 * model.basis.count + model.parameters - 2 * model.basis.count
