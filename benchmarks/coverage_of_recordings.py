@@ -125,6 +125,19 @@ def second_mode(size: float, at: float, ratio: float) -> Callable[[Array, Array,
     return spoiled
 
 
+def bent_mode(
+    size: float, at: float, ratio: float, bend: float
+) -> Callable[[Array, Array, np.random.Generator], Array]:
+    """Another damped oscillation beside the motion, of frequency at (1 + bend a^2)."""
+
+    def spoiled(x: Array, t: Array, rng: np.random.Generator) -> Array:
+        fall = ratio * TWO_PI * at
+        turned = phase_of(lambda s: TWO_PI * at * (1 + bend * (size * np.exp(-fall * s)) ** 2), t)
+        return np.asarray(x + size * np.exp(-fall * t) * np.cos(turned + rng.uniform(0, TWO_PI)))
+
+    return spoiled
+
+
 def spiked(x: Array, t: Array, rng: np.random.Generator) -> Array:
     """One sample in a hundred is off by up to twice the largest amplitude."""
     hit = rng.uniform(size=t.size) < 0.01
@@ -196,14 +209,18 @@ def struck_twice(rng: np.random.Generator) -> Record:
     return Record(x, RATE, Motion(a, np.full(t.size, w), np.full(t.size, -g), t >= 0), 0.01)
 
 
-def jumping(rng: np.random.Generator) -> Record:
-    """A steady oscillation whose frequency jumps by up to a third."""
-    t = np.arange(800) / 40.0
-    ratio, at = 1.0 + rng.uniform(0.03, 0.33), rng.uniform(6.0, 14.0)
-    omega = TWO_PI * 3.0 * np.where(t < at, 1.0, ratio)
-    x = np.cos(TWO_PI * 3.0 * (np.minimum(t, at) + ratio * np.maximum(t - at, 0.0))) + 0.01 * rng.normal(size=t.size)
-    ones = np.ones(t.size)
-    return Record(x, 40.0, Motion(ones, omega, 0.0 * ones, ones > 0), 0.01)
+def jumping(least: float, most: float) -> Kind:
+    """A steady oscillation whose frequency jumps by a share between these."""
+
+    def made(rng: np.random.Generator) -> Record:
+        t = np.arange(800) / 40.0
+        ratio, at = 1.0 + rng.uniform(least, most), rng.uniform(6.0, 14.0)
+        omega = TWO_PI * 3.0 * np.where(t < at, 1.0, ratio)
+        x = np.cos(TWO_PI * 3.0 * (np.minimum(t, at) + ratio * np.maximum(t - at, 0.0)))
+        ones = np.ones(t.size)
+        return Record(x + 0.01 * rng.normal(size=t.size), 40.0, Motion(ones, omega, 0.0 * ones, ones > 0), 0.01)
+
+    return made
 
 
 KINDS: dict[str, Kind] = {
@@ -234,8 +251,10 @@ KINDS: dict[str, Kind] = {
     "a chirp that rises to six times": chirp,
     "a swinging frequency": modulated,
     "struck twice": struck_twice,
-    "a frequency that jumps": jumping,
+    "a frequency that jumps": jumping(0.03, 0.33),
+    "a frequency that jumps a little": jumping(0.002, 0.03),
     "two modes 2 % apart": damped(0.003, 120.0, spoil=second_mode(0.5, 20.4, 0.003)),
+    "two modes, one not linear": damped(0.006, 60.0, spoil=bent_mode(0.4, 26.0, 0.006, 0.3)),
     "hum at twice the frequency": damped(0.01, 40.0, spoil=hum(0.1, 40.0)),
     "three modes": damped(
         0.006,

@@ -155,7 +155,7 @@ def jump(models: SignalModels, left: Array, sound: Mask) -> str:
         scores = np.array([min(scored(found, best, d, (0, 1), j) for d in BENT) for j in range(1, found.first.size)])
         bent, at = float(scores.min()), float(best.time[found.first[1 + int(scores.argmin())]])
         middle = float(turned[int(scores.argmin())]) / TWO_PI
-        ends = middle - APART, middle + APART
+        ends = max(BORDER, middle - APART), min(models.cycles - BORDER, middle + APART)
         others += [scored(found, best, d, (1,), j) for d in BENT for j in range(1, found.first.size)]
     others += [scored(found, best, d, (), 0) for d in SMOOTH]
     if bent > min(others) - GAIN:

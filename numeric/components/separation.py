@@ -21,9 +21,9 @@ from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.components.doubts import doubt
 from ridgeback.numeric.components.lines import LEAST, clearest_line, colour
 from ridgeback.numeric.components.spikes import spikes
-from ridgeback.numeric.components.tones import Tone, fitted_tone
+from ridgeback.numeric.components.tones import Tone, bent_start, bent_tone, fitted_tone
 from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
-from ridgeback.numeric.harmonics.spline_fit import Known, akaike, fit_on
+from ridgeback.numeric.harmonics.spline_fit import Known, akaike, corrected_phase, fit_on
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import strongest_frequency
@@ -33,6 +33,8 @@ GAIN, STRICTER = 12.0, 3.0
 MOST_TONES = 6
 TURNS, RESTED = 30, 0.02
 """Of fitting in turns: most of them, and the fall of the criterion in one with which it ends."""
+DEGREES, AROUND = (2, 3, 5), (0.6, 1.4)
+"""Of the exponent of a tone with bends, and the band about its frequency in which it is judged."""
 TAKEN_OFF = 0.7
 """Of the power of samples, that a tone may leave which is to be one of them."""
 SAME = 0.1
@@ -244,8 +246,33 @@ def settled(given: Given, tones: tuple[Tone, ...]) -> tuple[SignalModels, tuple[
     """Models beside tones, and the tones beside those models."""
     models = given.beside(tones)
     new = in_turns(given.x, models.best, tones, given.known)[1]
+    bent = tuple(with_bends(given, models.best, new, i) for i in range(len(new)))
+    if bent != new:
+        models, tones = given.beside(bent), bent
+        new = in_turns(given.x, models.best, bent, given.known)[1]
     moved = float(np.abs(total(new, given.time) - total(tones, given.time)).max())
     return (given.beside(new), new) if moved > SAME * models.best.noise else (models, tones)
+
+
+def with_bends(given: Given, model: SplineModel, tones: tuple[Tone, ...], i: int) -> Tone:
+    """One of the tones, with bends where they gain: a mode that is not linear changes its frequency as it decays."""
+    tone, time, sound = tones[i], given.time, given.known.sound_of(given.x.size)
+    if tone.growth == 0.0 or tone.bends:
+        return tone
+    left, floor = residual(given.x, model, (*tones[:i], *tones[i + 1 :])), 1e-14 * float(model.size.max())
+    band = AROUND[0] * tone.omega / given.rate, AROUND[1] * tone.omega / given.rate
+
+    def judged(one: Tone) -> float:
+        parameters = one.tangent(time[:2]).shape[1]
+        off = (left - one.samples(time)) * sound
+        score = akaike(off, band, count=int(sound.sum()), parameters=parameters, floor=floor)
+        return float(score + STRICTER * parameters)
+
+    phase, size = corrected_phase(left, given.rate, np.full(time.size, tone.omega))
+    starts = (bent_start(time, phase, size, degree) for degree in DEGREES)
+    tried = [bent_tone(left, time, start, sound) for start in starts]
+    best = min(tried, key=judged)
+    return best if judged(best) < judged(tone) - GAIN else tone
 
 
 def one_more(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> tuple[Tone, ...] | None:

@@ -1,16 +1,18 @@
 """A tone beside an oscillation: steady, or damped at a rate of its own.
 
-    y = Re[Z e^((g + i w) t)],      g = 0 where the samples do not show one,
+    y = Re[Z e^((g + i w) t + c_2 t^2 + ..)],      g = 0 where the samples do not show one,
 
-fitted by Gauss-Newton from a line of a spectrum.  Its tangent, the derivatives by Z, g and w, is what a model of the
-oscillation beside it must leave free: that is how the error of either gets into that of the other.
+with complex c only where its frequency or growth rate changes along its decay, as those of a mode do that is not
+linear; fitted by Gauss-Newton from a line of a spectrum. Its tangent, the derivatives by Z, w, g and c, is what a
+model of the oscillation beside it must leave free: that is how the error of either gets into that of the other.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.signal.samples import TWO_PI
@@ -20,33 +22,55 @@ STEADY = 3.0
 """Of its deviation, that g must exceed to be one."""
 MOST_GROWTH = 40.0
 """Bound of g times the length of the record."""
+MOST_STEP = 0.5
 MAINS = (50.0, 60.0)
 MAINS_WITHIN = 2e-3
 
 
 @dataclass(frozen=True)
 class Tone:
-    """Its frequency (rad per time unit), growth rate, and complex amplitude at the first sample."""
+    """Its frequency (rad per time unit), growth rate, and complex amplitude, all at the first sample."""
 
     omega: float
     growth: float
     size: complex
+    bends: tuple[complex, ...] = ()
+    """c_2, c_3, .. for time in units of ``span``."""
+    span: float = 1.0
 
     @property
     def amplitude(self) -> float:
         """At the first sample."""
         return abs(self.size)
 
+    def wave(self, time: Array) -> NDArray[np.complex128]:
+        """What multiplies Z."""
+        u = time / self.span
+        bent = np.polynomial.polynomial.polyval(u, (0.0, 0.0, *self.bends)) if self.bends else 0.0
+        return np.asarray(np.exp((self.growth + 1j * self.omega) * time + bent), dtype=np.complex128)
+
     def samples(self, time: Array) -> Array:
         """The tone at times from the first sample on."""
-        return np.asarray((self.size * np.exp((self.growth + 1j * self.omega) * time)).real)
+        return np.asarray((self.size * self.wave(time)).real)
 
     def tangent(self, time: Array) -> Array:
-        """Derivatives by the real and the imaginary part of Z, by w, and by g where it has one, ``(N, 3 or 4)``."""
-        wave = np.exp((self.growth + 1j * self.omega) * time)
-        turning = time * self.size * wave
-        columns = [wave.real, -wave.imag, -turning.imag]
-        return np.stack(columns if self.growth == 0.0 else [*columns, turning.real], axis=1)
+        """Derivatives by the real and the imaginary part of Z, by w, by g where it has one, and by those of each c."""
+        wave = self.wave(time)
+        whole = self.size * wave
+        columns = [wave.real, -wave.imag, -time * whole.imag]
+        columns += [] if self.growth == 0.0 else [time * whole.real]
+        powers = [(time / self.span) ** k * whole for k in range(2, len(self.bends) + 2)]
+        return np.stack([*columns, *(column for power in powers for column in (power.real, -power.imag))], axis=1)
+
+    def changed(self, step: Array) -> Tone:
+        """The tone after steps along its tangent; it has a growth rate."""
+        bends = tuple(
+            c + complex(re, im) for c, re, im in zip(self.bends, step[4::2].tolist(), step[5::2].tolist(), strict=True)
+        )
+        size = self.size + complex(float(step[0]), float(step[1]))
+        return replace(
+            self, omega=self.omega + float(step[2]), growth=self.growth + float(step[3]), size=size, bends=bends
+        )
 
     @property
     def mains(self) -> bool:
@@ -70,6 +94,7 @@ class Tone:
         'a steady tone at 50 (mains hum), amplitude 0.02'
         """
         kind = "a steady tone" if self.growth == 0.0 else f"a mode of growth rate {self.growth:.4g}"
+        kind += " at first, changing along its decay," if self.bends else ""
         hum = " (mains hum)" if self.mains else ""
         return f"{kind} at {self.omega / TWO_PI:.6g}{hum}, amplitude {self.amplitude:.3g}"
 
@@ -82,6 +107,8 @@ def fitted_tone(left: Array, time: Array, omega: float, sound: Array, start: Ton
     >>> round(found.omega, 9), round(found.growth, 9), round(found.amplitude, 9)
     (9.0, -0.1, 0.3)
     """
+    if start is not None and start.bends:
+        return bent_tone(left, time, start, sound)
     tone = Tone(omega, 0.0, 0j) if start is None else start
     steady, _ = iterated(left, time, tone, sound, free=False)
     damped, deviation = iterated(left, time, steady if start is None else start, sound, free=True)
@@ -106,6 +133,40 @@ def iterated(left: Array, time: Array, tone: Tone, sound: Array, *, free: bool) 
             inverse = np.linalg.pinv(jacobian.T @ jacobian)
             deviation = float(np.sqrt(inverse[3, 3] * np.mean(residual**2)))
     return Tone(omega, growth if free else 0.0, tone.size), deviation
+
+
+def bent_tone(left: Array, time: Array, tone: Tone, sound: Array) -> Tone:
+    """Gauss-Newton for a tone with bends, each step half a radian, or half of the logarithm, at most.
+
+    >>> t = np.arange(400) / 20.0
+    >>> x = 0.3 * np.exp(-0.1 * t) * np.cos(9.0 * t + 0.01 * t**2 + 1.0)
+    >>> start = Tone(9.1, -0.1, 0.3 * np.exp(1j), (0j,), 20.0)
+    >>> found = bent_tone(x, t, start, np.ones(400))
+    >>> round(found.omega, 6), round(found.bends[0].imag, 6)
+    (9.0, 4.0)
+    """
+    for _ in range(ITERATIONS):
+        jacobian = tone.tangent(time) * sound[:, None]
+        off = (left - tone.samples(time)) * sound
+        step = np.asarray(np.linalg.lstsq(jacobian, off, rcond=None)[0], dtype=float)
+        powers = (0.0, complex(step[3], step[2]) * tone.span, *(step[4::2] + 1j * step[5::2]))
+        turned = np.abs(np.polynomial.polynomial.polyval(time / tone.span, powers))
+        tone = tone.changed(step * min(1.0, MOST_STEP / max(float(turned.max()), 1e-300)))
+    return tone
+
+
+def bent_start(time: Array, phase: Array, size: Array, degree: int) -> Tone:
+    """The tone whose exponent is the polynomial nearest to a phase and the logarithm of an amplitude, where it is large.
+
+    >>> t = np.linspace(0.0, 2.0, 50)
+    >>> found = bent_start(t, 1.0 + 9.0 * t + 0.5 * t**2, 2.0 * np.exp(-0.3 * t), 2)
+    >>> round(found.omega, 9), round(found.growth, 9), round(found.amplitude, 9), round(found.bends[0].imag, 9)
+    (9.0, -0.3, 2.0, 2.0)
+    """
+    span, log = float(time[-1]), np.log(np.maximum(size, 1e-6 * float(size.max())))
+    turn, fall = (np.polynomial.polynomial.polyfit(time / span, values, degree, w=size) for values in (phase, log))
+    bends = tuple(complex(re, im) for re, im in zip(fall[2:], turn[2:], strict=True))
+    return Tone(float(turn[1]) / span, float(fall[1]) / span, complex(np.exp(fall[0] + 1j * turn[0])), bends, span)
 
 
 def beside_notes(tones: tuple[Tone, ...], spikes: int) -> tuple[str, ...]:

@@ -160,3 +160,17 @@ def test_a_frequency_that_jumps_by_a_few_per_cent_gets_no_interval_and_one_that_
     jumps, swings = (estimate(x + noise, 40.0).no_interval for x in (jumping, swinging))
     assert (jumps or "").startswith("the frequency jumps near 11.7")
     assert swings is None
+
+
+def test_a_mode_that_is_not_linear_is_taken_off_as_it_changes() -> None:
+    """26 (1 + 0.3 a^2) from a = 0.4 on beside 20: its frequency at first, and an interval for the other."""
+    t, fall = np.arange(1200) / 400.0, 0.98
+    turned = 2 * np.pi * 26.0 * (t + 0.3 * 0.16 * (1.0 - np.exp(-2 * fall * t)) / (2 * fall))
+    noise = 0.012 * np.random.default_rng(7).normal(size=t.size)
+    x = np.exp(-0.75 * t) * np.cos(40 * np.pi * t) + 0.4 * np.exp(-fall * t) * np.cos(turned + 1.0) + noise
+    track = estimate(x, 400.0)
+    (mode,) = track.used.tones
+    assert mode.bends
+    assert mode.omega == pytest.approx(2 * np.pi * 26.0 * 1.048, rel=3e-3)
+    assert track.interval is not None
+    assert np.mean(track.interval.holds(40 * np.pi)[track.valid]) > 0.8
