@@ -156,7 +156,7 @@ def bent_tone(left: Array, time: Array, tone: Tone, sound: Array) -> Tone:
 
 
 def bent_start(time: Array, phase: Array, size: Array, degree: int) -> Tone:
-    """The tone whose exponent is the polynomial nearest to a phase and the logarithm of an amplitude, where it is large.
+    """The tone whose exponent is the polynomial nearest to a phase and the logarithm of an amplitude.
 
     >>> t = np.linspace(0.0, 2.0, 50)
     >>> found = bent_start(t, 1.0 + 9.0 * t + 0.5 * t**2, 2.0 * np.exp(-0.3 * t), 2)
