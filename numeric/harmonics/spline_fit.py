@@ -32,6 +32,7 @@ from ridgeback.numeric.harmonics.spline_basis import (
 )
 from ridgeback.numeric.harmonics.spline_model import Linearised, SplineModel
 from ridgeback.numeric.harmonics.spline_parts import DEGREE
+from ridgeback.numeric.harmonics.window_steps import AT_REST, left_open
 from ridgeback.numeric.signal.local_line import local_line
 from ridgeback.numeric.signal.samples import TWO_PI, checked_work
 from ridgeback.numeric.signal.windows import window
@@ -42,8 +43,8 @@ SETTLED = 1e-4
 end of a decay, it goes on wandering."""
 FINEST_CYCLES = 2.0
 """Closer knots would let the amplitude's spline imitate harmonics."""
-AT_REST, UNSEEN = 1e-10, 1e-2
-"""Last steps of the phase at which a fit ends: in radians, and relative to what the noise leaves open."""
+UNSEEN_IN_ALL = 1e-2
+"""Last step of the phase at which a fit ends, relative to what the noise leaves open of it by all parameters."""
 HOPEFUL, NEAR = 6, 0.1
 """Steps after which a fit is given up that, once they are below NEAR, shrink too slowly for it to settle."""
 
@@ -52,10 +53,10 @@ ENOUGH = 100
 FIRM = 0.05
 """Of the mean square of what is left of the samples: so much of a^2 / 2 leaves the increments of l and phi free."""
 BACK = 0.2
-"""Of the largest amplitude, by which it may come back after a fall that is one."""
+"""Of the largest amplitude, by which it may fall and come back and yet have risen and fallen once."""
 FLOOR, MUCH = 0.01, 3.0
-"""Of the largest amplitude, down to which its fall counts where knots are spread; its logarithm from which on it counts
-as much as the cycles."""
+"""Of the largest amplitude, down to which its changes count where knots are spread; the logarithm of all of them from
+which on they count as much as the cycles."""
 LEAST = 1e-4
 """Of the largest amplitude, that the first logarithm is taken of."""
 LOW_DEGREES = (1, 2, 3)
@@ -120,7 +121,7 @@ def fit_on(
         moved = np.maximum(np.abs(basis.values(c[:, 0])), np.abs(basis.values(c[:, -1])))
         largest = max(float(size.max()), np.finfo(float).tiny)
         before, step = step, float((moved * size).max()) / largest
-        unseen = UNSEEN * math.sqrt(float(np.mean(residual**2)) * basis.count / x.size) / largest
+        unseen = UNSEEN_IN_ALL * float(left_open(np.mean(residual**2), basis.count / x.size, largest))
         if done > 1 and (step < max(AT_REST, min(SETTLED, unseen)) or (step < SETTLED and step > 0.5 * before)):
             break  # not after the first, which is as firm as if all of the samples were noise
         if done >= HOPEFUL and step < NEAR and step * min(1.0, step / before) ** (ITERATIONS - done) > SETTLED:
@@ -303,38 +304,39 @@ def harmonic_splines(
         )
     time = np.arange(x.size) / rate
     known = replace(known, band=counted(guide / rate, amplitude, multiples))
-    even = falling(phase, amplitude)
+    even = changing(phase, amplitude)
     first = best_model(until_no_better(on_more_knots(x, time, phase, amplitude, even, multiples, known)))
     return until_no_better(on_more_knots(x, time, first.phase, first.amplitude, adapted(first), multiples, known))
 
 
-def falling(phase: Array, amplitude: Array) -> Array:
-    """A rising function of time whose equal steps hold as many cycles, or as great a fall of the amplitude.
+def changing(phase: Array, amplitude: Array) -> Array:
+    """A rising function of time whose equal steps hold as many cycles, or as great a change of the amplitude.
 
-    A loss that grows with the amplitude makes most of its changes early, in a few cycles.  Where the amplitude comes
-    back, as in beats or a swell, the cycles count alone.
+    A loss that grows with the amplitude makes most of its changes early, in a few cycles, a swell may before its top.
+    Where the amplitude falls and comes back, as in beats, the cycles count alone.
 
     >>> t = np.linspace(0.0, 60.0, 7)
-    >>> falling(t, np.ones(7)).tolist() == (t / 60.0).tolist(), np.allclose(falling(t, np.exp(-t / 20)), t / 30.0)
+    >>> changing(t, np.ones(7)).tolist() == (t / 60.0).tolist(), np.allclose(changing(t, np.exp(-t / 20)), t / 30.0)
     (True, True)
-    >>> np.allclose(falling(t, np.exp(t / 20)), t / 60.0), np.allclose(falling(t, 1 - (t % 20) / 20), t / 60.0)
+    >>> np.allclose(changing(t, np.exp(t / 20)), t / 30.0), np.allclose(changing(t, 1 - (t % 20) / 20), t / 60.0)
     (True, True)
     """
     largest = float(amplitude.max())
-    yet_to_come = np.maximum.accumulate(amplitude[::-1])[::-1]
+    around = np.minimum(np.maximum.accumulate(amplitude), np.maximum.accumulate(amplitude[::-1])[::-1])
     cycles = np.asarray((phase - phase[0]) / float(phase[-1] - phase[0]), dtype=np.float64)
-    if float((yet_to_come - amplitude).max()) > BACK * largest:
+    if float((around - amplitude).max()) > BACK * largest:
         return cycles
-    fallen = np.log(largest / np.maximum(yet_to_come, FLOOR * largest))
-    most = float(fallen[-1])
-    return np.asarray(cycles + min(1.0, most / MUCH) ** 2 * fallen / max(most, 1e-300), dtype=np.float64)
+    log = np.log(np.maximum(around, FLOOR * largest))
+    changed = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(log)))])
+    most = float(changed[-1])
+    return np.asarray(cycles + min(1.0, most / MUCH) ** 2 * changed / max(most, 1e-300), dtype=np.float64)
 
 
 def adapted(model: SplineModel) -> Array:
     """A rising function of time whose equal steps put knots where the model's phase asks for them."""
     if model.basis.degree < DEGREE:
         return model.phase
-    even = falling(model.phase, model.size)
+    even = changing(model.phase, model.size)
     share = np.diff(np.interp(model.breaks, model.time, even)) / np.diff(model.breaks)
     total = float(even[-1] - even[0])
     middle = np.interp(0.5 * (model.breaks[1:] + model.breaks[:-1]), model.time, model.size)

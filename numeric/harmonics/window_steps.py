@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ridgeback.numeric.arrays import Array, Mask
 
@@ -16,8 +16,9 @@ ITERATIONS, SETTLED = 8, 1e-3
 AT_REST, NEAR_REST = 1e-10, 1e-5
 """Last steps, in radians, at which a fit ends, and at which it is near enough for its residual to be compared."""
 PHASE_DEGREE, AMPLITUDE_DEGREE = 3, 2
-UNSEEN = 1e-3
-"""Of what the noise leaves open of the phase: a step that is smaller changes nothing."""
+UNSEEN_IN_A_WINDOW = 1e-3
+"""Last step of the phase at which the fit of a window ends, relative to what the noise leaves open of it by one
+parameter."""
 MOST_GROWTH = 2.0
 """Bound of g: from one end of a window to the other the exponential changes by a factor of e^4 at most."""
 
@@ -156,8 +157,8 @@ class Steps:
 def gauss_newton(s: Array, x: Array, guide: Array, shape: Shape, *, rest: float = AT_REST) -> Solution:
     """Fit every window ``x[window, n]`` from its guide phase; at most ITERATIONS steps, each half a radian at most.
 
-    The steps of a window end when its last one is below ``rest``, or below UNSEEN of what its noise leaves open; the
-    residual then errs by its square.
+    The steps of a window end when its last one is below ``rest``, or below UNSEEN_IN_A_WINDOW of what its noise leaves
+    open; the residual then errs by its square.
 
     It has settled when the last step moved the phase by less than SETTLED radians, weighted with the amplitude: where a
     decay has sunk into the noise its phase goes on wandering.
@@ -207,9 +208,18 @@ def one_step(s: Array, x: Array, shape: Shape, at: Steps, rest: float) -> Steps:
     p = at.p + step * np.minimum(1.0, 0.5 / np.maximum(moved.max(axis=1), 1e-300))[:, None]
     squares = ((x - (jacobian @ coefficients[..., None])[..., 0]) ** 2).sum(axis=1)
     variance = squares / max(1, x.shape[1] - shape.size)
-    seen = np.maximum(rest, UNSEEN * np.sqrt(variance / x.shape[1]) / largest)
+    seen = np.maximum(rest, UNSEEN_IN_A_WINDOW * left_open(variance, 1.0 / x.shape[1], largest))
     moving = np.maximum(last, np.abs(steeper)) >= seen
     return Steps(p, a, growth, steeper, last, coefficients, inverse, variance, moving)
+
+
+def left_open(variance: ArrayLike, share: float, largest: ArrayLike) -> Array:
+    """Radians of the phase of an amplitude that noise leaves open, by ``share`` parameters a sample.
+
+    >>> float(left_open(0.04, 0.25, 2.0))
+    0.05
+    """
+    return np.asarray(np.sqrt(np.asarray(variance) * share) / np.asarray(largest), dtype=np.float64)
 
 
 def steepening(a: Array) -> Array:

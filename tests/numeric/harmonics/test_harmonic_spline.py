@@ -162,6 +162,16 @@ def test_the_level_by_which_knots_are_put_rises_from_nothing() -> None:
     assert np.all(np.diff(level) > 0.0)
 
 
+def test_a_swell_before_a_decay_gets_knots_of_its_own() -> None:
+    """Risen in six cycles and fallen in forty: on knots even in cycles the best model needs one every two to three."""
+    t = np.arange(1600) / 400.0
+    size = (1.02 - np.exp(-t / 0.3)) * np.exp(-2.0 * t)
+    x = size / size.max() * np.cos(125.7 * t) + 0.004 * np.random.default_rng(1).normal(size=t.size)
+    best = best_model(harmonic_splines(x, 400.0, np.full(t.size, 125.7)))
+    assert best.cycles > 5.0
+    assert np.mean(np.diff(best.breaks)[:3]) < 0.7 * np.mean(np.diff(best.breaks))
+
+
 def test_more_noise_asks_for_fewer_knots() -> None:
     rng = np.random.default_rng(9)
     noise = rng.normal(size=T.size)
