@@ -45,7 +45,7 @@ __all__ = ["FrequencyTable", "action", "exact_frequency", "peak_limit", "peak_of
 Indices = NDArray[np.int64]
 _FIRST_NODES = 16
 _LAST_NODES = 2**13
-_MOST_INNER = 256
+_MOST_INNER = 512
 _CHUNK = 500_000  # values of V' held at once: 4 MB each in a handful of arrays
 
 
@@ -81,7 +81,8 @@ def exact_frequency(dynamics: Dynamics, peak: ArrayLike, *, tolerance: float = 1
     Returns
     -------
     FrequencyTable
-        Frequencies in rad per time unit, with the ``error`` that was reached.
+        Frequencies in rad per time unit, with the ``error`` that was reached: infinite where the force
+        is too steep next to a turning point for 512 points.
 
     Raises
     ------
@@ -141,7 +142,8 @@ def peak_of_action(dynamics: Dynamics, value: ArrayLike) -> Array:
         """Square roots, so that the function is nearly linear: d sqrt(J)/dA = V' / (2 omega0 sqrt(J))."""
         table = exact_frequency(dynamics, A)
         root = np.sqrt(table.action)
-        return root - np.sqrt(target), restoring(A) / (2 * table.omega * root)
+        with np.errstate(divide="ignore", invalid="ignore"):  # an orbit too far out for the quadrature
+            return root - np.sqrt(target), restoring(A) / (2 * table.omega * root)
 
     guess = np.minimum(np.sqrt(2 * target / dynamics.natural_frequency), 0.9 * limit)
     high = np.full_like(guess, limit * (1 - 1e-9)) if math.isfinite(limit) else _beyond(value_and_slope, guess)
@@ -166,7 +168,7 @@ def _doubled(dynamics: Dynamics, low: Array, high: Array, tolerance: float) -> t
     restoring = restoring_of(dynamics)
     share, c = stretch(dynamics, low, high)
     kinked = dynamics.is_kinked_in_u
-    inner, inner_error = (0, 0.0) if kinked else inner_points(restoring, low, high)
+    inner, inner_error = (0, np.zeros_like(low)) if kinked else inner_points(restoring, low, high)
 
     def sums(which: Indices, nodes: int) -> tuple[Array, Array]:
         if kinked:
@@ -178,14 +180,39 @@ def _doubled(dynamics: Dynamics, low: Array, high: Array, tolerance: float) -> t
     # u is rounded next to the end of the well, where V' depends on the distance to it; 1e-3 is what was observed
     # on the pendulum from 1e-3 to 1e-12 before its separatrix, with a margin of 2
     rounding = 1e-15 + 1e-3 * np.spacing(1.0) / share
+    if not kinked:
+        rounding += mismatch(restoring, low, high, inner)
     error = np.full_like(omega, np.inf)
     active, nodes = np.arange(omega.size, dtype=np.int64), 2 * _FIRST_NODES
     while active.size and nodes <= (MOST if kinked else _LAST_NODES):
         finer, J[active] = sums(active, nodes)
         change = np.abs(finer - omega[active])
-        omega[active], error[active] = finer, change + (rounding[active] + inner_error) * finer
+        with np.errstate(invalid="ignore"):  # 0 times infinite
+            omega[active], error[active] = finer, change + (rounding + inner_error)[active] * finer
         active, nodes = active[change > tolerance * finer], 2 * nodes
-    return omega, J, error
+    return omega, J, np.where(np.isnan(error), np.inf, error)
+
+
+def mismatch(restoring: Restoring, low: Array, high: Array, inner: int) -> Array:
+    """Return what rounding of the turning points and of V' next to them does to each omega0, as a share of it.
+
+    V(A) and V(B), found apart, differ by the integral of V' over the orbit; u is rounded to a share of its size, which
+    moves V by V' u, more than the 2 V of a harmonic well next to a wall.  An energy that is off by a share moves a
+    turning point by E/|V' u| of that share, which is large where the force is nearly gone.
+
+    >>> mismatch(np.asarray, -np.ones(1), np.ones(1), 8)
+    array([0.])
+    >>> bool(mismatch(np.tan, -np.array([1.57]), np.array([1.57]), 64)[0] > 1e-13)
+    True
+    """
+    with np.errstate(all="ignore"):
+        halves = 0.5 * (high - low) * _halves(restoring, low, high, inner).reshape(2, low.size)
+        energy = high * mean_restoring(restoring, np.zeros_like(high), high, inner)
+        ends = np.abs(np.array([restoring(low) * low, restoring(high) * high]))
+        steep = np.maximum(ends.sum(axis=0) / energy - 4, 0)
+        lost = np.abs(halves.sum(axis=0)) / energy * (1 + energy / ends.min(axis=0, initial=np.inf))
+        found = 0.2 * lost + 4 * np.spacing(1.0) * steep  # twice or more of what was seen beside closed forms
+    return np.where(np.isfinite(found), found, 0)
 
 
 def stretch(dynamics: Dynamics, low: Array, high: Array) -> tuple[Array, Array]:
@@ -200,21 +227,24 @@ def stretch(dynamics: Dynamics, low: Array, high: Array) -> tuple[Array, Array]:
     return share, np.minimum(1.0, (2 * share) ** 0.25)  # delta = sqrt(2 share), from cosh(delta) = 1 + share
 
 
-def inner_points(restoring: Restoring, low: Array, high: Array) -> tuple[int, float]:
-    """Return Gauss points that give the mean of V' over each half orbit, and the relative error left (0: none).
+def inner_points(restoring: Restoring, low: Array, high: Array) -> tuple[int, Array]:
+    """Return Gauss points that give the mean of V' over each half orbit, and the error left of each orbit (0: none).
 
     >>> inner_points(np.sin, np.array([-1.0]), np.array([1.0]))
-    (16, 0.0)
+    (16, array([0.]))
     """
     means = _halves(restoring, low, high, 8)
-    inner, change = 8, np.zeros(1)
-    while inner < _MOST_INNER:
+    inner = 8
+    while True:
         finer = _halves(restoring, low, high, 2 * inner)
-        change = np.abs(finer / means - 1)
-        if np.all(change <= 1e-12):  # the points converge geometrically: twice as many have twice the digits
-            return 2 * inner, 0.0
+        with np.errstate(all="ignore"):
+            change = np.abs(finer / means - 1).reshape(2, low.size).max(axis=0)
+            balance = np.abs(finer.reshape(2, low.size).sum(axis=0) / finer[: low.size])  # V(A) - V(B) = 0
+        # the points converge geometrically: twice as many have twice the digits
+        settled = (change <= 1e-12) & (balance <= 1e-6)
         inner, means = 2 * inner, finer
-    return inner, float(change.max(initial=0.0))
+        if inner >= _MOST_INNER or np.all(settled):
+            return inner, np.where(settled, 0.0, np.where(np.isnan(change), np.inf, change))
 
 
 def _halves(restoring: Restoring, low: Array, high: Array, inner: int) -> Array:
@@ -236,8 +266,9 @@ def _sums(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, i
 
 def _midpoint(restoring: Restoring, low: Array, high: Array, c: Array, nodes: int, inner: int) -> tuple[Array, Array]:
     grid = orbit_grid(restoring, low, high, c, nodes, inner)
-    omega = math.sqrt(2) / np.mean(grid.weight / np.sqrt(grid.g), axis=1)
-    loop = np.mean(grid.weight * np.sin(grid.theta) ** 2 * np.sqrt(grid.g), axis=1)
+    root = np.sqrt(np.where(grid.g > 0, grid.g, np.nan))  # too few inner points: no number, with an infinite error
+    omega = math.sqrt(2) / np.mean(grid.weight / root, axis=1)
+    loop = np.mean(grid.weight * np.sin(grid.theta) ** 2 * root, axis=1)
     return omega, math.sqrt(2) * (0.5 * (high - low)) ** 2 * loop
 
 

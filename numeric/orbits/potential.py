@@ -47,17 +47,18 @@ def potential_at(dynamics: Dynamics, u: ArrayLike) -> Array:
     """
     points = np.atleast_1d(np.asarray(u, dtype=float))
     value = _integrated(dynamics, points, 16)
+    with np.errstate(all="ignore"):
+        direct = None if dynamics.potential is None else np.asarray(dynamics.potential(points))
     inner = 32
     while inner <= 512:
         previous, value = value, _integrated(dynamics, points, inner)
         settled = np.abs(value - previous) <= 1e-12 * np.abs(value)  # the next change would be its square
+        if direct is not None:  # points that miss a steep part settle too, on what is not V
+            settled &= np.abs(value - direct) <= 1e-9 * (1 + np.abs(direct))
         if np.all(settled):
             return np.asarray(value)
         inner *= 2
-    if dynamics.potential is not None:  # next to a wall V is large and does not cancel
-        with np.errstate(all="ignore"):
-            value[~settled] = dynamics.potential(points[~settled])
-    return np.asarray(value)
+    return value if direct is None else np.where(settled, value, direct)  # next to a wall V is large: no cancellation
 
 
 def _integrated(dynamics: Dynamics, points: Array, inner: int) -> Array:
@@ -201,7 +202,8 @@ def _outward(dynamics: Dynamics, side: float, level: Array) -> Array:
         short = potential_at(dynamics, u) < level
         if not short.any():
             return u
-        u = np.where(short, 2 * u, u)
+        with np.errstate(over="ignore"):  # behind a wall V is infinite, and the well endless on the other side
+            u = np.where(short, 2 * u, u)
     raise InputError(f"{dynamics.name}: no turning point where V(u) = {level.max():.6g}; use a smaller amplitude")
 
 

@@ -16,7 +16,16 @@ from flint import arb, arb_poly, fmpq
 
 from ridgeback.symbolic.arithmetic.balls import whole_power
 from ridgeback.symbolic.codegen.number import Number, Real
-from ridgeback.symbolic.codegen.program import Form, Function, Horner, Operation, Statement, Step, Terms
+from ridgeback.symbolic.codegen.program import (
+    Form,
+    Function,
+    Horner,
+    Operation,
+    Statement,
+    Step,
+    Terms,
+    operands_of,
+)
 from ridgeback.symbolic.codegen.proofs.analysis import Analysis, Computed
 
 EXPANDED: Final = 64
@@ -88,7 +97,7 @@ def _scaled(analysis: Analysis, function: Function, box: arb, real: Real) -> Ite
     power, cut = min(terms), _last_products(function)
     analysis.run(function.body[:cut], Number(fmpq(0)))
     y = exact_value({p - power: c for p, c in terms.items()}, box)
-    monomials = _monomials(function.body[:cut], variable)
+    monomials = _monomials(function.body[:cut], function)
     for i in range(PIECES):
         piece = (m * (PIECES + i) / PIECES).union(m * (PIECES + i + 1) / PIECES)
         analysis.known[variable] = Computed(piece, arb(0))
@@ -107,22 +116,28 @@ def _last_products(function: Function) -> int:
     return places[-1] + 1 if places else 0
 
 
-def _monomials(body: tuple[Statement, ...], variable: str) -> list[Statement]:
-    """The statements that give powers of the variable, by the names that they are read under in the end."""
-    held, found = {variable}, dict[str, Step]()
+def _monomials(body: tuple[Statement, ...], function: Function) -> list[Statement]:
+    """The statements that give powers of the variable times a constant, by the names that they have in the end."""
+    free = {a.name for a in function.arguments} - {function.domain.argument}
+    held, found = {function.domain.argument}, dict[str, Step]()
     for statement in body:
-        if isinstance(statement, Step) and _is_monomial(statement, held):
+        names = {o for o in operands_of(statement) if isinstance(o, str)}
+        found.pop(statement.name, None)
+        if isinstance(statement, Step) and _is_monomial(statement, held, free):
             held |= {statement.name, statement.rest}
             found[statement.name] = statement
         else:
             held.discard(statement.name)
-            found.pop(statement.name, None)
+            (free.add if free.issuperset(names) else free.discard)(statement.name)
     return list(found.values())
 
 
-def _is_monomial(step: Step, held: set[str]) -> bool:
-    names = [o for o in step.operands if isinstance(o, str)]
-    return step.operation in (Operation.MULTIPLY, Operation.TWO_PRODUCT) and bool(names) and held.issuperset(names)
+def _is_monomial(step: Step, held: set[str], free: set[str]) -> bool:
+    first, *others = step.operands
+    names = {o for o in step.operands if isinstance(o, str)}
+    if step.operation is Operation.DIVIDE:
+        return first in held and free.issuperset({o for o in others if isinstance(o, str)})
+    return step.operation in (Operation.MULTIPLY, Operation.TWO_PRODUCT) and bool(names & held) and names <= held | free
 
 
 def _terms(function: Function) -> dict[int, Number]:
