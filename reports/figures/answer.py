@@ -48,6 +48,7 @@ def axes_of(pictures: Sequence[Picture]) -> Axes:
     """
     strokes = [stroke for picture in pictures for stroke in picture.strokes]
     x, y = ([floats(getattr(stroke, name)) for stroke in strokes] for name in ("x", "y"))
+    y += [floats(end) for stroke in strokes if stroke.dots for end in (stroke.low, stroke.high) if end is not None]
     log_y = any(picture.logarithmic for picture in pictures)
     low, high = padded(x, share=0.0)
     log_x = low > 0 and high / low > WIDE_SPAN
@@ -103,13 +104,17 @@ def _strokes(panel: Panel, picture: Picture) -> list[str]:
         x, y = floats(stroke.x), floats(stroke.y)
         x, y = (np.repeat(x, 2)[1:], np.repeat(y, 2)[:-1]) if stroke.steps else (x, y)
         if stroke.low is not None and stroke.high is not None:
-            low, high = floats(stroke.low), floats(stroke.high)
-            marks.append(area(panel.x.of(x), panel.y.clipped(low), panel.y.clipped(high), f"{style[0]}f"))
+            low, high = (panel.y.clipped(floats(end)) for end in (stroke.low, stroke.high))
+            if stroke.dots:
+                across = panel.x.of(x)
+                marks += [line(a, b, a, c, f"{style[0]}k") for a, b, c in zip(across, low, high, strict=True)]
+            else:
+                marks.append(area(panel.x.of(x), low, high, f"{style[0]}f"))
         shown = np.where((y >= panel.y.low) & (y <= panel.y.high), y, np.nan)
-        marks.append(panel.curve(x, shown, style))
+        marks += [] if stroke.dots else [panel.curve(x, shown, style)]
         if stroke.dots or np.isfinite(shown).sum() < 12:
             at = zip(panel.x.of(x).tolist(), panel.y.of(shown).tolist(), strict=True)
-            marks += [dot(a, b, 3.0, style[0]) for a, b in at if np.isfinite(a) and np.isfinite(b)]
+            marks += [dot(a, b, 3.0, _filled(style)) for a, b in at if np.isfinite(a) and np.isfinite(b)]
     return marks
 
 
@@ -169,7 +174,7 @@ def _beside(panel: Panel, picture: Picture) -> list[str]:
     heights = apart([_last(panel, stroke) for stroke in picture.strokes], 17.0, panel.top, panel.bottom)
     marks = []
     for stroke, style, height in zip(picture.strokes, STYLES * 4, heights, strict=False):
-        marks.append(line(panel.right + 8, height, panel.right + 28, height, style))
+        marks.append(_sample(stroke, style, panel.right + 8, height))
         marks.append(text(panel.right + 34, height + 4, stroke.label, "sm"))
     return marks
 
@@ -178,8 +183,22 @@ def _below(panel: Panel, picture: Picture) -> list[str]:
     marks = []
     for i, (stroke, style) in enumerate(zip(picture.strokes, STYLES * 4, strict=False)):
         y = panel.bottom + 56 + 17 * i
-        marks.append(line(4, y, 26, y, style) + text(32, y + 4, stroke.label, "sm"))
+        marks.append(_sample(stroke, style, 4.0, y) + text(32, y + 4, stroke.label, "sm"))
     return marks
+
+
+def _filled(style: str) -> str:
+    """The class of a curve's dots: open where the curve would be dashed.
+
+    >>> _filled("el nf"), _filled("el d1 nf")
+    ('e', 'eo')
+    """
+    return f"{style[0]}o" if " d" in style else style[0]
+
+
+def _sample(stroke: Stroke, style: str, x: float, y: float) -> str:
+    """What stands before a name: a piece of the curve, or one of its dots."""
+    return dot(x + 10, y, 3.0, _filled(style)) if stroke.dots else line(x, y, x + 20, y, style)
 
 
 def side_by_side(key: str, pictures: Sequence[Picture], caption: str, table: str = "") -> Figure:

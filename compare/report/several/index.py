@@ -119,5 +119,5 @@ def _counts(pages: tuple[Page, ...]) -> Iterator[str]:
     count = Counter(page.kind for page in pages)
     for kind in KINDS:
         if count[kind]:
-            many = PLURALS.get(kind, f"{kind}s")
-            yield f"{count[kind]} {many if count[kind] > 1 else kind}"
+            one = "set of recordings" if kind == "recordings" else kind
+            yield f"{count[kind]} {PLURALS.get(kind, f'{kind}s') if count[kind] > 1 else one}"

@@ -39,6 +39,8 @@ MOST = 24
 """Amplitudes that are used, the smallest that count."""
 ROUNDING = 1e-3
 """Deviation of a power that is no failure, however narrow its interval."""
+BESIDE = 0.12
+"""How far the points of the next oscillator stand aside, in orders, so that none covers another."""
 DECIDED = 0.25
 """Half width of the interval up to which the power is decided."""
 COLUMNS = (
@@ -83,12 +85,12 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
         failed += grid.failed
         own = list(rows_of(grid))
         rows += own
-        strokes += stroke_of(grid, own)
+        strokes += stroke_of(grid, own, BESIDE * len(strokes))
     passes, fails = (sum(row["verdict"] == word for row in rows) for word in ("pass", "fail"))
     said = (summary(len(rows), passes, fails),)
     title = plan.title or "order of convergence"
     picture = Picture(
-        title, "order of the expansion", "observed less theoretical order", tuple(strokes[:SHOWN_STROKES])
+        title, "order of the expansion", "observed less theoretical order, bars 95 %", tuple(strokes[:SHOWN_STROKES])
     )
     passed = None if passes + fails == 0 else fails == 0
     title = "order of convergence, observed and theoretical"
@@ -110,8 +112,8 @@ def summary(count: int, passes: int, fails: int) -> str:
     )
 
 
-def stroke_of(grid: Grid, rows: Sequence[Mapping[str, Any]]) -> Iterator[Stroke]:
-    """What is decided of one oscillator: how far each observed order is from the theoretical one, and its interval."""
+def stroke_of(grid: Grid, rows: Sequence[Mapping[str, Any]], aside: float) -> Iterator[Stroke]:
+    """What is decided of one oscillator: how far observed orders are from theory's, with their intervals."""
     known = [row for row in rows if row["verdict"] in ("pass", "fail")]
     order, theory, power, half = (
         np.array([row[name] for row in known], dtype=float)
@@ -119,7 +121,7 @@ def stroke_of(grid: Grid, rows: Sequence[Mapping[str, Any]]) -> Iterator[Stroke]
     )
     if known:
         off = power - theory
-        yield Stroke(order, off, grid.system.name, off - half, off + half, dots=True)
+        yield Stroke(order + aside, off, grid.system.name, off - half, off + half, dots=True)
 
 
 def rows_of(grid: Grid) -> Iterator[dict[str, Any]]:
