@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from flint import fmpq
+from sympy import Rational
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.codegen.number import Number, Real
@@ -106,17 +107,17 @@ class _Pair:
 
 
 def _held(c: Number) -> Number:
-    """The number of the format next to a rational coefficient, as an exact one; an irrational one as it is."""
-    if not isinstance(c.exact, fmpq):
-        return c
+    """The number of the format next to a coefficient, as an exact one."""
     return Number(fmpq(*c.nearest.as_integer_ratio()), c.real)
 
 
 def _cut_off(c: Number) -> Number | None:
-    """What rounding takes from a rational coefficient; None where that is nothing."""
-    if not isinstance(c.exact, fmpq) or c.representable:
+    """What rounding takes from a coefficient; None where that is nothing."""
+    if c.representable:
         return None
-    return Number(c.exact - _held(c).exact, c.real)
+    if isinstance(c.exact, fmpq):
+        return Number(c.exact - _held(c).exact, c.real)
+    return Number(c.exact - Rational(*c.nearest.as_integer_ratio()), c.real)
 
 
 def _compensated(function: Function, place: int, count: int, real: Real) -> Function:

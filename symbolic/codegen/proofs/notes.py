@@ -21,7 +21,9 @@ def rounding_notes(form: Form, function: Function, found: Bound | None) -> tuple
     """The bound over the domain where one is known; for a polynomial without one, in terms of its terms."""
     if found is not None:
         return (bound_note(function, found),)
-    if function.polynomial is None or form.mode == "accurate":
+    if form.mode == "accurate":
+        return ("Rounding: no bound is proved, as no range of the amplitude is known; --up-to gives one.",)
+    if function.polynomial is None:
         return ()
     if any(value.has(Add) for _, value in function.polynomial.where):
         return ()  # a difference of parameters may cancel, and its error then has no share of the terms as a bound
