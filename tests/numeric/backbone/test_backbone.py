@@ -4,9 +4,13 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.backbone.backbone import backbone
+from ridgeback.numeric.backbone.backbone import along_models, backbone
 from ridgeback.numeric.backbone.curve import pooled
 from ridgeback.numeric.estimators.estimate import METHODS, estimate
+from ridgeback.numeric.harmonics.signal_model import SignalModels
+from ridgeback.numeric.harmonics.spline_fit import fit_on
+from ridgeback.numeric.tracking.choices import Choices, Scope
+from ridgeback.numeric.tracking.track import Track
 
 RATE = 32.0
 T = np.arange(1921) / RATE
@@ -26,6 +30,26 @@ def test_softening_backbone_and_constant_damping_are_recovered() -> None:
     assert np.all(np.diff(found.curve_amplitude) > 0)
     assert np.abs(found.curve_omega - (8.0 - 0.3 * found.curve_amplitude**2)).max() < 1e-2
     assert "mean" in found.notes[0]
+
+
+def test_of_a_model_points_count_where_a_quarter_of_the_cycle_round_them_is_clean() -> None:
+    """A cycle has 32 samples here, a point lies at every eighth."""
+    t = np.arange(640) / RATE
+    turned = 2 * np.pi * t
+    x = np.cos(turned) + 0.01 * np.random.default_rng(1).normal(size=t.size)
+    coarse, fine = (fit_on(x, t, turned, np.ones(t.size), np.linspace(0.0, t[-1], n), ()) for n in (4, 6))
+    track = Track(t, fine.omega, np.ones(t.size, dtype=np.bool_), "model", used=Choices(scope=Scope.GLOBAL))
+    models = SignalModels(fine, fine, coarse)
+
+    def times(lost: int) -> list[float]:
+        exclude = np.zeros(t.size, dtype=np.bool_)
+        exclude[320 - lost // 2 : 320 + lost // 2] = True
+        return along_models(models, track, 0.0, exclude).points.time.tolist()
+
+    assert times(0) == times(20) == (np.arange(4, 640, 8) / RATE).tolist()
+    around = {int(i) for i in range(4, 640, 8) if np.count_nonzero(abs(np.arange(304, 336) - i + 0.5) < 16) > 24}
+    assert sorted(set(times(0)) - set(times(32))) == [i / RATE for i in sorted(around)]
+    assert around
 
 
 @pytest.mark.parametrize("method", [m for m in METHODS if m != "auto"])
