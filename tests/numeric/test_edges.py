@@ -23,6 +23,7 @@ from ridgeback.numeric.harmonics.spline_basis import ROWS, SplineBasis
 from ridgeback.numeric.model_fit.start import matched
 from ridgeback.numeric.motion import limit_cycle
 from ridgeback.numeric.motion.dynamics import duffing, linear, van_der_pol
+from ridgeback.numeric.motion.events import Switches
 from ridgeback.numeric.motion.integration import Drift
 from ridgeback.numeric.orbits import action_loss, adiabatic
 from ridgeback.numeric.recording.clipping import quantum
@@ -70,6 +71,8 @@ SHORT: Any = STUB(plan=STUB(lag_seconds=0.05), signal=STUB(rate=10.0, search=STU
 def test_values_at_the_ends() -> None:
     assert total_deviation(track()) is None
     assert quantum(np.full(4, 0.3)) == 0.0
+    law = Switches((-1.0, 0.0, 1.0), False, lambda _, __: lambda u, _: u)
+    assert [law.stretch(u, 0.0) for u in (-1.5, -1.0, -0.5, 0.5, 1.0, 1.5)] == [0, 1, 1, 2, 2, 3]
     single = short_time_spectra(np.array([1.0, 2.0 + 0j]), np.array([1.0]), 0, 2, 4)
     assert np.allclose(single, np.array([[1.0] * 4, [2.0] * 4]))
     even = np.column_stack([TONE, TONE])

@@ -118,6 +118,15 @@ def test_clipped_windows_are_left_out_of_a_backbone_and_counted() -> None:
     assert any("clipped samples in their window" in note for note in clean.notes)
 
 
+@pytest.mark.parametrize("unit", [1e-6, 1.0, 1e6])
+def test_no_run_speaks_of_amplitudes_that_it_did_not_have(unit: float) -> None:
+    spans = [(unit * low, unit * high) for low, high in ((0.1, 0.57), (0.33, 1.2))]
+    found = combine([curve(8.0, 0.01, *span) for span in spans], ["a", "b"])
+    inside = [(found.amplitude > low) & (found.amplitude < high) for low, high in spans]
+    assert found.runs[1:-1].tolist() == np.sum(inside, axis=0)[1:-1].tolist()
+    assert set(found.runs.tolist()) == {1.0, 2.0}
+
+
 @pytest.mark.parametrize("unit", [1e-6, 1e6])
 def test_another_unit_is_another_unit_throughout(unit: float) -> None:
     """Also where a run is absent and where deviations are nothing."""

@@ -17,6 +17,7 @@ from ridgeback.numeric.backbone.backbone import backbone
 from ridgeback.numeric.backbone.curve import Backbone
 from ridgeback.numeric.backbone.damping import damping
 from ridgeback.numeric.backbone.local_rates import LocalRates, rows
+from ridgeback.numeric.backbone.model_rates import ModelRates
 from ridgeback.numeric.backbone.windows import furthest, half_widths
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.harmonics.local_fit import harmonic_fit
@@ -104,6 +105,33 @@ def test_of_the_bias_a_share_is_left_that_grows_with_the_change_within_a_window(
     assert found.bias_left(index, share, 4.0 * apart) == 0.0
     still = replace(found, half=np.array([1, 1]))
     assert still.bias_left(index, share, apart) == pytest.approx(0.1 * math.sqrt(4.75))
+
+
+def test_a_window_holds_a_tenth_of_the_change_of_frequency_in_a_half() -> None:
+    """h |omega'| <= omega / 10, taken over a window round each time, where nothing else changes."""
+    t = np.arange(0.0, 40.0, 0.5)
+    none = np.zeros(t.size)
+    pilot: Any = SimpleNamespace(
+        time=t,
+        omega=6.0 + 0.3 * t,
+        standard_deviation=none,
+        growth=none,
+        growth_sd=none,
+        settled=np.ones(t.size, dtype=np.bool_),
+        window_seconds=2.0,
+    )
+    found = furthest(pilot)[5:-5]
+    before = np.maximum(t[5:-5] - 1.0, 0.0)
+    assert found == pytest.approx(0.1 * (6.0 + 0.3 * before) / 0.3, rel=1e-6)
+
+
+def test_what_differs_beyond_noise_is_bias() -> None:
+    """All of it where it is twice what noise makes of it, else the share by the order of the models."""
+    models: Any = SimpleNamespace(remainder=0.3)
+    found = ModelRates(models, np.arange(3)).with_bias(
+        np.array([1.0, 2.0, 2.0]), np.array([1.0, 1.0, 1.0]), np.array([0.5, 2.5, 4.0])
+    )
+    assert found == pytest.approx([math.sqrt(1.25), math.sqrt(4.0 + 0.09 * 3.25), math.sqrt(4.0 + 13.0)])
 
 
 def test_windows_follow_the_local_rate_of_change() -> None:

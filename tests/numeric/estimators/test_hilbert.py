@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
+from ridgeback.common.errors import InputError
 from ridgeback.numeric.estimators.hilbert import TAPER, band_mask
+from ridgeback.numeric.estimators.phase import by_hilbert
+from ridgeback.numeric.signal.decimation import Samples
+from ridgeback.numeric.tracking.request import Options, prepared
 
 
 def test_the_edges_of_the_band_are_raised_cosines() -> None:
@@ -17,3 +22,10 @@ def test_the_edges_of_the_band_are_raised_cosines() -> None:
     assert np.allclose(found, band_mask(low + high - omega, low, high), atol=1e-12)  # both edges alike
     assert np.all(found[(omega > low + edge) & (omega < high - edge)] == 1.0)
     assert not found[(omega < low) | (omega > high)].any()
+
+
+def test_a_record_within_two_cycles_of_its_ends_is_refused_with_that_distance() -> None:
+    request = prepared(Samples(np.cos(4 * np.pi * np.arange(56) / 32.0), 32.0, 0.0), Options())
+    with pytest.raises(InputError, match=rf"samples of 56 lie {2 * request.signal.cycle:.4g} inside the record"):
+        by_hilbert(request)
+    assert request.signal.cycle == pytest.approx(0.5, rel=0.05)

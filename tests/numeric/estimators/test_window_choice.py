@@ -48,3 +48,12 @@ def test_a_window_holds_three_samples_for_two_parameters(monkeypatch):
     monkeypatch.setattr(window_choice, "expected_error", lambda _, half, degree, __: half - 10 * degree)
     found = best_window(SimpleNamespace(time=t), 1.0, (), 0)
     assert (found.half, found.degree) == (12, 5)
+
+
+@pytest.mark.parametrize(("degree", "half"), [(3, 60), (5, 90)])
+def test_a_window_is_half_a_cycle_for_each_power_of_the_phase(monkeypatch, degree, half):
+    """Two cycles of degree 3, three of degree 5, of 60 samples each."""
+    t = np.arange(2000) / 60.0
+    monkeypatch.setattr(window_choice, "expected_error", lambda _, half, of, __: half + 1000 * (of != degree))
+    found = best_window(SimpleNamespace(time=t), 1.0, (), 0)
+    assert (found.half, found.degree) == (half, degree)

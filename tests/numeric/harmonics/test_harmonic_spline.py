@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import math
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -13,8 +17,8 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics import spline_basis as spline_basis_module
 from ridgeback.numeric.harmonics.signal_model import signal_models
 from ridgeback.numeric.harmonics.spline_basis import DEGREE, SplineBasis, alone, normal_equations, spline_basis
-from ridgeback.numeric.harmonics.spline_fit import adapted, best_model, fit_on, harmonic_splines
-from ridgeback.numeric.harmonics.spline_model import weights_of
+from ridgeback.numeric.harmonics.spline_fit import MUCH, adapted, best_model, falling, fit_on, harmonic_splines
+from ridgeback.numeric.harmonics.spline_model import SplineModel, weights_of
 
 RATE = 32.0
 T = np.arange(641) / RATE
@@ -156,9 +160,10 @@ def test_knots_go_where_the_phase_bends() -> None:
 
 
 def test_the_level_by_which_knots_are_put_rises_from_nothing() -> None:
-    breaks = np.linspace(0.0, T[-1], 9)
-    level = adapted(fit_on(np.cos(PHASE), T, PHASE, np.ones(T.size), breaks, ()))
+    breaks, size = np.linspace(0.0, T[-1], 9), np.exp(-0.2 * T)
+    level = adapted(fit_on(size * np.cos(PHASE), T, PHASE, size, breaks, ()))
     assert level[0] == 0.0
+    assert level[-1] == pytest.approx(1.0, rel=1e-9)
     assert np.all(np.diff(level) > 0.0)
 
 
@@ -170,6 +175,30 @@ def test_a_swell_before_a_decay_gets_knots_of_its_own() -> None:
     best = best_model(harmonic_splines(x, 400.0, np.full(t.size, 125.7)))
     assert best.cycles > 5.0
     assert np.mean(np.diff(best.breaks)[:3]) < 0.7 * np.mean(np.diff(best.breaks))
+
+
+@pytest.mark.parametrize("fall", [0.1, 0.5, 8.0])
+def test_a_fall_of_the_amplitude_counts_as_much_as_it_is_large(fall: float) -> None:
+    """Beside the cycles, whose share is 1, by the square of the fall as far as that is not MUCH."""
+    found = falling(PHASE, np.exp(-fall * T / T[-1]))
+    assert found[0] == 0.0
+    assert found[-1] == pytest.approx(1.0 + min(1.0, fall / MUCH) ** 2)
+
+
+def test_another_unit_adds_its_logarithm_to_the_criterion() -> None:
+    """n log(unit^2), also where nothing but rounding is left."""
+    breaks, wave, size = np.linspace(0.0, T[-1], 9), np.cos(2 * np.pi * T), np.ones(T.size)
+    less, same, more = (fit_on(c * wave, T, 2 * np.pi * T, c * size, breaks, ()).criterion for c in (1e-9, 1.0, 1e9))
+    assert more - same == pytest.approx(same - less, rel=0.02)
+    assert more - same > 100 * math.log(1e18)
+
+
+def test_an_amplitude_is_clear_at_five_of_its_deviations() -> None:
+    for deviation, clear in ((0.19, True), (0.21, False)):
+        model: Any = SimpleNamespace(
+            band_noise=1.0, equations=SimpleNamespace(variance=lambda _, d=deviation: d**2 + np.zeros(3))
+        )
+        assert SplineModel.clear.func(model) is clear
 
 
 def test_more_noise_asks_for_fewer_knots() -> None:

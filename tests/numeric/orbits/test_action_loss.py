@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
 from ridgeback.numeric.motion.dynamics import Dynamics, helmholtz_duffing, linear, pendulum
 from ridgeback.numeric.motion.events import Switches
 from ridgeback.numeric.motion.trajectory import integrate
+from ridgeback.numeric.orbits import action_loss
 from ridgeback.numeric.orbits.action_loss import _followed, averaged_action, cycles_of, require_odd_damping
 from ridgeback.numeric.orbits.averaging import averaged_decay
 
@@ -36,6 +38,19 @@ def test_dry_friction_takes_a_like_share_of_every_swing_until_it_rests() -> None
     time = np.array([0.999]) * np.pi * peak / (2 * c)
     found = averaged_action(dry, 0.5 * peak**2, time)
     assert found == pytest.approx(0.5 * (peak - 2 * c * time / np.pi) ** 2, rel=1e-4)
+
+
+@pytest.mark.parametrize("unit", [1e-9, 1.0, 1e9])
+def test_a_table_of_the_loss_is_as_right_in_any_unit(unit: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A rate that bends sharply, unit / (1 + 4 x^2) of x = ln J."""
+
+    def rate(x: np.ndarray) -> np.ndarray:
+        return unit / (1 + 4 * x**2)
+
+    monkeypatch.setattr(action_loss, "cycles_of", lambda _, J: [SimpleNamespace(rate=rate(np.log(x))) for x in J])
+    monkeypatch.setattr(action_loss, "peak_of_action", lambda _, J: J)
+    table, x = action_loss._polynomial(linear(), -1.0, 1.0, lambda x: x), np.linspace(-1.0, 1.0, 101)
+    assert np.abs(table(x) - rate(x)).max() < 1e-8 * unit
 
 
 @pytest.mark.parametrize("time", [[0.0], [1.0, 0.0, -2.0, 0.5], [3.0], [-3.0]])

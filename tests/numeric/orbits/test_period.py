@@ -44,6 +44,14 @@ def test_the_energy_of_the_separatrix_is_outside_the_well():
             peak_of_potential(oscillator, most)
 
 
+def test_a_force_that_bends_sharply_has_its_potential_all_the_same():
+    """The integral of tanh(c u) is log(cosh(c u))/c."""
+    c = 60.0
+    sharp = Dynamics("sharp", lambda u, _: math.tanh(c * u), c**0.5, restoring=lambda u: np.tanh(c * np.asarray(u)))
+    u = np.array([0.01, 0.3, 1.0])
+    assert np.allclose(potential_at(sharp, u), np.log(np.cosh(c * u)) / c, rtol=1e-10)
+
+
 def test_rest_has_no_turning_points_but_itself():
     assert trough(helmholtz_duffing(1.0, 0.2, 0.1), [0.0, 1.0])[0] == 0.0
 

@@ -100,12 +100,14 @@ def test_filling_is_done_when_asked_and_only_as_far_as_asked(tmp_path: Path) -> 
         read_recordings([written(tmp_path / "b.csv", T, x)], fill=5.0)
 
 
-def test_nearly_even_times_are_interpolated_and_say_so(tmp_path: Path) -> None:
+@pytest.mark.parametrize("slower", [1.0, 200.0])
+def test_nearly_even_times_are_interpolated_and_say_so(tmp_path: Path, slower: float) -> None:
     t = T + 0.06 / RATE * np.sin(T)
-    found = read_recording(written(tmp_path / "a.csv", t, wave(t)))
+    found = read_recording(written(tmp_path / "a.csv", slower * t, wave(t)))
     assert found.facts["interpolation_error"] < 1e-3
-    assert found.rate == pytest.approx(RATE, rel=1e-3)
-    assert np.abs(found.values - wave(found.time)).max() < 1e-4
+    assert found.facts["filled"] == 0
+    assert slower * found.rate == pytest.approx(RATE, rel=1e-3)
+    assert np.abs(found.values - wave(found.time / slower)).max() < 1e-4
     assert any("uneven times were resampled" in note.lower() for note in found.notes)
 
 

@@ -8,7 +8,7 @@ import pytest
 from ridgeback.numeric.backbone.half_cycles import half_cycles
 from ridgeback.numeric.estimators.amplitude import estimate_amplitude
 from ridgeback.numeric.estimators.estimate import estimate
-from ridgeback.numeric.signal.presence import FALSE_ALARM, presence
+from ridgeback.numeric.signal.presence import FALSE_ALARM, parts_of, presence
 
 
 def coloured(size: int, slope: float, rng: np.random.Generator) -> np.ndarray:
@@ -57,6 +57,16 @@ def test_the_probability_is_uniform_on_no_account_too_small() -> None:
         p = np.array([presence(rng.standard_normal(size), 1.0).probability for _ in range(600)])
         for level in (0.3, 0.1, 0.03):
             assert np.mean(p <= level) <= level + 3.0 * np.sqrt(level / p.size)
+
+
+@pytest.mark.parametrize("size", [128, 129, 513])
+def test_every_ordinate_lies_below_the_nyquist_frequency(size: int) -> None:
+    """At it an ordinate has one degree of freedom, and not two."""
+    views = list(parts_of(np.random.default_rng(1).standard_normal(size)))
+    for frequency, ratio, _ in views:
+        assert frequency.max() < 0.5 - 1e-9
+        assert ratio.shape[1] == frequency.size
+    assert len(views) == (2 if size < 256 else 4)
 
 
 def test_a_peak_outside_the_limits_does_not_count() -> None:

@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 
 from ridgeback.numeric.estimators.estimate import estimate
-from ridgeback.numeric.tracking.clear_stretch import FOLLOWED, TURN, followed_stretch
+from ridgeback.numeric.harmonics.local_fit import choose_multiples, harmonic_fit
+from ridgeback.numeric.harmonics.window_steps import Shape
+from ridgeback.numeric.tracking.clear_stretch import FOLLOWED, TURN, clear_once, followed_stretch, smooth_from
 from ridgeback.numeric.tracking.followed import lengthened
 
 T = np.arange(700) / 140.0
@@ -55,3 +57,31 @@ def test_the_longest_run_of_slow_changes_is_followed(runs: tuple[int, ...]) -> N
     request: Any = SimpleNamespace(signal=SimpleNamespace(search=SimpleNamespace(guide=guide), rate=8.0))
     enough = FOLLOWED * 200 <= size < 200
     assert followed_stretch(request) == (slice(-begin, size - begin) if enough else None)
+
+
+@pytest.mark.parametrize(("rest", "cut"), [(0.05, True), (0.6, False)])
+def test_what_is_loud_is_not_cut(rest: float, cut: bool) -> None:
+    """Thirty cycles and then noise: a fifth of the amplitude may be a motion that is not followed."""
+    rng, t = np.random.default_rng(4), np.arange(800) / 20.0
+    x = np.where(t < 30.0, np.cos(2 * np.pi * t) + 0.01 * rng.normal(size=800), rest * rng.normal(size=800))
+    found = clear_once(x.tobytes(), 20.0, np.full(800, 2 * np.pi).tobytes(), 2 * np.pi)
+    assert (found is not None) == cut
+    assert found is None or 580 <= found.stop <= 620
+
+
+def test_a_decay_is_kept_as_far_as_it_stands_five_deviations_above_the_noise() -> None:
+    rng, t = np.random.default_rng(2), np.arange(1600) / 20.0
+    x = np.exp(-0.08 * t) * np.cos(2 * np.pi * t) + 0.05 * rng.normal(size=t.size)
+    guide, half = np.full(t.size, 2 * np.pi), 40
+    shape = Shape(choose_multiples(x, 20.0, guide, half=half))
+    fit = harmonic_fit(x, 20.0, guide, half=half, shape=shape, centres=np.arange(half, t.size - half, half))
+    last = int(np.flatnonzero(fit.settled & (np.abs(fit.amplitude) > 5.0 * fit.amplitude_sd))[-1])
+    found = clear_once(x.tobytes(), 20.0, guide.tobytes(), 2 * np.pi)
+    assert found is not None
+    assert found == slice(0, (last + 2) * half + 1)
+
+
+def test_the_end_is_no_further_in_than_a_whole_window_fits() -> None:
+    x = np.random.default_rng(1).normal(size=200)
+    first = smooth_from(x, 20.0, np.full(200, 2 * np.pi), Shape(), half=40, near=100, typical=1e-9)
+    assert first == 200 - 81
