@@ -108,14 +108,16 @@ def fit_on(
     """Gauss-Newton with knots at ``breaks``, from a phase and an amplitude; each step half a radian at most."""
     basis = spline_basis(time, breaks, degree, keep=True)
     p, level = normal_equations(basis, alone, 1).solve(phase)[:, 0], level_of(basis, amplitude)
-    step, residual, sound = math.inf, x, known.sound_of(x.size)
+    sound = known.sound_of(x.size)
+    step, heard = math.inf, x * sound
+    residual = heard
     families = 3 + 2 * len(multiples)
     itself = np.zeros((basis.count, families))
     itself[:, 0] = 1.0
     for done in range(1, ITERATIONS + 1):
         weights = Linearised(p, level, multiples, known.sound, {})
         equations = normal_equations(basis, weights, families, firmness(families, residual))
-        left = x * sound - equations.model(itself)
+        left = heard - equations.model(itself)
         c = equations.solve(left)
         residual, size = left - equations.model(c), np.exp(basis.values(level))
         moved = np.maximum(np.abs(basis.values(c[:, 0])), np.abs(basis.values(c[:, -1])))

@@ -29,7 +29,6 @@ from ridgeback.numeric.orbits import action_loss, adiabatic
 from ridgeback.numeric.recording.clipping import quantum
 from ridgeback.numeric.recording.drift import MOST_SAMPLES, wandering
 from ridgeback.numeric.recording.file_signals import runs_of
-from ridgeback.numeric.recording.treatment import Treatment, piece_notes
 from ridgeback.numeric.recording.uniform import resampled
 from ridgeback.numeric.signal.decimation import LONG, Samples, decimated
 from ridgeback.numeric.signal.presence import parts_of
@@ -78,7 +77,6 @@ def test_values_at_the_ends() -> None:
     even = np.column_stack([TONE, TONE])
     assert stated_rate(in_memory({"dt": np.array([[math.nan]]), "rate": np.array([[8.0]]), "x": even})) == 8.0
     assert math.isnan(wandering(np.zeros(MOST_SAMPLES + 1), 8.0))
-    assert "not looked for in so long a record" in piece_notes(STUB(how="", error=0.0), math.nan, Treatment())[0]
     same: Any = STUB(rate=8.0)
     assert resampled(same, 8.0) is same
     assert list(parts_of(TONE[:4])) == []

@@ -5,7 +5,7 @@ import pytest
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.backbone.backbone import along_models, backbone
-from ridgeback.numeric.backbone.curve import pooled
+from ridgeback.numeric.backbone.curve import Crowding, Points, assemble, pooled
 from ridgeback.numeric.estimators.estimate import METHODS, estimate
 from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.harmonics.spline_fit import fit_on
@@ -30,6 +30,18 @@ def test_softening_backbone_and_constant_damping_are_recovered() -> None:
     assert np.all(np.diff(found.curve_amplitude) > 0)
     assert np.abs(found.curve_omega - (8.0 - 0.3 * found.curve_amplitude**2)).max() < 1e-2
     assert "mean" in found.notes[0]
+
+
+def test_points_of_a_bin_count_by_their_precision() -> None:
+    """Of omega; and a deviation of nothing counts as a billionth of it, so that all do."""
+    rng = np.random.default_rng(3)
+    a, omega, sd = np.linspace(1.0, 2.0, 16), 8.0 + rng.normal(size=16), rng.uniform(0.1, 2.0, 16)
+    flat = np.full(16, 0.1)
+    found = assemble(
+        Points(a, a, flat, omega, sd, -flat, flat), crowding=Crowding(1.0, 1.0), offset=0.0, settings={}, notes=()
+    )
+    means = [np.average(omega[i : i + 4], weights=sd[i : i + 4] ** -2) for i in range(0, 16, 4)]
+    assert found.curve_omega == pytest.approx(means)
 
 
 def test_of_a_model_points_count_where_a_quarter_of_the_cycle_round_them_is_clean() -> None:

@@ -76,6 +76,14 @@ def test_a_band_without_rows_is_named() -> None:
         ridge(pseudo_wigner(CHIRP, RATE, lag_seconds=4.0), band=(500.0, 600.0))
 
 
+def test_the_shares_of_a_polynomial_distribution_that_are_told_rise_from_0_to_1() -> None:
+    told = list[float]()
+    polynomial_wigner(CHIRP, RATE, lag_seconds=2.0, progress=lambda share, _: told.append(share))
+    assert told[0] == 0.0
+    assert told == sorted(told)
+    assert told[-1] <= 1.0
+
+
 def test_the_plane_of_order_two_is_the_pseudo_wigner_distribution() -> None:
     two = polynomial_wigner(CHIRP, RATE, lag_seconds=3.0, order=2, n_fft=256)
     usual = pseudo_wigner(CHIRP, RATE, lag_seconds=3.0, n_fft=256)

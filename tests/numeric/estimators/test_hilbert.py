@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
+from ridgeback.numeric.estimators import reassigned_ridge
 from ridgeback.numeric.estimators.hilbert import TAPER, band_mask
 from ridgeback.numeric.estimators.phase import by_hilbert
 from ridgeback.numeric.signal.decimation import Samples
+from ridgeback.numeric.signal.windows import window
 from ridgeback.numeric.tracking.request import Options, prepared
 
 
@@ -29,3 +31,13 @@ def test_a_record_within_two_cycles_of_its_ends_is_refused_with_that_distance() 
     with pytest.raises(InputError, match=rf"samples of 56 lie {2 * request.signal.cycle:.4g} inside the record"):
         by_hilbert(request)
     assert request.signal.cycle == pytest.approx(0.5, rel=0.05)
+
+
+def test_the_lobe_of_the_widest_window_ends_where_its_mean_is_taken_to() -> None:
+    """Blackman's: its transform falls up to the third bin of its own length, where it vanishes."""
+    half = 200
+    j = np.arange(-half, half + 1)
+    turning = 2 * np.pi / (2 * half + 2) * np.multiply.outer(np.linspace(0.0, reassigned_ridge.LOBE, 40), j)
+    transform = np.cos(turning) @ window("blackman", half)
+    assert np.all(np.diff(transform) < 0.0)
+    assert abs(transform[-1]) < 1e-9 * transform[0]

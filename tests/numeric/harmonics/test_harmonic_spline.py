@@ -17,7 +17,7 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics import spline_basis as spline_basis_module
 from ridgeback.numeric.harmonics.signal_model import signal_models
 from ridgeback.numeric.harmonics.spline_basis import DEGREE, SplineBasis, alone, normal_equations, spline_basis
-from ridgeback.numeric.harmonics.spline_fit import MUCH, adapted, best_model, falling, fit_on, harmonic_splines
+from ridgeback.numeric.harmonics.spline_fit import MUCH, Known, adapted, best_model, falling, fit_on, harmonic_splines
 from ridgeback.numeric.harmonics.spline_model import SplineModel, weights_of
 
 RATE = 32.0
@@ -191,6 +191,15 @@ def test_another_unit_adds_its_logarithm_to_the_criterion() -> None:
     less, same, more = (fit_on(c * wave, T, 2 * np.pi * T, c * size, breaks, ()).criterion for c in (1e-9, 1.0, 1e9))
     assert more - same == pytest.approx(same - less, rel=0.02)
     assert more - same > 100 * math.log(1e18)
+
+
+def test_samples_that_are_no_sound_ones_change_nothing() -> None:
+    breaks, x = np.linspace(0.0, T[-1], 9), np.cos(PHASE) + 0.01 * np.random.default_rng(5).normal(size=T.size)
+    wrong, sound = x.copy(), np.ones(T.size)
+    wrong[200:215], sound[200:215] = 1e3, 0.0
+    found = [fit_on(y, T, PHASE, np.ones(T.size), breaks, (), known=Known(sound=sound)) for y in (x, wrong)]
+    assert np.array_equal(found[0].coefficients, found[1].coefficients)
+    assert np.abs(found[0].omega / OMEGA - 1.0).max() < 0.03
 
 
 def test_an_amplitude_is_clear_at_five_of_its_deviations() -> None:

@@ -244,9 +244,10 @@ def test_angles_are_compared_within_half_a_turn_at_the_start(lead: float, turns:
     t, shift = np.arange(9) / 3.0, 2.0 * math.pi * turns
     limits = (np.full(6, -np.inf), np.full(6, np.inf))
     problem = Problem(np.cos(2.0 * t), 3.0, duffing_family(), True, 9.0, 4, limits)
-    goal = Polar(0.0, 2.0, 2.0 * t + shift, np.zeros(9), np.ones(9))
+    weight = np.linspace(0.2, 1.0, 9)
+    goal = Polar(0.0, 2.0, 2.0 * t + shift, np.zeros(9), weight)
     gap, _ = problem.polar_gap(np.array([math.cos(lead), -2.0 * math.sin(lead), 0.0, 2.0, 0.0, 0.0]), goal)
-    assert gap[:9] == pytest.approx(np.full(9, lead), abs=1e-6)
+    assert gap[:9] == pytest.approx(lead * weight, abs=1e-6)
     assert gap[9:] == pytest.approx(np.zeros(9), abs=1e-6)
 
 

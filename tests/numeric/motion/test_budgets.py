@@ -72,6 +72,18 @@ def test_a_spent_budget_is_a_refusal(
     assert "\n" not in str(refused.value)
 
 
+def test_a_budget_that_is_just_enough_is_enough(monkeypatch: pytest.MonkeyPatch) -> None:
+    def evaluations() -> int:
+        return integrate(DAMPED, (1.0, 0.0), duration=1.0, rate=9.0, method="DOP853").evaluations
+
+    needed = evaluations()
+    monkeypatch.setattr(integration, "MAX_EVALUATIONS", needed)
+    assert evaluations() == needed
+    monkeypatch.setattr(integration, "MAX_EVALUATIONS", needed - 1)
+    with pytest.raises(InputError, match=f"more than {needed - 1} evaluations"):
+        evaluations()
+
+
 def test_a_degree_that_follows_no_acceleration_is_refused() -> None:
     with pytest.raises(InputError, match="degree = 1 is too low for a second-order equation"):
         taylor.taylor_solution(DAMPED, (1.0, 0.0), duration=1.0, digits=20, degree=1)

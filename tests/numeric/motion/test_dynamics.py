@@ -83,6 +83,19 @@ def test_closed_forms_are_nan_where_nothing_oscillates():
     assert np.isnan(dyn.duffing(eps=-1.0).closed_form(1.1))
 
 
+@pytest.mark.parametrize(
+    ("oscillator", "ends"),
+    [
+        (dyn.pendulum(), (-math.pi, math.pi)),
+        (dyn.duffing(eps=-0.5), (-math.sqrt(2), math.sqrt(2))),
+        (dyn.helmholtz_duffing(1.0, 0.5, 0.0), (-2.0, math.inf)),
+    ],
+)
+def test_ends_of_wells_are_right_to_the_last_digit(oscillator, ends):
+    for found, end in zip(dyn.well(oscillator), ends, strict=True):
+        assert found == end or abs(found - end) <= math.ulp(end)
+
+
 def test_well_ends_at_the_nearest_equilibria():
     assert dyn.well(dyn.pendulum()) == pytest.approx((-math.pi, math.pi), rel=1e-14)
     assert dyn.well(dyn.duffing(eps=-0.25)) == pytest.approx((-2.0, 2.0), rel=1e-14)

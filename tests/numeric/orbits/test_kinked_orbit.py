@@ -34,6 +34,13 @@ def test_the_half_orbit_is_half_a_circle() -> None:
     assert float(orbit.action[0]) == pytest.approx(2.0, rel=1e-14)
 
 
+def test_an_orbit_that_only_just_passes_a_kink_needs_no_more_nodes() -> None:
+    """d = e/f_b is how far beyond the kink its law turns: with it the integrand is smooth up to the end."""
+    for beyond in (1e-3, 1e-6, 1e-9):
+        orbit = half_orbit(LINEAR, np.array([-0.5 - beyond]), np.array([0.5 + beyond]), 16)
+        assert float(orbit.duration[0]) == pytest.approx(math.pi, rel=1e-9)
+
+
 def test_its_waveform_is_a_cosine_and_known_as_well_as_that() -> None:
     found = orbit_harmonics(LINEAR, [2.0], count=4)
     assert np.allclose(found.cosine[:, 0], [0.0, 2.0, 0.0, 0.0, 0.0], atol=1e-13)

@@ -100,6 +100,16 @@ def test_filling_is_done_when_asked_and_only_as_far_as_asked(tmp_path: Path) -> 
         read_recordings([written(tmp_path / "b.csv", T, x)], fill=5.0)
 
 
+def test_the_slow_part_of_a_short_record_is_a_mean_over_at_most_its_length() -> None:
+    """Written out: Blackman's window over 2 * 20 + 1 samples, and of it what lies within the record."""
+    x = np.cos(0.3 * np.arange(41.0)) + 0.02 * np.arange(41.0)
+    s = np.arange(-20, 21) / 21.0
+    w = 0.42 + 0.5 * np.cos(np.pi * s) + 0.08 * np.cos(2 * np.pi * s)
+    near = [(max(0, i - 20), min(41, i + 21), i) for i in range(41)]
+    means = [np.average(x[a:b], weights=w[a - i + 20 : b - i + 20]) for a, b, i in near]
+    assert np.allclose(slow_part(x, 1.0), means, atol=1e-12)
+
+
 @pytest.mark.parametrize("slower", [1.0, 200.0])
 def test_nearly_even_times_are_interpolated_and_say_so(tmp_path: Path, slower: float) -> None:
     t = T + 0.06 / RATE * np.sin(T)
@@ -193,7 +203,7 @@ def test_drift_is_named_and_removed_only_when_asked(tmp_path: Path) -> None:
     path = written(tmp_path / "a.csv", T, X + 0.05 * T)
     plain = read_recording(path)
     assert np.array_equal(plain.values, X + 0.05 * T)
-    assert any("local mean wanders" in note for note in plain.drift_notes())
+    assert any("local mean wanders" in note for note in plain.notes)
     for how in ("linear", "slow"):
         found = read_recording(path, detrend=how)
         inside = slice(100, -100)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
+from ridgeback.numeric.signal import search_band
 from ridgeback.numeric.signal.search_band import guide_path, strongest_frequency
 from ridgeback.numeric.signal.windows import half_width
 
@@ -36,3 +37,12 @@ def test_a_window_may_be_as_long_as_the_record_and_no_longer() -> None:
     assert half_width(2.0, 20.0, longest=41) == 20
     with pytest.raises(InputError, match="needs 41 samples, the signal has 40"):
         half_width(2.0, 20.0, longest=40)
+
+
+@pytest.mark.parametrize("rate", [1e-3, 1.0, 1e3])
+def test_a_long_record_has_its_guide_in_any_unit_of_time(rate: float, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(search_band, "LONG", 2000)
+    n = np.arange(6000)
+    x = np.cos(0.06 * n + 2.0 * np.sin(0.002 * n))
+    path = guide_path(x, rate, 0.06 * rate, 0.03 * rate, 0.12 * rate)
+    assert np.abs(path / rate - 0.06 - 0.004 * np.cos(0.002 * n))[500:-500].max() < 2e-3

@@ -85,3 +85,10 @@ def test_the_end_is_no_further_in_than_a_whole_window_fits() -> None:
     x = np.random.default_rng(1).normal(size=200)
     first = smooth_from(x, 20.0, np.full(200, 2 * np.pi), Shape(), half=40, near=100, typical=1e-9)
     assert first == 200 - 81
+
+
+def test_a_guide_that_strays_before_its_end_is_taken_up_where_it_is_right() -> None:
+    x = np.cos(50.5 * np.pi * (1.0 - LEFT**0.4))
+    guide, stretch = lengthened(x, 140.0, np.minimum(OMEGA, 15.0), slice(0, 600))
+    assert stretch == slice(0, 700)
+    assert np.abs(guide / OMEGA - 1.0)[-150:].max() < 0.05
