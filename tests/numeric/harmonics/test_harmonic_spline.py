@@ -17,7 +17,7 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics import spline_basis as spline_basis_module
 from ridgeback.numeric.harmonics.signal_model import signal_models
 from ridgeback.numeric.harmonics.spline_basis import DEGREE, SplineBasis, alone, normal_equations, spline_basis
-from ridgeback.numeric.harmonics.spline_fit import MUCH, Known, adapted, best_model, falling, fit_on, harmonic_splines
+from ridgeback.numeric.harmonics.spline_fit import MUCH, Known, adapted, best_model, changing, fit_on, harmonic_splines
 from ridgeback.numeric.harmonics.spline_model import SplineModel, weights_of
 
 RATE = 32.0
@@ -180,7 +180,7 @@ def test_a_swell_before_a_decay_gets_knots_of_its_own() -> None:
 @pytest.mark.parametrize("fall", [0.1, 0.5, 8.0])
 def test_a_fall_of_the_amplitude_counts_as_much_as_it_is_large(fall: float) -> None:
     """Beside the cycles, whose share is 1, by the square of the fall as far as that is not MUCH."""
-    found = falling(PHASE, np.exp(-fall * T / T[-1]))
+    found = changing(PHASE, np.exp(-fall * T / T[-1]))
     assert found[0] == 0.0
     assert found[-1] == pytest.approx(1.0 + min(1.0, fall / MUCH) ** 2)
 
