@@ -2,7 +2,7 @@
 
 The strongest is a smooth oscillation, each of the others a tone, steady or damped, fitted together with it
 (``numeric.components.separation``).  A component's own signal is what all the others leave of the samples.  Tones keep
-their frequency, so that tracks which come near each other are not swapped.
+their frequency, or change it smoothly as they decay, so that tracks which come near each other are not swapped.
 """
 
 from __future__ import annotations
