@@ -17,8 +17,7 @@ import numpy as np
 
 from ridgeback.compare.identification.potentials import FINE, POTENTIALS, Potential, Shape
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.orbits.loss_response import OfCosine
-from ridgeback.numeric.orbits.slow_flow import Flow, Motion, ScaledOrbits, decay_flow, motion, responding
+from ridgeback.numeric.orbits.slow_flow import Flow, Motion, ScaledOrbits, decay_flow, motion
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.reconstruction import Reconstruction
 from ridgeback.symbolic.flow.term import Term
@@ -191,28 +190,24 @@ def potential_model(potential: Potential, law: DampingLaw) -> Model:
     )
 
 
-# phi' = k (1 + s1 X^2 + s2 X^4 + ..), X = a/L, beside what damping does as on orbits of the harmonic oscillator, to its
-# second order; the mean and harmonics with their leading powers of the amplitude, h0 a^2, h2 a^2, h3 a^3, as any
-# smooth equation gives them.
+# phi' = k (1 + s1 X^2 + s2 X^4 + ..), X = a/L, losses too; damping as on orbits of the harmonic oscillator; the mean
+# and harmonics with their leading powers of the amplitude, h0 a^2, h2 a^2, h3 a^3, as any smooth equation gives them.
 def backbone_model(terms: int, law: DampingLaw) -> Model:
     """The slow flow alone, without an equation: an even polynomial of ``terms`` terms, and free harmonics."""
     rates = 1 if law == DampingLaw.LINEAR else 2
     bends = terms - 1
     size = bends + 3 + rates
 
-    X = np.geomspace(1.5, 3e-3, FINE)
-    response = OfCosine(X, np.ones(FINE))
-
     @lru_cache(maxsize=4)
     def numbers_to_flow(numbers: tuple[float, ...]) -> Flow:
+        X = np.geomspace(1.5, 3e-3, FINE)
         k, bend, (h0, h2, h3) = numbers[0], numbers[1 : 1 + bends], numbers[1 + bends : 4 + bends]
-        r = [rate / k for rate in rates_of(law, np.array(numbers[4 + bends :]))]
-        loss = r[0] + r[1] * 8 / (3 * math.pi) * X + 0.75 * r[2] * X**2 + r[3] * 4 / (math.pi * X)
-        undamped = np.asarray(np.polynomial.polynomial.polyval(X**2, (1.0, *bend)), dtype=np.float64)
-        omega, loss, sine = responding(response, undamped, X, loss, r)
-        growth = -0.5 * k * loss
-        cosine = np.array([h0 * X, np.ones_like(X), h2 * X, h3 * X**2, np.zeros_like(X)])
-        return Flow(-np.log(X), -growth, k * omega, growth, X, cosine, sine)
+        r = rates_of(law, np.array(numbers[4 + bends :]))
+        growth = -0.5 * (r[0] + r[1] * 8 / (3 * math.pi) * X + 0.75 * r[2] * X**2 + r[3] * 4 / (math.pi * X))
+        growth = np.minimum(growth, -1e-9 * k)
+        omega = k * np.polynomial.polynomial.polyval(X**2, (1.0, *bend))
+        cosine = np.array([h0 * X, np.ones_like(X), h2 * X, h3 * X**2])
+        return Flow(-np.log(X), -growth, np.maximum(omega, 0.1 * k), growth, X, cosine)
 
     def flow(theta: Array, _: float) -> Flow:
         return numbers_to_flow(tuple(theta[:-1].tolist()))
@@ -235,7 +230,7 @@ def backbone_model(terms: int, law: DampingLaw) -> Model:
     return Model(
         name=BACKBONE,
         title="Even polynomial backbone",
-        equation=f"phi' = {text}, a'/a and the rest of phi' as of {LAW_TEXT[law]}",
+        equation=f"phi' = {text}, a'/a as of {LAW_TEXT[law]}",
         law=law,
         size=size,
         flow=flow,
