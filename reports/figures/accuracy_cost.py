@@ -224,7 +224,7 @@ def _families(which: Shown, panel: Panel, line_at: float | None) -> Iterable[str
     words = [_numbers(which, panel, which.expansions, "e", left=True)]
     native = any(row.language == "c" for row in which.expansions)
     name = f"expansions{' in C' if native else ''}"
-    words += _named(which, panel, which.expansions, "e b", name)
+    words += _named(which, panel, which.expansions, "e b", name, line_at=line_at)
     below = _name_is_below(_places(which, panel, which.expansions), panel)
     words += _named(which, panel, which.in_python, "e sm", "in Python", last=True, down=17.0 * below)
     words += _named(which, panel, which.flows, "e sm", "multiple scales", line_at=line_at)
@@ -299,7 +299,7 @@ def _named(
         x, y, _ = max(at, key=lambda p: p[1])
         return [text(max(x - 12, panel.left + 4), min(y + 20, panel.bottom - 22), name, style)]
     if line_at is not None and abs(y - 15 - line_at) < 9:
-        return [text(x + 10, y + 4, name, style)]
+        return [text(*((x - 12, line_at - 7) if style == "e b" else (x + 10, y + 4)), name, style)]
     return [text(max(x - 12, panel.left + 4), y - 10, name, style)]
 
 

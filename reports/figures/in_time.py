@@ -235,6 +235,6 @@ def _below(drawn: Sequence[Drawn], panel: Panel) -> list[str]:
     for i, d in enumerate(drawn):
         x, y = 4.0 + 184.0 * (i % across), panel.bottom + 58.0 + 17.0 * (i // across)
         parts = [line(x, y - 4, x + 20, y - 4, d.style), text(x + 26, y, _brief(d), STYLE[d.letter])]
-        parts.append(text(x + 176, y, per_cent(d.row.relative_rms_error), STYLE[d.letter], "end"))
+        parts.append(text(x + 360.0 / across - 4, y, per_cent(d.row.relative_rms_error), STYLE[d.letter], "end"))
         marks.append(group(parts, f"f{d.letter}"))
     return marks
