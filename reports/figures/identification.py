@@ -35,15 +35,17 @@ def candidates_figure(found: Identification) -> Figure:
         shown = [(c, np.interp(data.amplitude, *_ordered(c, name))) for c in found.candidates[: len(STYLES)]]
         return tuple((c.title, factor * y, style) for (c, y), style in zip(shown, STYLES, strict=False))
 
+    omega_sd, growth_sd = (np.nan_to_num(sd) for sd in (data.omega_sd, data.growth_rate_sd))
     bands = (
-        Band(CLOCK.title(), data.amplitude, data.omega * f, data.omega_sd * f, over("omega", f)),
-        Band("growth rate a′/a, 1/s", data.amplitude, data.growth_rate, data.growth_rate_sd, over("growth_rate", 1.0)),
+        Band(CLOCK.title(), data.amplitude, data.omega * f, omega_sd * f, over("omega", f)),
+        Band("growth rate a′/a, 1/s", data.amplitude, data.growth_rate, growth_sd, over("growth_rate", 1.0)),
     )
+    claimed = ", bands 95 %" if omega_sd.any() else ""
     return side_by_side(
         "identify-backbone",
         bands,
         x_title=f"amplitude of the fundamental{unit_of(found)}",
-        caption="Measured without any class in mind, bands 95 %, and the classes that fit best, best first.",
+        caption=f"Measured without any class in mind{claimed}, and the classes that fit best, best first.",
         label="Candidates over the measured backbone and growth rate",
         unit=found.unit,
     )

@@ -20,6 +20,8 @@ from ridgeback.reports.figures.clock import Clock, shown
 from ridgeback.reports.figures.planes import level_plane, record_data
 
 CLOCK = Clock("s")
+LETTER = 7.0
+"""Width of a letter of a key, about."""
 STYLES = ("tl nf", "tl d1 nf", "tl d2 nf", "tl d3 nf", "el nf", "sl nf")
 
 
@@ -98,18 +100,39 @@ def _band(band: Band, panel: Panel, x_title: str) -> str:
 
 
 def _key(band: Band, panel: Panel) -> str:
-    """Names behind a piece of their line, in the emptier lower corner."""
-    names = [("measured, 95 %", "tl nf"), *((name, style) for name, _, style in band.over)]
+    """Names behind a piece of their line, in the corner through which the fewest points of the curves go."""
+    measured = "measured, 95 %" if np.nan_to_num(band.sd).any() else "measured"
+    names = [(measured, "tl nf"), *((name, style) for name, _, style in band.over)]
     if len(names) == 1:
         return ""
-    rising = band.y[np.argmax(band.x)] > band.y[np.argmin(band.x)]
-    x = panel.left + 12
-    top = panel.top + 14 if rising else panel.bottom - 8 - 17 * (len(names) - 1)
+    wide = 40.0 + LETTER * max(len(name) for name, _ in names)
+    places_of = [
+        (left, top)
+        for top in (panel.bottom - 8 - 17 * (len(names) - 1), panel.top + 14)
+        for left in (panel.left + 12, panel.right - wide)
+    ]
+    x, top = min(places_of, key=lambda at: crossing(band, panel, at, (wide, 17.0 * len(names))))
     marks = []
     for i, (name, style) in enumerate(names):
         y = top + 17 * i
         marks.append(f'<path d="M{places(x)} {places(y - 4)}h22" class="{style}"/>' + text(x + 28, y, name, "sm"))
     return group(marks, "halo")
+
+
+def crossing(band: Band, panel: Panel, at: tuple[float, float], size: tuple[float, float]) -> int:
+    """How many points of the curves, between those that are drawn too, lie in a box whose first line is at a place."""
+    if not band.x.size:
+        return 0
+    order, (left, top) = np.argsort(band.x, kind="stable"), at
+    fine = np.linspace(0.0, band.x.size - 1.0, 16 * band.x.size)
+    step = np.arange(band.x.size)
+    x = panel.x.of(np.interp(fine, step, band.x[order]))
+    beside = (x >= left) & (x <= left + size[0])
+    count = 0
+    for values in (band.y, *(values for _, values, _ in band.over)):
+        y = panel.y.of(np.interp(fine, step, values[order]))
+        count += int(np.count_nonzero(beside & (y >= top - 14.0) & (y <= top - 14.0 + size[1])))
+    return count
 
 
 def backbone_figure(recording: RecordingComparison) -> Figure:
