@@ -20,8 +20,8 @@ from ridgeback.reports.figures.clock import Clock, shown
 from ridgeback.reports.figures.planes import level_plane, record_data
 
 CLOCK = Clock("s")
-LETTER = 7.0
-"""Width of a letter of a key, about."""
+LETTER, HEIGHTS = 7.0, 5
+"""Width of a letter of a key, about, and heights at which it may stand."""
 STYLES = ("tl nf", "tl d1 nf", "tl d2 nf", "tl d3 nf", "el nf", "sl nf")
 
 
@@ -100,7 +100,7 @@ def _band(band: Band, panel: Panel, x_title: str) -> str:
 
 
 def _key(band: Band, panel: Panel) -> str:
-    """Names behind a piece of their line, in the corner through which the fewest points of the curves go."""
+    """Names behind a piece of their line, at the side and height where the fewest points of the curves go."""
     measured = "measured, 95 %" if np.nan_to_num(band.sd).any() else "measured"
     names = [(measured, "tl nf"), *((name, style) for name, _, style in band.over)]
     if len(names) == 1:
@@ -108,7 +108,7 @@ def _key(band: Band, panel: Panel) -> str:
     wide = 40.0 + LETTER * max(len(name) for name, _ in names)
     places_of = [
         (left, top)
-        for top in (panel.bottom - 8 - 17 * (len(names) - 1), panel.top + 14)
+        for top in np.linspace(panel.bottom - 8 - 17 * (len(names) - 1), panel.top + 14, HEIGHTS).tolist()
         for left in (panel.left + 12, panel.right - wide)
     ]
     x, top = min(places_of, key=lambda at: crossing(band, panel, at, (wide, 17.0 * len(names))))
