@@ -14,6 +14,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import first_harmonic
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.flow.fixed_points import cycle_series
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.series.trigonometric import at_zero
 from ridgeback.symbolic.systems.catalogue import find
@@ -65,6 +66,15 @@ def test_in_multiple_precision_a_series_is_its_enclosure(equation: str) -> None:
     else:
         with pytest.raises(InputError, match="irrational"):
             series(interval)
+
+
+def test_u_in_other_units_leaves_the_frequency_of_a_limit_cycle() -> None:
+    """With w = 4 u/3 it is van der Pol's, also where the first amplitude is a fraction, 3/2."""
+    own, slow = lindstedt("u'' - eps*(1 - 16/9*u**2)*u' + u = 0", 4), lindstedt(find("van-der-pol"), 4)
+    assert own.frequency == slow.frequency
+    assert own.amplitude_series == tuple(sympy.Rational(3, 4) * c for c in slow.amplitude_series or ())
+    flow = multiple_scales(Oscillator.from_equation("u'' - eps*(1 - 16/9*u**2)*u' + u = 0"), 6, weight=1)
+    assert cycle_series(flow)[0][0] == sympy.Rational(9, 4)
 
 
 def test_time_in_other_units_leaves_the_amplitude_of_a_limit_cycle() -> None:
