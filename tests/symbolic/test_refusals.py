@@ -96,7 +96,7 @@ DAMPED = of("u'' + u + c*abs(u')*u' = 0", "c")
         (lambda: minimax(find("pendulum"), up_to=Fraction(-1), degree=2), "the range up to -1 is empty"),
         (lambda: gappa_script(form_of(pendulum()), "motion"), "for polynomials with a domain"),
         (
-            lambda: gappa_script(form_of(pendulum(2), up_to=1, mode="accurate")),
+            lambda: gappa_script(form_of(pendulum(4), up_to=2, mode="accurate")),
             "no rule for the compensated steps of mode accurate",
         ),
         (

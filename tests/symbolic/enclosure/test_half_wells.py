@@ -26,3 +26,14 @@ def test_a_turning_point_is_found_from_its_energy(force: str, place: fmpq) -> No
 def test_a_complex_ball_lies_within_its_radius() -> None:
     """Its corners: 3, 4, 5."""
     assert 5 <= _radius(acb(arb(1, 3), arb(-2, 4))) < 5.0001
+
+
+@pytest.mark.parametrize("place", [fmpq(1, 8), fmpq(2), fmpq(3), fmpq(311, 100)])
+def test_the_time_from_rest_is_the_elliptic_integral(place: fmpq) -> None:
+    """Of the pendulum: K(sin^2(W/2))."""
+    for bits in (60, 120):
+        with ctx.workprec(bits + 60):
+            well = HalfWell(two_sided(Oscillator.from_equation("u'' + sin(u) = 0")).near)
+            found = well.time(arb(place), bits)
+            assert found.overlaps(acb((arb(place) / 2).sin() ** 2).elliptic_k().real)
+            assert found.rel_accuracy_bits() >= bits - 8
