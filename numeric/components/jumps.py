@@ -76,47 +76,29 @@ def line(u: Array, values: Array) -> Array:
     return np.asarray(values[0] + (values[-1] - values[0]) * 0.5 * (u + 1.0))
 
 
-@dataclass(frozen=True)
-class Column:
-    """P, A or 1 (``of`` 0, 1 or 2) times u^power, or times (u - place)+ where ``bent``."""
+def left_over(found: Moments, degree: int, bends: tuple[int, ...] = ()) -> Array:
+    """The least sum of squares of y with bends of P and of A (0 and 1) at each place, ``(place,)``.
 
-    of: int
-    power: int
-    bent: bool = False
-
-
-def columns(degree: int, bends: tuple[int, ...] = ()) -> list[Column]:
-    """Those of polynomials of a degree of P and of A, with the bends of some of them, and of the offset."""
-    smooth = [Column(of, n) for of in (0, 1) for n in range(degree + 1)]
-    return [*smooth, *(Column(of, 0, True) for of in bends), *(Column(2, n) for n in range(OFFSET + 1))]
-
-
-def factor(one: Column, place: float) -> Array:
-    """The coefficients of u^0, u^1, ... by which a column multiplies P or A, beyond the place where it is bent.
-
-    >>> factor(Column(0, 2), 0.5).tolist(), factor(Column(0, 0, True), 0.5).tolist()
-    ([0.0, 0.0, 1.0], [-0.5, 1.0])
+    P and A are multiplied by polynomials of a degree beside, and the offset is one of degree OFFSET.
     """
-    return np.array([-place, 1.0]) if one.bent else np.eye(one.power + 1)[-1]
-
-
-def left_over(found: Moments, wanted: list[Column], j: int) -> float:
-    """The least sum of squares of y by these columns, bent at place ``j``."""
-
-    def product(one: Column, other: Column) -> float:
-        at = j if one.bent or other.bent else 0
-        both = np.convolve(factor(one, found.place[j]), factor(other, found.place[j]))
-        return float(both @ found.pairs[one.of, other.of, : both.size, at])
-
-    def onto(one: Column) -> float:
-        by = factor(one, found.place[j])
-        return float(by @ found.target[one.of, : by.size, j if one.bent else 0])
-
-    normal = np.array([[product(one, other) for other in wanted] for one in wanted])
-    right = np.array([onto(one) for one in wanted])
-    scale = np.sqrt(np.maximum(np.diag(normal), np.finfo(float).tiny))
-    solution = np.linalg.lstsq(normal / np.outer(scale, scale), right / scale, rcond=1e-12)[0]
-    return max(0.0, found.square - float(solution @ (right / scale)))
+    smooth = [(of, n) for of in (0, 1) for n in range(degree + 1)] + [(2, n) for n in range(OFFSET + 1)]
+    of, power = np.array(smooth).T
+    u, pairs, target = found.place, found.pairs, found.target
+    size, count = len(smooth), len(smooth) + len(bends)
+    normal, right = np.empty((u.size, count, count)), np.empty((u.size, count))
+    normal[:, :size, :size] = pairs[of[:, None], of, power[:, None] + power, 0]
+    right[:, :size] = target[of, power, 0]
+    for i, one in enumerate(bends, start=size):
+        normal[:, i, :size] = (pairs[one, of, power + 1] - u * pairs[one, of, power]).T
+        normal[:, :size, i] = normal[:, i, :size]
+        right[:, i] = target[one, 1] - u * target[one, 0]
+        for j, other in enumerate(bends, start=size):
+            first, second, third = pairs[one, other, :3]
+            normal[:, i, j] = third - 2.0 * u * second + u**2 * first
+    scale = np.sqrt(np.maximum(np.einsum("pii->pi", normal), np.finfo(float).tiny))
+    scaled, onto = normal / (scale[:, :, None] * scale[:, None, :]), right / scale
+    inverse = np.linalg.pinv(scaled, rcond=1e-12, hermitian=True)
+    return np.asarray(np.maximum(0.0, found.square - np.einsum("pi,pij,pj->p", onto, inverse, onto)), dtype=float)
 
 
 def jump(models: SignalModels, left: Array, sound: Mask) -> str:
@@ -152,12 +134,12 @@ def jump(models: SignalModels, left: Array, sound: Mask) -> str:
         turned = TWO_PI * np.linspace(*ends, places)
         first = np.searchsorted(np.maximum.accumulate(best.phase - best.phase[0]), turned)
         found = moments(best, left, sound, np.unique(np.append(0, first)))
-        scores = np.array([min(scored(found, best, d, (0, 1), j) for d in BENT) for j in range(1, found.first.size)])
+        scores = np.min([scored(found, best, d, (0, 1))[1:] for d in BENT], axis=0)
         bent, at = float(scores.min()), float(best.time[found.first[1 + int(scores.argmin())]])
         middle = float(turned[int(scores.argmin())]) / TWO_PI
         ends = max(BORDER, middle - APART), min(models.cycles - BORDER, middle + APART)
-        others += [scored(found, best, d, (1,), j) for d in BENT for j in range(1, found.first.size)]
-    others += [scored(found, best, d, (), 0) for d in SMOOTH]
+        others += [float(scored(found, best, d, (1,))[1:].min()) for d in BENT]
+    others += [float(scored(found, best, d, ())[0]) for d in SMOOTH]
     if bent > min(others) - GAIN:
         return ""
     return (
@@ -166,15 +148,15 @@ def jump(models: SignalModels, left: Array, sound: Mask) -> str:
     )
 
 
-def scored(found: Moments, best: SplineModel, degree: int, bends: tuple[int, ...], j: int) -> float:
-    """What polynomials with bends leave, over the variance of the noise, and what their parameters count.
+def scored(found: Moments, best: SplineModel, degree: int, bends: tuple[int, ...]) -> Array:
+    """What polynomials with bends at each place leave, over the variance of the noise, and what their parameters count.
 
     Those of the offset and of the harmonics, which are the best model's, count for as many values of the noise as they
     take up.
     """
-    left = left_over(found, columns(degree, bends), j) / best.band_noise**2
     parameters = 2 * (degree + 1) + len(bends) + (1 if bends else 0)
-    return left + PER_PARAMETER * parameters + OFFSET + 1 + (best.parameters - 3 * best.basis.count)
+    beside = OFFSET + 1 + best.parameters - 3 * best.basis.count
+    return left_over(found, degree, bends) / best.band_noise**2 + PER_PARAMETER * parameters + beside
 
 
 def score_of(model: SplineModel, best: SplineModel) -> float:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.components.jumps import Column, columns, jump, left_over, moments
+from ridgeback.numeric.components.jumps import OFFSET, jump, left_over, moments
 from ridgeback.numeric.harmonics.signal_model import signal_models
 
 T = np.arange(800) / 40.0
@@ -52,10 +52,9 @@ def test_moments_give_the_least_squares_of_the_columns_written_out() -> None:
     y = left + model.samples(keep=lambda h: h == 0)
     y = y + weights[0] * (model.phase - ends[0]) + weights[1] * (log - ends[1])
 
-    def written(one: Column) -> Array:
-        return weights[one.of] * (np.maximum(u - u[300], 0.0) if one.bent else u**one.power)
-
-    wanted = columns(3, (0, 1))
-    matrix = np.array([written(one) for one in wanted]).T
-    off = y - matrix @ np.linalg.lstsq(matrix, y, rcond=None)[0]
-    assert left_over(of, wanted, 1) == pytest.approx(float(off @ off), rel=1e-6)
+    smooth = [w * u**n for w, degree in zip(weights, (3, 3, OFFSET), strict=True) for n in range(degree + 1)]
+    for place, at in ((1, 300), (2, 500)):
+        bend = np.maximum(u - u[at], 0.0)
+        matrix = np.array([*smooth, weights[0] * bend, weights[1] * bend]).T
+        off = y - matrix @ np.linalg.lstsq(matrix, y, rcond=None)[0]
+        assert left_over(of, 3, (0, 1))[place] == pytest.approx(float(off @ off), rel=1e-6)
