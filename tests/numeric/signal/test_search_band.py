@@ -7,6 +7,7 @@ import pytest
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.signal import search_band
+from ridgeback.numeric.signal.samples import checked_rate
 from ridgeback.numeric.signal.search_band import guide_path, strongest_frequency
 from ridgeback.numeric.signal.windows import half_width
 
@@ -46,3 +47,11 @@ def test_a_long_record_has_its_guide_in_any_unit_of_time(rate: float, monkeypatc
     x = np.cos(0.06 * n + 2.0 * np.sin(0.002 * n))
     path = guide_path(x, rate, 0.06 * rate, 0.03 * rate, 0.12 * rate)
     assert np.abs(path / rate - 0.06 - 0.004 * np.cos(0.002 * n))[500:-500].max() < 2e-3
+
+
+@pytest.mark.parametrize("rate", [1e-6, 0.5, 1.0, 1e6])
+def test_any_positive_rate_is_one(rate: float) -> None:
+    assert checked_rate(rate) == rate
+    for wrong in (0.0, -rate):
+        with pytest.raises(InputError, match="is not positive"):
+            checked_rate(wrong)

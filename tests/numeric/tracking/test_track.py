@@ -53,6 +53,16 @@ def test_track_is_frozen_and_its_parts_agree_in_length() -> None:
         Track(np.arange(4.0), np.ones(4), np.ones(1, bool), "test")
 
 
+@pytest.mark.parametrize("known", [True, False])
+def test_the_picture_of_a_track_says_whether_an_interval_is_drawn(known: bool) -> None:
+    flat = np.full(4, 6.0)
+    sd, bias = (0.1 + 0.0 * flat, 0.0 * flat) if known else (None, None)
+    track = Track(np.arange(4.0), flat, flat > 0, "example", standard_deviation=sd, bias=bias, bias_deviation=bias)
+    (stroke,) = track.picture().strokes[:1]
+    assert stroke.label == ("example, 95 % interval" if known else "example")
+    assert (stroke.low is not None) == known
+
+
 @given(st.integers(0, 40), st.floats(-1.0, 1.0), st.integers(0, 200))
 @settings(deadline=None, max_examples=40)
 def test_spectra_are_read_between_the_bins_to_rounding(lags: int, offset: float, at: int) -> None:
