@@ -31,7 +31,9 @@ def patched(root: Path, mutant: Mutant) -> bool:
     triples = list(zip(codes(old), codes(compile(changed(whole, -1), str(file), "exec")), codes(new), strict=True))
     deep = [(code, after) for code, before, after in triples if shape(before) != shape(after)]
     count = sum(take(code, after, file) for code, after in deep if code.co_flags & inspect.CO_OPTIMIZED)
-    if any(not code.co_flags & inspect.CO_OPTIMIZED and shape(b, 0) != shape(a, 0) for code, b, a in triples):
+    if not count or any(
+        not code.co_flags & inspect.CO_OPTIMIZED and shape(b, 0) != shape(a, 0) for code, b, a in triples
+    ):
         count += sum(revalue(module, new) for module in modules_of(file))
     return count > 0
 
