@@ -9,7 +9,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.study.derivation import described
 from ridgeback.symbolic.codegen import Formula, form_of
 from ridgeback.symbolic.codegen.program import Form, Mode
-from ridgeback.symbolic.codegen.proofs.facts import certified_facts, end_of
+from ridgeback.symbolic.codegen.proofs.facts import certified_facts, end_of, range_fact
 from ridgeback.symbolic.enclosure.enclosure import rounded_down, separatrix
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.power_expansion import PowerExpansion
@@ -39,6 +39,7 @@ def known_form(
     if isinstance(series, Expansion | PowerExpansion) and not isinstance(result, SlowFlow | LossFlow):
         end = end or end_of(oscillator, series, result, limit)
         facts = () if end is None else certified_facts(oscillator, result, end, whole=up_to is not None)
+        facts += () if end is None or up_to is not None else range_fact(result, end, limit)
     return form_of(
         result,
         equation=described(oscillator),

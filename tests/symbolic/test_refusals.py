@@ -109,6 +109,7 @@ DAMPED = of("u'' + u + c*abs(u')*u' = 0", "c")
         ),
         (lambda: form_of(mean_form(find("pendulum")), up_to=1, mode="accurate"), "written for polynomials in one"),
         (lambda: form_of(pendulum(), motion=True), "gives the frequency only; use lindstedt for the motion"),
+        (lambda: form_of(energy_on_each_side(find("bilinear"), 2), motion=True), "no motion is written; leave it out"),
     ],
 )
 def test_what_cannot_be_done_is_refused_in_one_line(call: Callable[[], object], said: str) -> None:

@@ -52,7 +52,8 @@ def motion_functions(series: Series, expansion: Expansion) -> list[Function]:
     Raises InputError for a method that has no waveform.
     """
     if expansion.waveform is None:
-        raise InputError(f"{expansion.method} gives the frequency only; use lindstedt for the motion u(t)")
+        rest = "so that no motion is written; leave it out" if expansion.sided else "use lindstedt for the motion u(t)"
+        raise InputError(f"{expansion.method} gives the frequency only{', ' if expansion.sided else '; '}{rest}")
 
     def made(name: str, summary: str, values: Sequence[Any]) -> Function:
         return series.function(name, summary, values, rate=0)

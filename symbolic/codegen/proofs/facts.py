@@ -104,6 +104,24 @@ def before_zero(series: Expansion, end: Fraction) -> Fraction:
     return end if zero is None else Fraction(f"{float(INSIDE * zero):.6g}")
 
 
+def range_fact(formula: Formula, end: Fraction, limit: float | None) -> tuple[str, ...]:
+    """Why the domain ends where it does, in a line; nothing where the oscillation itself ends there.
+
+    >>> from ridgeback.symbolic.expansion.energy_integral import energy_integral
+    >>> from ridgeback.symbolic.systems.catalogue import find
+    >>> range_fact(energy_integral(find("kepler"), 8), Fraction("0.472021"), None)
+    ('Range: up to A = 0.472021, short of a zero of the polynomial, which the frequency has not.',)
+    """
+    if not isinstance(formula, Expansion | PowerExpansion) or (limit is not None and end * NEAR >= Fraction(limit)):
+        return ()
+    beyond = end * NEAR / INSIDE
+    zero = isinstance(formula, Expansion) and before_zero(formula, beyond) < beyond
+    reason = (
+        "short of a zero of the polynomial, which the frequency has not" if zero else "about the radius of convergence"
+    )
+    return (f"Range: up to {formula.variable} = {float(end):.6g}, {reason}.",)
+
+
 def _first_zero(powers: dict[int, Number], end: Fraction) -> Fraction | None:
     """The size of an amplitude just before which a polynomial with c_0 > 0 is positive from 0 on; None up to the end.
 
