@@ -42,8 +42,10 @@ def in_mode(form: Form, function: Function) -> Function:
         if function.bounded or form.mode == "accurate":
             raise
         made, found = split(function), None
-    told = (f"Evaluation: {cost(form, made)} operations, rounding errors carried along.",) * made.carries
-    return replace(made, notes=(*made.notes, *rounding_notes(form, made, found), *told))
+    notes = (*made.notes, *rounding_notes(form, made, found))
+    if made.carries:
+        notes += (f"Evaluation: {cost(form, made)} operations, rounding errors carried along.",)
+    return replace(made, notes=notes)
 
 
 def _chosen(form: Form, function: Function) -> tuple[Function, Bound | None]:
