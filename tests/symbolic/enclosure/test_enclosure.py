@@ -15,7 +15,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.symbolic.certificates.accuracy import certified_error
 from ridgeback.symbolic.cycles.orbit import exact_frequency
 from ridgeback.symbolic.enclosure.analytic_strip import Strip, covered_strip, polynomial_strip, strip_of
-from ridgeback.symbolic.enclosure.enclosure import enclose, rounded_down, separatrix
+from ridgeback.symbolic.enclosure.enclosure import enclose, exact_size, rounded_down, separatrix
 from ridgeback.symbolic.enclosure.integrand import GeneralIntegrand, OrbitBall, integrand_of
 from ridgeback.symbolic.enclosure.quadrature import adaptive_mean, midpoint_mean, midpoints, nodes_needed
 from ridgeback.symbolic.enclosure.turning_points import orbit
@@ -408,6 +408,14 @@ def test_trough_is_the_peak_of_the_mirrored_oscillator() -> None:
     assert first.trough == -arb(fmpq(9, 10)) or first.trough.overlaps(-arb(fmpq(9, 10)))
     back = enclose(system, rounded_down(first.peak), bits=48)
     assert back.omega.overlaps(first.omega)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_amplitudes_are_taken_to_their_limits(sign: int) -> None:
+    last = Fraction(2) ** (sign * 1000)
+    assert exact_size(last) == last
+    with pytest.raises(InputError, match="not within"):
+        exact_size(last * Fraction(2) ** sign)
 
 
 def test_amplitudes_mean_what_they_say() -> None:
