@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from fractions import Fraction
 from pathlib import Path
 
@@ -42,3 +43,18 @@ def test_pytorch_gives_the_same_bits(system: str, tmp_path: Path) -> None:
         assert np.array_equal(found, plain, equal_nan=True)
     else:  # PyTorch's square root is not always rounded correctly
         assert np.allclose(found, plain, rtol=1e-14, atol=0, equal_nan=True)
+
+
+@pytest.mark.parametrize("language", ["python", "array-api"])
+@pytest.mark.parametrize("domain_end", [Fraction(5, 2), Fraction(3)])
+def test_nothing_is_computed_from_what_lies_outside(language: str, domain_end: Fraction, tmp_path: Path) -> None:
+    """Infinities and numbers near overflow give nan without a warning, alone and among others."""
+    module = load(generate(energy_integral(find("pendulum"), 40), language, up_to=domain_end), tmp_path)
+    outside = np.array([np.inf, -np.inf, np.nan, 1.7e308, -1e160, float(domain_end) * (1 + 1e-15)])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for function in (module.omega0, module.omega0_slope):
+            assert np.isnan(function(outside)).all()
+            assert all(np.isnan(function(np.asarray(value))) for value in outside)
+            mixed = function(np.append(outside, 0.5))
+            assert mixed[-1] == function(np.asarray(0.5))
