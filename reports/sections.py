@@ -192,14 +192,15 @@ def _budget(report: Report) -> Section | None:
     decay = report.decay
     if decay is None or not decay.budget:
         return None
+    reference = report.benchmark.reference if report.benchmark else None
     parts = (
-        Part("figure", budget_figure(decay.budget)),
+        Part("figure", budget_figure(decay.budget, reference)),
         fold(
             f"All {number(len(decay.budget))} methods as a table, with closure",
-            Part("table", budget_table(decay.budget)),
+            Part("table", budget_table(decay.budget, reference)),
         ),
     )
-    floor = report.benchmark.reference.floor if report.benchmark else 0.0
+    floor = reference.floor if reference else 0.0
     return Section("errors", "Error budget", budget_heading(decay.budget, floor), parts)
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
-from ridgeback.common.numbers import listing, per_cent
-from ridgeback.common.quantities import symbol
+from ridgeback.common.numbers import NONE, listing, per_cent
+from ridgeback.common.quantities import about, symbol
 from ridgeback.compare.benchmark.contenders import Reference, Row, Source
 from ridgeback.compare.motion.results import Case
 
@@ -77,15 +77,48 @@ def spoken(row: Row) -> str:
     return f"{row.order} terms of the paper’s series" if row.kind == "series-model" else short_name(row)
 
 
-def at_most(error: float | None, reference: Reference, words: str = "at most ") -> str:
+def at_most(
+    error: float | None,
+    reference: Reference | None,
+    words: str = "at most ",
+    *,
+    missing: str = NONE,
+    signed: bool = False,
+) -> str:
     """An error as far as the reference knows it: below its floor, the floor.
 
     >>> at_most(1.3e-5, Reference("", 0.0, 1.8e-4)), at_most(0.01, Reference("", 0.0, 1.8e-4), "≤ ")
     ('at most 0.018 %', '1.0 %')
     """
-    if error is not None and error < reference.floor:
+    if reference is not None and below_floor(error, reference):
         return f"{words}{per_cent(reference.floor)}"
-    return per_cent(error)
+    return per_cent(error, missing=missing, signed=signed)
+
+
+def below_floor(error: float | None, reference: Reference | None) -> bool:
+    """Whether the reference cannot tell an error from none."""
+    return reference is not None and error is not None and abs(error) < reference.floor
+
+
+def floor_words(errors: Iterable[float | None], reference: Reference | None) -> str:
+    """What ≤ stands for below a table or a figure; empty where no error is below the floor.
+
+    >>> floor_words([1e-5, 0.1], Reference("", 0.0, 1.8e-4))
+    ' ≤: under 0.018 %, where two readings of ω₀(t) disagree.'
+    """
+    if reference is None or not any(below_floor(error, reference) for error in errors):
+        return ""
+    return f" ≤: under {per_cent(reference.floor)}, where {reference.open_words}."
+
+
+def told(row: Row, reference: Reference, cost_s: float) -> str:
+    """A contender with its error and what a track costs, as a pointer reads them.
+
+    >>> told(Row("series-21", "", "series-model", order=21, relative_rms_error=1e-5), Reference("", 0.0, 1.8e-4), 3e-3)
+    '21 terms of the paper’s series: ≤ 0.018 %, 3 ms a track'
+    """
+    cost = f", {about(cost_s)} a track" if math.isfinite(cost_s) else ""
+    return f"{capital(spoken(row))}: {at_most(row.relative_rms_error, reference, '≤ ')}{cost}"
 
 
 def plural(row: Row) -> bool:

@@ -50,6 +50,11 @@ class Figure:
     table: str = ""
     """Id of the table that holds the figure's numbers, where its data do not."""
 
+    @property
+    def told(self) -> bool:
+        """Whether its marks are read one by one, by their titles, as no curves are read at a common place."""
+        return not self.data and "<title>" in self.wide
+
 
 def readout(
     panels: tuple[Sequence[Panel], Sequence[Panel]],

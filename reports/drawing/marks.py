@@ -66,13 +66,14 @@ def text(x: float, y: float, words: str, kind: str = "", anchor: str = "start") 
 def dot(x: float, y: float, radius: float, kind: str, title: str = "") -> str:
     """A filled or open circle, with a title that a pointer at rest shows."""
     head = f'<circle cx="{places(x)}" cy="{places(y)}" r="{places(radius)}"{_class(kind)}'
-    return f"{head}><title>{escape(title)}</title></circle>" if title else f"{head}/>"
+    return f"{head}><title>{escape(visible(title))}</title></circle>" if title else f"{head}/>"
 
 
-def group(marks: Iterable[str], kind: str) -> str:
-    """Marks that are shown, hidden and coloured together."""
+def group(marks: Iterable[str], kind: str, title: str = "") -> str:
+    """Marks that are shown, hidden and coloured together, and read together where they have a title."""
     inside = "".join(marks)
-    return f"<g{_class(kind)}>{inside}</g>" if inside else ""
+    head = f"<title>{escape(visible(title))}</title>" if title else ""
+    return f"<g{_class(kind)}>{head}{inside}</g>" if inside else ""
 
 
 def curve(x: Array, y: Array, kind: str) -> str:

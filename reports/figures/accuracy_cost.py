@@ -11,7 +11,7 @@ import numpy as np
 from ridgeback.common.numbers import number, per_cent, threshold
 from ridgeback.compare.benchmark.contenders import WAYS, Row
 from ridgeback.compare.benchmark.results import Benchmark
-from ridgeback.compare.report.naming import capital, refused_names, short_name
+from ridgeback.compare.report.naming import refused_names, short_name, told
 from ridgeback.reports.drawing.apart import apart, text_width
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, toggles
 from ridgeback.reports.drawing.marks import curve, dot, drawing, group, line, rect, text, trace
@@ -187,8 +187,8 @@ def _places(which: Shown, panel: Panel, rows: Sequence[Row]) -> list[tuple[float
     return [(panel.x(which.cost(r)), float(panel.y.clipped(np.array([error(r)]))[0]), r) for r in rows]
 
 
-def _title(row: Row) -> str:
-    return f"{capital(short_name(row))}: {per_cent(row.relative_rms_error)}"
+def _title(which: Shown, row: Row) -> str:
+    return told(row, which.found.reference, which.cost(row))
 
 
 def _chain(which: Shown, panel: Panel, rows: Sequence[Row], style: str, *, dashed: bool = False) -> str:
@@ -198,7 +198,7 @@ def _chain(which: Shown, panel: Panel, rows: Sequence[Row], style: str, *, dashe
     x, y = (np.array([p[i] for p in at]) for i in (0, 1))
     stroke = curve(x, y, f"{style}d nf" if dashed else f"{style}l th")
     filled = style if not dashed else f"{style}o"
-    return stroke + "".join(dot(a, b, 3.0 if dashed else 4.0, filled, _title(row)) for a, b, row in at)
+    return stroke + "".join(dot(a, b, 3.0 if dashed else 4.0, filled, _title(which, row)) for a, b, row in at)
 
 
 def _numbers(which: Shown, panel: Panel, rows: Sequence[Row], style: str, *, left: bool = False) -> str:
@@ -231,7 +231,7 @@ def _families(which: Shown, panel: Panel, line_at: float | None) -> Iterable[str
     yield group([*e, group(words, "halo")], "fE")
     s = [_chain(which, panel, which.terms, "s")]
     exact = [place for place in _places(which, panel, which.exact) if math.isfinite(place[0])]
-    s += [dot(x, y, 4.5, "s", _title(row)) for x, y, row in exact]
+    s += [dot(x, y, 4.5, "s", _title(which, row)) for x, y, row in exact]
     words = [_numbers(which, panel, which.terms, "s")]
     words += _named(which, panel, which.terms, "s b", "paper’s series, by terms")
     for x, y, row in exact if not _crowded(which, panel) else ():
@@ -309,7 +309,7 @@ def _estimates(which: Shown, panel: Panel, target: float | None) -> Iterable[str
     if not at:
         return
     at += _finite(_places(which, panel, which.exact)) if _crowded(which, panel) else ()
-    own = {row.method.removesuffix("-corrected"): (x, y) for x, y, row in _places(which, panel, which.corrected)}
+    own = {row.method.removesuffix("-corrected"): (x, y, row) for x, y, row in _places(which, panel, which.corrected)}
     edge, heights = _column(panel, at)
     best = which.estimates[0].method
     parts, words, exact = [], [], []
@@ -319,16 +319,16 @@ def _estimates(which: Shown, panel: Panel, target: float | None) -> Iterable[str
         if row.kind != "estimate":
             exact += [
                 trace("sk nf", "M", edge + 4, height, "H", edge + 14, "L", x, y),
-                dot(x, y, 4.5, "s", _title(row)),
+                dot(x, y, 4.5, "s", _title(which, row)),
             ]
             exact.append(group([text(edge, height + 4, _exact_name(row), "s", "end")], "halo"))
             continue
         parts.append(trace("tk nf", "M", edge + 4, height, "H", led, "L", x, y))
         if row.method in own and math.isfinite(own[row.method][0]):
-            a, b = own[row.method]
+            a, b, bare = own[row.method]
             parts.append(trace("tt nf", "M", x, y, "L", a, b))
-            parts.append(dot(a, b, 3.6, "to", f"{capital(name)}, own bias removed"))
-        parts.append(dot(x, y, 4.5, "t", _title(row)))
+            parts.append(dot(a, b, 3.6, "to", _title(which, bare)))
+        parts.append(dot(x, y, 4.5, "t", _title(which, row)))
         wide = text_width(name)
         if target is not None and abs(height - target) < 10:
             words.append(rect(edge - wide - 2, height - 8, wide + 4, 16, "bgf"))
@@ -384,7 +384,7 @@ def _ranked_row(which: Shown, row: Row, y: float, names: float, x: Scale, cost: 
     ]
     if cost is not None and math.isfinite(which.cost(row)):
         marks.append(dot(cost(which.cost(row)), y, 3.4, style))
-    return group(marks, f"f{letter}")
+    return group(marks, f"f{letter}", _title(which, row))
 
 
 def _row_name(row: Row) -> str:

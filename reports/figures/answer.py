@@ -21,6 +21,8 @@ STYLES = tuple(f"{way}l {dash} nf".replace("  ", " ") for dash in ("", "d1", "d2
 WIDE_SPAN = 30.0
 """Ratio of largest to smallest from which on an axis of positive values goes by decades."""
 LEAST = 1e-17
+MOST_READ = 60
+"""Points of a curve that are read one by one, at most."""
 SMALL = 300.0
 """Width of a small drawing's key."""
 MOST_NAMES = 430.0
@@ -228,6 +230,19 @@ def side_by_side(key: str, pictures: Sequence[Picture], caption: str, table: str
     )
 
 
+def _points(panel: Panel, picture: Picture) -> list[str]:
+    """Unseen marks at the points of the curves, which a pointer reads: what was computed, nothing between."""
+    marks = []
+    for stroke in picture.strokes:
+        x, y = floats(stroke.x), floats(stroke.y)
+        kept = np.flatnonzero(np.isfinite(x) & np.isfinite(y) & (y >= panel.y.low) & (y <= panel.y.high))
+        for i in kept[np.unique(np.linspace(0, kept.size - 1, min(kept.size, MOST_READ)).round().astype(int))]:
+            said = f"{picture.y_label} {number(float(y[i]), 3)} at {picture.x_label} {number(float(x[i]), 3)}"
+            where = f"{picture.title}, {stroke.label}" if stroke.label else picture.title
+            marks.append(dot(panel.x(float(x[i])), panel.y(float(y[i])), 3.0, "unseen", f"{where}: {said}"))
+    return marks
+
+
 def _key(picture: Picture) -> list[tuple[float, int]]:
     """Where each name of a small drawing begins: its x and its line."""
     found, x, row = [], 0.0, 0
@@ -245,7 +260,7 @@ def _small(picture: Picture, axes: Axes, lines: int) -> str:
     top = 28.0 + 15.0 * lines
     panel = _panel(axes, 46.0, 300.0, top, top + 174.0)
     marks = [text(0, 14, picture.title, "fgt b"), *_frame(panel, axes, most=4, rows=5)]
-    marks += _strokes(panel, picture)
+    marks += [*_strokes(panel, picture), *_points(panel, picture)]
     marks.append(text(panel.right, panel.bottom + 32, picture.x_label, "m sm", "end"))
     for stroke, style, (x, row) in zip(picture.strokes, STYLES, _key(picture), strict=False):
         y = 30.0 + 15.0 * row

@@ -7,8 +7,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ridgeback.common.numbers import listing, per_cent
+from ridgeback.compare.benchmark.contenders import Reference
 from ridgeback.compare.motion.estimate_curves import RECIPES
 from ridgeback.compare.motion.results import BudgetRow
+from ridgeback.compare.report.naming import at_most, capital, floor_words
 from ridgeback.reports.drawing.apart import text_width
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, toggles
 from ridgeback.reports.drawing.marks import dot, drawing, group, line, places, rect, text
@@ -32,16 +34,17 @@ def ordered(rows: Sequence[BudgetRow]) -> list[BudgetRow]:
     return sorted(rows, key=lambda row: ("EST".index(letter(row)), -row.total))
 
 
-def budget_figure(rows: Sequence[BudgetRow]) -> Figure:
-    """The figure."""
+def budget_figure(rows: Sequence[BudgetRow], reference: Reference | None = None) -> Figure:
+    """The figure; totals below the reference's floor are told as at most the floor."""
     shown = ordered(rows)
     label = "Total error of each method and its parts"
     return Figure(
         key="budget",
-        wide=_draw(shown, label, narrow=False),
-        narrow=_draw(shown, label, narrow=True),
+        wide=_draw(shown, label, reference, narrow=False),
+        narrow=_draw(shown, label, reference, narrow=True),
         caption="Bar: total rms error, printed at the right. Marks: its parts, measured apart; rms values do not add "
-        f"up, and the table says what they leave unexplained.{_sources(rows)}",
+        f"up, and the table says what they leave unexplained.{_sources(rows)}"
+        f"{floor_words((row.total for row in rows), reference)}",
         toggles=toggles(
             *(letter_ for letter_ in "EST" if any(letter(row) == letter_ for row in shown)),
             series=any(row.method.startswith("series-") for row in shown),
@@ -57,11 +60,11 @@ def _sources(rows: Sequence[BudgetRow]) -> str:
     return " Series and expansions are taken at A(t) from the energy of each instant." if named else ""
 
 
-def _draw(rows: Sequence[BudgetRow], label: str, *, narrow: bool) -> str:
+def _draw(rows: Sequence[BudgetRow], label: str, reference: Reference | None, *, narrow: bool) -> str:
     width, step = (NARROW, 20.0) if narrow else (WIDE, 21.0)
     size = 11.5 if narrow else 13.5
     left = min(max(text_width(short(row.label), size) for row in rows) + 12, (0.44 if narrow else 0.3) * width)
-    right = width - (56 if narrow else 74)
+    right = width - (64 if narrow else 84)
     parts = [p for row in rows for p in (row.total, row.truncation, row.averaging, row.estimator) if p]
     x = Scale(max(0.5 * min(parts), LEAST), min(2.0 * max(parts), 30.0), left, right, log=True)
     gaps = [0.0, *(8.0 * (letter(a) != letter(b)) for a, b in zip(rows[1:], rows, strict=False))]
@@ -70,7 +73,7 @@ def _draw(rows: Sequence[BudgetRow], label: str, *, narrow: bool) -> str:
     marks = [*_key(rows, left, bottom + 16, width)]
     for value in x.ticks(3 if narrow else 7):
         marks += [line(x(value), 20, x(value), bottom, "g"), text(x(value), 13, per_cent_tick(value), "m sm", "middle")]
-    marks += [_row(row, float(top), x, width) for row, top in zip(rows, tops, strict=True)]
+    marks += [_row(row, float(top), x, width, reference) for row, top in zip(rows, tops, strict=True)]
     return drawing(width, bottom + 26, "narrow" if narrow else "wide", label, marks)
 
 
@@ -91,19 +94,25 @@ def _mark(part: str, x: float, y: float) -> str:
     return f'<path d="M{places(x)} {places(y - 6)}l6 6-6 6-6-6z" class="mk3"/>'
 
 
-def _row(row: BudgetRow, top: float, x: Scale, width: float) -> str:
+def _row(row: BudgetRow, top: float, x: Scale, width: float, reference: Reference | None) -> str:
     style = {"E": "e", "S": "s", "T": "t"}[letter(row)]
-    y = top + 8
+    y, total = top + 8, at_most(row.total, reference, "≤ ")
     end = float(x.clipped(np.array([row.total]))[0])
     marks = [
         text(x.start - 8, y + 4, short(row.label), style, "end"),
         rect(x.start, y - 4, end - x.start, 8, f"{style}f"),
     ]
-    marks.append(text(width, y + 4, per_cent(row.total), style, "end"))
+    marks.append(text(width, y + 4, total, style, "end"))
     for part in PARTS:
         if size := getattr(row, part):
             marks.append(_mark(part, float(x.clipped(np.array([size]))[0]), y))
-    return group(marks, f"f{letter(row)}")
+    return group(marks, f"f{letter(row)}", _told(row, total))
+
+
+def _told(row: BudgetRow, total: str) -> str:
+    """A row as a pointer reads it: its total and the parts that were measured."""
+    parts = [f"{part} {per_cent(size)}" for part in PARTS if (size := getattr(row, part)) is not None]
+    return "; ".join([f"{capital(short(row.label))}: total {total}", *parts])
 
 
 def budget_heading(rows: Sequence[BudgetRow], floor: float = 0.0) -> str:

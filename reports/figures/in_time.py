@@ -12,7 +12,7 @@ from ridgeback.compare.benchmark.contenders import WAYS, Row
 from ridgeback.compare.benchmark.crossings import running_rms
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.results import MotionComparison
-from ridgeback.compare.report.naming import short_name
+from ridgeback.compare.report.naming import at_most, short_name
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.apart import apart, text_width
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout, toggles
@@ -98,7 +98,10 @@ def in_time(found: Benchmark, decay: MotionComparison) -> Figure:
             *(letter for letter in "EST" if any(d.letter == letter for d in drawn)),
             series=any(d.row.kind == "series-model" for d in drawn),
         ),
-        data=readout((wide, narrow), series, name="t", unit=clock.time_unit, link="time"),
+        data={
+            **readout((wide, narrow), series, name="t", unit=clock.time_unit, link="time"),
+            "least": float(f"{found.reference.floor:.3g}"),
+        },
         label=label,
     )
 
@@ -160,9 +163,9 @@ def _draw(
         above.append(group([upper.curve(found.time, inside, d.style)], f"f{d.letter}"))
         below.append(group([lower.curve(found.time, d.error, d.style)], f"f{d.letter}"))
     marks += [upper.zooming(above), lower.zooming(below)]
-    marks += _beside(found, drawn, lower) if not narrow else _below(drawn, lower)
+    marks += _beside(found, drawn, lower) if not narrow else _below(found, drawn, lower)
     marks += [group(_upper_names(found, decay, drawn, upper, clock), "halo nz")]
-    height = lower.bottom + (58.0 + 17.0 * -(-len(drawn) // _across(drawn)) if narrow else 40.0)
+    height = lower.bottom + (58.0 + 17.0 * -(-len(drawn) // _across(found, drawn)) if narrow else 40.0)
     return drawing(NARROW if narrow else WIDE, height, "narrow" if narrow else "wide", label, marks)
 
 
@@ -214,27 +217,31 @@ def _beside(found: Benchmark, drawn: Sequence[Drawn], panel: Panel) -> list[str]
         style = STYLE[d.letter]
         parts = [f'<path d="{path}" class="{style}k {d.dash} nf nz"/>']
         parts.append(text(panel.right + 26, height + 4, short_name(d.row), style))
-        parts.append(text(WIDE, height + 4, per_cent(d.row.relative_rms_error), style, "end"))
+        parts.append(text(WIDE, height + 4, _rms(found, d), style, "end"))
         marks.append(group(parts, f"f{d.letter}"))
     return marks
 
 
-def _across(drawn: Sequence[Drawn]) -> int:
+def _across(found: Benchmark, drawn: Sequence[Drawn]) -> int:
     """How many curves the narrow drawing names on a line: two where name and error have room side by side."""
-    wide = (text_width(f"{_brief(d)}{per_cent(d.row.relative_rms_error)}", 11.5) for d in drawn)
+    wide = (text_width(f"{_brief(d)}{_rms(found, d)}", 11.5) for d in drawn)
     return 2 if max(wide, default=0.0) < 142.0 else 1
+
+
+def _rms(found: Benchmark, d: Drawn) -> str:
+    return at_most(d.row.relative_rms_error, found.reference, "≤ ")
 
 
 def _brief(d: Drawn) -> str:
     return short_name(d.row).replace("harmonic least squares", "least squares")
 
 
-def _below(drawn: Sequence[Drawn], panel: Panel) -> list[str]:
+def _below(found: Benchmark, drawn: Sequence[Drawn], panel: Panel) -> list[str]:
     """The narrow drawing names the curves below, each behind a piece of its own."""
-    marks, across = [], _across(drawn)
+    marks, across = [], _across(found, drawn)
     for i, d in enumerate(drawn):
         x, y = 4.0 + 184.0 * (i % across), panel.bottom + 58.0 + 17.0 * (i // across)
         parts = [line(x, y - 4, x + 20, y - 4, d.style), text(x + 26, y, _brief(d), STYLE[d.letter])]
-        parts.append(text(x + 360.0 / across - 4, y, per_cent(d.row.relative_rms_error), STYLE[d.letter], "end"))
+        parts.append(text(x + 360.0 / across - 4, y, _rms(found, d), STYLE[d.letter], "end"))
         marks.append(group(parts, f"f{d.letter}"))
     return marks

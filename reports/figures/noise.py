@@ -76,11 +76,18 @@ def _small(study: NoiseStudy, method: str, snr: Array, rms: dict[str, Array], sc
     marks.append(curve(x, y, "tl2 nf"))
     for i, (a, b) in enumerate(zip(x, y, strict=True)):
         if np.isfinite(b):
-            marks.append(dot(float(a), float(b), 3.0, "t", f"{number(float(snr[i]))} dB: {per_cent(float(own[i]))}"))
+            marks.append(dot(float(a), float(b), 3.0, "t", _told(cells[i])))
             if own[i] > scale[1]:
                 shift, anchor = (9, "start") if i < snr.size - 1 else (-9, "end")
                 marks.append(group([text(float(a) + shift, panel.top + 5, "off scale", "t sm", anchor)], "halo"))
     return drawing(204, 210, "one", f"{estimator(method)}: error against noise", marks)
+
+
+def _told(cell: NoiseCell) -> str:
+    """A cell as a pointer reads it."""
+    bound = "" if cell.bound is None else f", Cramér-Rao bound {per_cent(cell.bound)}"
+    spread = "" if cell.rms_sd is None else f" ± {per_cent(cell.rms_sd)}"
+    return f"{capital(estimator(cell.method))} at {number(cell.snr_db)} dB: {per_cent(cell.rms)}{spread}{bound}"
 
 
 def noise_heading(study: NoiseStudy) -> str:

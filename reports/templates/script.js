@@ -56,6 +56,8 @@
   // the whole of the axis that figures share
   const ends = r => r.d.at ? [r.d.at[0], r.d.at[r.d.at.length - 1]] : r.d.planes[0].box.slice(4, 6);
   const span = (r, box) => r.range ?? [box[4], box[5]];
+  // an error below what its reference knows is told as at most that
+  const known = (d, v) => v < d.least ? "≤ " + percent(d.least) : percent(v);
   const abscissa = (d, x) => d.log ? 10 ** x : x;
   const say = (r, text) => { $(".out", r.figure).textContent = text; };
   const show = (r, x) => {
@@ -70,7 +72,7 @@
     const grid = r.d.at, i = Math.round((x - grid[0]) / (grid[grid.length - 1] - grid[0]) * (grid.length - 1));
     if (grid[i] === undefined) { say(r, ""); return; } // a linked figure reads where this one has nothing
     const said = r.d.series.map(([name, unit, v]) => v[i] === null || v[i] === undefined ? "" :
-      name + " " + (unit === "%" ? percent(v[i]) : short(v[i]) + (unit ? " " + unit : "")));
+      name + " " + (unit === "%" ? known(r.d, v[i]) : short(v[i]) + (unit ? " " + unit : "")));
     say(r, (r.d.name + " = " + short(abscissa(r.d, grid[i])) + " " + r.d.unit).trim() + "   " + said.filter(Boolean).join("   "));
   };
   const linked = r => readers.filter(o => o === r || (r.d.link && o.d.link === r.d.link));
@@ -112,6 +114,11 @@
       });
     });
     if (r.now !== null && r.now !== undefined) show(r, r.now);
+  };
+  // a pointer reads where it is; a finger's reading stays when it is lifted
+  const reading = (box, at, away) => {
+    for (const kind of ["pointerdown", "pointermove"]) box.addEventListener(kind, at);
+    box.addEventListener("pointerleave", e => { if (e.pointerType !== "touch") away(); });
   };
   const zooms = r => $(".z", r.figure);
   const zoom = (r, range) => {
@@ -169,11 +176,10 @@
   });
   readers.filter(r => r.d.at).forEach(r => {
     const box = $(".drawing", r.figure);
-    box.addEventListener("pointermove", e => {
+    reading(box, e => {
       const [svg, boxes, p, x] = place(r, e);
       if (svg) move(r, p < boxes[0][0] - 8 || p > boxes[0][2] + 8 ? null : x);
-    });
-    box.addEventListener("pointerleave", () => move(r, null));
+    }, () => move(r, null));
     box.addEventListener("keydown", e => {
       const grid = r.d.at, n = grid.length, step = grid[1] - grid[0], [low, high] = r.range ?? [grid[0], grid[n - 1]];
       const now = r.now === undefined ? null : r.now, middle = (low + high) / 2;
@@ -228,15 +234,14 @@
       say(r, text + (plane.unit ? " " + plane.unit : "") + worded(plane, found));
     };
     $$("mask image", box).forEach(grey);
-    box.addEventListener("pointermove", e => {
+    reading(box, e => {
       const all = drawings(r.figure), i = all.findIndex(svg => svg.contains(e.target));
       if (i < 0) return;
       const p = inside(all[i], e), [x0, y0, x1, y1, , , low, high] = r.d.planes[i].box;
       const [a, b] = span(r, r.d.planes[i].box);
       if (p.x < x0 || p.x > x1 || p.y < y0 || p.y > y1) { move(r, null); return; }
       read(i, a + (p.x - x0) / (x1 - x0) * (b - a), low + (y1 - p.y) / (y1 - y0) * (high - low));
-    });
-    box.addEventListener("pointerleave", () => move(r, null));
+    }, () => move(r, null));
     box.addEventListener("keydown", e => {
       const [i, t, f] = r.at ?? [0, null, null], [, , , , , , low, high] = r.d.planes[i].box;
       const [a, b] = span(r, r.d.planes[i].box);
@@ -247,6 +252,39 @@
       else if (e.key === "Home" || e.key === "End") { e.preventDefault(); read(e.key === "Home" ? 0 : r.d.planes.length - 1, ...now); }
       else if (to) { e.preventDefault(); read(i, Math.min(b, Math.max(a, now[0] + to[0])), Math.min(high, Math.max(low, now[1] + to[1]))); }
     });
+  });
+
+  // marks with titles: the nearest is ringed and told; arrow keys go from one to the next
+  $$("figure.told").forEach(figure => {
+    const box = $(".drawing", figure), out = $(".out", figure);
+    let now = null;
+    const all = () => drawings(figure).flatMap(svg => $$("title", svg).map(t => t.parentElement)).filter(e => e.getClientRects().length);
+    const read = e => {
+      $$(".ring", figure).forEach(r => r.remove());
+      now = e;
+      out.textContent = e ? $("title", e).textContent : "";
+      if (!e) return;
+      const b = e.getBBox();
+      e.ownerSVGElement.append(make("rect", {x: b.x - 4, y: b.y - 4, width: b.width + 8, height: b.height + 8, rx: 8, class: "ring"}));
+    };
+    const distance = (mark, e) => {
+      const r = mark.getBoundingClientRect();
+      return Math.hypot(Math.max(r.left - e.clientX, 0, e.clientX - r.right), Math.max(r.top - e.clientY, 0, e.clientY - r.bottom));
+    };
+    reading(box, e => {
+      const [, near] = all().reduce(([d, m], mark) => { const c = distance(mark, e); return c < d ? [c, mark] : [d, m]; }, [60, null]);
+      if (near !== now) read(near);
+    }, () => read(null));
+    box.addEventListener("keydown", e => {
+      if (e.key === "Escape") { read(null); return; }
+      const marks = all(), last = marks.length - 1, step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[e.key];
+      const from = now ? marks.indexOf(now) : step > 0 ? -1 : last + 1;
+      const to = {Home: 0, End: last}[e.key] ?? from + step;
+      if (Number.isNaN(to)) return;
+      e.preventDefault();
+      read(marks[Math.min(last, Math.max(0, to))] ?? null);
+    });
+    figure.addEventListener("change", () => read(null));
   });
 
   // order and amplitude: the generated code of each order, its error as it was enclosed for that very value
@@ -290,11 +328,10 @@
       return [Math.min(d.orders.length - 1, Math.floor((low[3] - p.y) / (low[3] - low[1]) * d.orders.length)), j];
     };
     const drawing = $(".drawing", figure), out = $(".out", figure);
-    drawing.addEventListener("pointermove", e => {
+    reading(drawing, e => {
       const at = cell(e);
       out.textContent = at ? "order " + d.orders[at[0]] + "   " + d.letter + " = " + unit(d.amplitudes[at[1]]) + "   error " + size(...at) : "";
-    });
-    drawing.addEventListener("pointerleave", () => { out.textContent = ""; });
+    }, () => { out.textContent = ""; });
     drawing.addEventListener("pointerdown", e => {
       const at = cell(e);
       if (!at) return;
@@ -382,7 +419,7 @@
   });
   const sizes = {ns: 1e-9, "µs": 1e-6, ms: 1e-3};
   const worth = cell => {
-    const t = cell.textContent.replace(/[\u2007\u2008]/g, "").replace("−", "-").trim(), v = parseFloat(t);
+    const t = cell.textContent.replace(/[\u2007\u2008]/g, "").replace("−", "-").replace("≤", "").trim(), v = parseFloat(t);
     if (Number.isNaN(v)) return Infinity;
     const power = t.match(/10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)/), unit = t.match(/ (ns|µs|ms)/);
     const raised = power ? [...power[1]].map(c => c === "⁻" ? "-" : "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).join("") : 0;

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 POINT, DIGIT = "\u2008", "\u2007"
 """Spaces as wide as a full stop and as a digit where numerals are tabular."""
 _SPREAD = re.compile(r"^([+−]?\d+)\.(\d+) ± (\d+)\.(\d+)$")
-_NUMBER = re.compile(r"^([+−]?\d+)(?:\.(\d+))?((?: %| [^\d×]{1,6})?)((?: \([^)]*\))?)$")
+_NUMBER = re.compile(r"^((?:≤ )?[+−]?\d+)(?:\.(\d+))?((?: %| [^\d×]{1,6})?)((?: \([^)]*\))?)$")
 
 
 def aligned(cells: Sequence[str]) -> tuple[str, ...]:
@@ -16,6 +16,8 @@ def aligned(cells: Sequence[str]) -> tuple[str, ...]:
 
     >>> [cell.replace(POINT, "_").replace(DIGIT, "_") for cell in aligned(["0.25 %", "23 %", "–"])]
     ['0.25 %', '23___ %', '–']
+    >>> [cell.replace(DIGIT, "_") for cell in aligned(["0.1 %", "≤ 0.018 %"])]
+    ['0.1__ %', '≤ 0.018 %']
     >>> [cell.replace(DIGIT, "_") for cell in aligned(["0.12 ± 0.01", "0.1234 ± 0.0002"])]
     ['0.12__ ± 0.01__', '0.1234 ± 0.0002']
     """

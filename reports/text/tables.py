@@ -9,10 +9,11 @@ from itertools import groupby
 
 from ridgeback.common.numbers import NONE, number, per_cent, rounded_down, threshold
 from ridgeback.common.quantities import about, symbol
+from ridgeback.compare.benchmark.contenders import Reference
 from ridgeback.compare.benchmark.contenders import Row as Contender
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.results import BudgetRow
-from ridgeback.compare.report.naming import capital, refused_names, short_name
+from ridgeback.compare.report.naming import at_most, capital, floor_words, refused_names, short_name
 from ridgeback.compare.study.results import Certified, Range
 from ridgeback.reports.text.align import aligned
 
@@ -83,12 +84,13 @@ def contender_table(found: Benchmark) -> Table:
         * timed
     )
     caption += " An error without A(t) stands in the first column." * both
+    caption += floor_words((v for r in found.contenders for v in (r.relative_rms_error, r.mean)), found.reference)
     return Table(
         "contenders",
         caption,
         ("contender", *heads, "largest", "mean", *(("a value", "a track") if timed else ())),
         (
-            *(_contender(name, rows, sources if both else [], timed=timed) for name, rows in ordered),
+            *(_contender(name, rows, sources if both else [], found.reference, timed=timed) for name, rows in ordered),
             *(
                 Row(
                     (capital(refused_names(rows)), *(NONE,) * (len(heads) + 2 + 2 * timed)),
@@ -105,7 +107,9 @@ def _error(row: Contender) -> float:
     return float("inf") if row.relative_rms_error is None else row.relative_rms_error
 
 
-def _contender(name: str, rows: Sequence[Contender], sources: Sequence[str], *, timed: bool) -> Row:
+def _contender(
+    name: str, rows: Sequence[Contender], sources: Sequence[str], reference: Reference, *, timed: bool
+) -> Row:
     best = min(rows, key=_error)
     by_source = {r.amplitude_from: r for r in reversed(rows)}
     errors = [by_source.get(s) for s in sources] or [best]  # type: ignore[call-overload]
@@ -118,28 +122,30 @@ def _contender(name: str, rows: Sequence[Contender], sources: Sequence[str], *, 
         value = None if cheapest is None else 1e-9 * float(cheapest.time_ns_per_value or 0.0)
         cost = (_about(value), _about(None if cheapest is None else cheapest.time_s_per_track))
     remark = "" if best.ranked else f"Not ranked: covers {100 * best.coverage:.0f} % of the interior."
-    texts = [per_cent(None if e is None else e.relative_rms_error, missing="") for e in errors]
-    return Row((capital(name), *texts, per_cent(best.largest), per_cent(best.mean, signed=True), *cost), remark)
+    texts = [at_most(None if e is None else e.relative_rms_error, reference, "≤ ", missing="") for e in errors]
+    texts += [at_most(best.largest, reference, "≤ "), at_most(best.mean, reference, "≤ ", signed=True)]
+    return Row((capital(name), *texts, *cost), remark)
 
 
 def _about(seconds: float | None) -> str:
     return NONE if seconds is None else about(seconds)
 
 
-def budget_table(rows: Sequence[BudgetRow]) -> Table:
+def budget_table(rows: Sequence[BudgetRow], reference: Reference | None = None) -> Table:
     """Where each curve's distance from the reference comes from."""
+    below = floor_words((error for row in rows for error in (row.total, row.closure)), reference)
     return Table(
         "budget-table",
         "Parts of the relative error, rms over the interior. Closure is the rms of what the named parts leave "
-        "unexplained; blank: does not apply.",
+        f"unexplained; blank: does not apply.{below}",
         ("method", "truncation", "averaging", "estimator", "total", "closure"),
         tuple(
             Row(
                 (
                     capital(row.label),
                     *(per_cent(v, missing="") for v in (row.truncation, row.averaging, row.estimator)),
-                    per_cent(row.total),
-                    per_cent(row.closure),
+                    at_most(row.total, reference, "≤ "),
+                    at_most(row.closure, reference, "≤ "),
                 ),
                 row.note,
             )

@@ -206,6 +206,60 @@ def test_every_figure_is_read_from_end_to_end(browser: Browser, pages: dict[str,
         assert browser.complaints() == []
 
 
+TOLD = [("full", key) for key in ("accuracy-cost", "noise", "budget")] + [("study", "side-by-side")]
+"""Figures whose marks are read one by one."""
+MARKS = """[...document.querySelectorAll('#{0} .drawing > svg title')].map(t => t.parentElement)
+  .filter(e => e.getClientRects().length)"""
+
+
+@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize(("side", "key"), TOLD)
+def test_marks_are_read_by_pointer_finger_and_keys(
+    browser: Browser, pages: dict[str, Path], side: str, key: str, width: int
+) -> None:
+    """Each way gives the title of the very mark, rings it alone, and moves nothing."""
+    browser.open(pages[side], width=width)
+    marks, out = MARKS.format(key), f"document.querySelector('#{key} .out').textContent"
+    rings = f"document.querySelectorAll('#{key} .ring').length"
+    titles = browser.evaluate(f"{marks}.map(e => e.querySelector('title').textContent)")
+    assert len(titles) > 3
+    assert all(re.search(r"[^:]+: .*\d", title) for title in titles)
+    before = browser.evaluate(HEIGHT)
+    browser.evaluate(f"document.querySelector('#{key} .drawing').focus()")
+    said = []
+    for pressed in ("Home", "ArrowRight", "End", "ArrowLeft"):
+        browser.press(pressed)
+        said.append(browser.evaluate(out))
+        assert browser.evaluate(rings) == 1
+    assert said == [titles[0], titles[1], titles[-1], titles[-2]]
+    browser.press("Escape")
+    assert (browser.evaluate(out), browser.evaluate(rings)) == ("", 0)
+    browser.evaluate(f"{marks}[3].scrollIntoView({{block: 'center'}})")
+    box = browser.evaluate(f"(r => [r.left, r.top, r.width, r.height])({marks}[3].getBoundingClientRect())")
+    browser.hover((box[0] + box[2] / 2, box[1] + box[3] / 2))
+    assert browser.evaluate(out) == titles[3]
+    assert browser.evaluate(HEIGHT) == before
+    for kind, x in (("pointerdown", box[0]), ("pointerleave", 0)):
+        event = f"{{bubbles: true, pointerType: 'touch', clientX: {x}, clientY: {box[1] + box[3] / 2}}}"
+        browser.evaluate(
+            f"document.querySelector('#{key} .drawing').dispatchEvent(new PointerEvent('{kind}', {event}))"
+        )
+    assert browser.evaluate(out) == titles[3], "a finger's reading stays"
+    assert browser.complaints() == []
+
+
+def test_marks_of_a_way_that_is_hidden_are_not_read(browser: Browser, pages: dict[str, Path]) -> None:
+    browser.open(pages["full"])
+    count = f"{MARKS.format('accuracy-cost')}.length"
+    every = browser.evaluate(count)
+    browser.evaluate("document.querySelector('#accuracy-cost .drawing').focus()")
+    browser.press("Home")
+    browser.evaluate("document.querySelector('#accuracy-cost input.kE').click()")
+    assert 0 < browser.evaluate(count) < every
+    assert browser.evaluate("document.querySelectorAll('#accuracy-cost .ring').length") == 0
+    assert browser.evaluate("document.querySelector('#accuracy-cost .out').textContent") == ""
+
+
 def test_sliders_move_value_error_and_curve(browser: Browser, pages: dict[str, Path]) -> None:
     """The value is that of the code in the page at the very amplitude, the error the grid's own, rounded up."""
     browser.open(pages["full"])

@@ -30,12 +30,13 @@ from ridgeback.reports.figures import benchmark as cost_figure
 from ridgeback.reports.figures import identification, in_time, noise, order_map
 from ridgeback.reports.figures.accuracy_cost import accuracy_cost, shown
 from ridgeback.reports.figures.answer import answer_figure
-from ridgeback.reports.figures.budget import _ruling
+from ridgeback.reports.figures.budget import _ruling, budget_figure
 from ridgeback.reports.figures.motion import motion
 from ridgeback.reports.figures.planes import planes, signed_plane
 from ridgeback.reports.figures.recordings.sample_fit import line_sentence
 from ridgeback.reports.parts import Section
 from ridgeback.reports.runs_sections import runs_sections
+from ridgeback.reports.text.tables import budget_table, contender_table
 from tests.reports import synthetic, synthetic_several
 
 
@@ -81,6 +82,26 @@ def test_below_the_floor_of_the_reference_is_shaded_only_where_it_is_in_sight(fo
     assert "two readings" in accuracy_cost(found, 1e-3).wide
     sharp = replace(found, reference=replace(found.reference, definition=0.0, numerical_error=0.0))
     assert "two readings" not in accuracy_cost(sharp, 1e-3).wide
+
+
+def test_below_the_floor_an_error_is_told_as_at_most_the_floor_everywhere(full: Report, found: Benchmark) -> None:
+    """What lies below 3 % is nowhere printed with digits of its own: labels, titles, tables, budget, readout."""
+    wide = replace(found.reference, definition=0.03)
+    assert full.decay is not None
+    blunt = replace(found, reference=wide)
+    table, budget = contender_table(blunt), budget_table(full.decay.budget, wide)
+    cells = [cell for row in table.rows for cell in row.cells[1:4]]
+    cells += [cell for row in budget.rows for cell in row.cells[4:]]
+    drawn, bars = in_time.in_time(blunt, full.decay), budget_figure(full.decay.budget, wide)
+    cells += re.findall(r"<title>[^<]*: ([^<,]*)", accuracy_cost(blunt, 1e-3).wide)
+    cells += re.findall(r'class="[est]" text-anchor="end">([^<]*%)<', drawn.wide + drawn.narrow + bars.wide)
+    cells += re.findall(r"total ([^<;]*)", bars.wide)
+    sizes = [float(cell.split()[0].strip("\u2007\u2008")) for cell in cells if re.match(r"\d[^×]* %", cell)]
+    assert len(cells) > 40
+    assert cells.count("≤ 3.0 %") > 10
+    assert [size for size in sizes if 0 < size < 3.0] == []
+    assert all("≤: under 3.0 %" in caption for caption in (table.caption, budget.caption, bars.caption))
+    assert drawn.data["least"] == 0.03
 
 
 def test_the_target_passes_behind_the_name_of_an_estimate(found: Benchmark) -> None:
