@@ -118,7 +118,8 @@ def told(row: Row, reference: Reference, cost_s: float) -> str:
     '21 terms of the paper’s series: ≤ 0.018 %, 3 ms a track'
     """
     cost = f", {about(cost_s)} a track" if math.isfinite(cost_s) else ""
-    return f"{capital(spoken(row))}: {at_most(row.relative_rms_error, reference, '≤ ')}{cost}"
+    compiled = {"c": " in C", "python": " in Python"}.get(row.language or "", "") if row.kind == "expansion" else ""
+    return f"{capital(spoken(row))}{compiled}: {at_most(row.relative_rms_error, reference, '≤ ')}{cost}"
 
 
 def plural(row: Row) -> bool:
