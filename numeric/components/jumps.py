@@ -16,6 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial.legendre import legfit, legval
 from numpy.typing import NDArray
 
 from ridgeback.numeric.arrays import Array, Mask
@@ -29,6 +30,8 @@ SMOOTH, BENT = (1, 2, 3, 4, 5), (1, 2, 3)
 """Degrees of the polynomials without and with a bend."""
 OFFSET = 5
 """Degree of the offset."""
+FEW = 2000
+"""Samples that polynomials are fitted to."""
 APART, BORDER, MOST, FINER = 1.5, 3.0, 96, 13
 """Cycles from one place that is tried to the next and that are left at the ends, how many places at most, and how many
 about the best of them."""
@@ -41,14 +44,15 @@ class Moments:
     """Sums of products of P, A and 1 times u^n from each place on, ``[3, 3, n, place]``, and with y ``[3, n, place]``.
 
     The places are the samples number ``first``, of which the first is 0; u is time from -1 to 1, ``square`` the sum of
-    y^2.
+    y^2.  For fits of each degree there is a y of its own, less the polynomials of that degree through phi and l: sums
+    of squares of many turns would lose the noise in their rounding.
     """
 
     first: NDArray[np.intp]
     place: Array
     pairs: Array
-    target: Array
-    square: float
+    target: dict[int, Array]
+    square: dict[int, float]
 
 
 def moments(model: SplineModel, left: Array, sound: Mask, first: NDArray[np.intp]) -> Moments:
@@ -57,7 +61,6 @@ def moments(model: SplineModel, left: Array, sound: Mask, first: NDArray[np.intp
     u, log = np.linspace(-1.0, 1.0, phase.size), np.log(np.maximum(size, np.finfo(float).tiny))
     P, A = -size * counts * np.sin(phase), size * counts * np.cos(phase)
     offset = model.samples(keep=lambda harmonic: harmonic == 0)
-    y = (left + offset) * counts + P * (phase - line(u, phase)) + A * (log - line(u, log))
     most, weights = 2 * max(SMOOTH) + 3, (P, A, counts)
 
     def sums(values: Array, count: int) -> Array:
@@ -68,12 +71,20 @@ def moments(model: SplineModel, left: Array, sound: Mask, first: NDArray[np.intp
         return np.array(rows)
 
     pairs = np.array([[sums(one * other, most) for other in weights] for one in weights])
-    return Moments(first, u[first], pairs, np.array([sums(one * y, max(SMOOTH) + 1) for one in weights]), float(y @ y))
+    target, square = dict[int, Array](), dict[int, float]()
+    turns, levels = polynomial_of(u, phase), polynomial_of(u, log)
+    for degree in SMOOTH:
+        y = (left + offset) * counts
+        y += P * (phase - legval(u, turns[: degree + 1])) + A * (log - legval(u, levels[: degree + 1]))
+        target[degree] = np.array([sums(one * y, max(degree, OFFSET) + 1) for one in weights])
+        square[degree] = float(y @ y)
+    return Moments(first, u[first], pairs, target, square)
 
 
-def line(u: Array, values: Array) -> Array:
-    """The straight line through the ends."""
-    return np.asarray(values[0] + (values[-1] - values[0]) * 0.5 * (u + 1.0))
+def polynomial_of(u: Array, values: Array) -> Array:
+    """Coefficients of Legendre's polynomials near values, of the highest degree that is tried."""
+    few = slice(None, None, max(1, u.size // FEW))
+    return np.asarray(legfit(u[few], values[few], max(SMOOTH)))
 
 
 def left_over(found: Moments, degree: int, bends: tuple[int, ...] = ()) -> Array:
@@ -83,7 +94,7 @@ def left_over(found: Moments, degree: int, bends: tuple[int, ...] = ()) -> Array
     """
     smooth = [(of, n) for of in (0, 1) for n in range(degree + 1)] + [(2, n) for n in range(OFFSET + 1)]
     of, power = np.array(smooth).T
-    u, pairs, target = found.place, found.pairs, found.target
+    u, pairs, target = found.place, found.pairs, found.target[degree]
     size, count = len(smooth), len(smooth) + len(bends)
     normal, right = np.empty((u.size, count, count)), np.empty((u.size, count))
     normal[:, :size, :size] = pairs[of[:, None], of, power[:, None] + power, 0]
@@ -98,7 +109,7 @@ def left_over(found: Moments, degree: int, bends: tuple[int, ...] = ()) -> Array
     scale = np.sqrt(np.maximum(np.einsum("pii->pi", normal), np.finfo(float).tiny))
     scaled, onto = normal / (scale[:, :, None] * scale[:, None, :]), right / scale
     inverse = np.linalg.pinv(scaled, rcond=1e-12, hermitian=True)
-    return np.asarray(np.maximum(0.0, found.square - np.einsum("pi,pij,pj->p", onto, inverse, onto)), dtype=float)
+    return np.asarray(np.maximum(0.0, found.square[degree] - np.einsum("pi,pij,pj->p", onto, inverse, onto)), dtype=float)
 
 
 def jump(models: SignalModels, left: Array, sound: Mask) -> str:

@@ -58,3 +58,17 @@ def test_moments_give_the_least_squares_of_the_columns_written_out() -> None:
         matrix = np.array([*smooth, weights[0] * bend, weights[1] * bend]).T
         off = y - matrix @ np.linalg.lstsq(matrix, y, rcond=None)[0]
         assert left_over(of, 3, (0, 1))[place] == pytest.approx(float(off @ off), rel=1e-6)
+
+
+@pytest.mark.parametrize("jumps", [0.0, 5e-4])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_many_turns_do_not_hide_the_noise_in_rounding(jumps: float, seed: int) -> None:
+    """A chirp of 800 cycles is smooth to every place, the first cycles too, and a small jump in it is seen."""
+    t = np.arange(10_000) / 1333.0
+    phase = 2 * np.pi * (100.0 * t + t**2 + 100.0 * jumps * np.maximum(t - 3.0, 0.0))
+    x = np.cos(phase) + 0.02 * np.random.default_rng(seed).normal(size=t.size)
+    guide = 2 * np.pi * (100.0 + 2.0 * t)
+    models = signal_models(x, 1333.0, guide, half=40, multiples=())
+    said = jump(models, x - models.best.samples(), np.ones(x.size, dtype=np.bool_))
+    assert bool(said) == bool(jumps)
+    assert not said or abs(float(said.split()[4]) - 3.0) < 0.1
