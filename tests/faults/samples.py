@@ -17,6 +17,7 @@ TEXTS: Mapping[str, str] = {
     "two.csv": decay(2, head="time_s,u,v"),
     "semicolon.csv": decay(head="time_s;u").replace(",", ";").replace(".", ","),
     "headless.csv": decay().split("\n", 1)[1],
+    "headless-values.csv": "\n".join(line.partition(",")[2] for line in decay(2).splitlines()[1:]) + "\n",
     "empty.csv": "",
     "blank.csv": "\n\n\n",
     "header.csv": "time_s,u\n",

@@ -203,7 +203,7 @@ def test_drift_is_named_and_removed_only_when_asked(tmp_path: Path) -> None:
     path = written(tmp_path / "a.csv", T, X + 0.05 * T)
     plain = read_recording(path)
     assert np.array_equal(plain.values, X + 0.05 * T)
-    assert any("local mean wanders" in note for note in plain.notes)
+    assert any("local mean wanders" in note for note in plain.drift_notes())
     for how in ("linear", "slow"):
         found = read_recording(path, detrend=how)
         inside = slice(100, -100)

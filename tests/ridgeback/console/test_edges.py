@@ -96,8 +96,9 @@ def test_a_browser_that_does_not_end(monkeypatch: pytest.MonkeyPatch, tmp_path: 
 
     monkeypatch.setattr(browser.shutil, "which", lambda name: f"/usr/bin/{name}")
     monkeypatch.setattr(subprocess, "run", hanging)
+    (tmp_path / "page.html").write_text("<head></head>", encoding="utf-8")
     with pytest.raises(OSError, match="did not print within"):
-        browser.print_to_pdf("page.html", str(tmp_path / "page.pdf"))
+        browser.print_to_pdf(str(tmp_path / "page.html"), str(tmp_path / "page.pdf"))
 
 
 def test_workers_that_are_missing_or_of_another_version() -> None:
