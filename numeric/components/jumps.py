@@ -109,7 +109,8 @@ def left_over(found: Moments, degree: int, bends: tuple[int, ...] = ()) -> Array
     scale = np.sqrt(np.maximum(np.einsum("pii->pi", normal), np.finfo(float).tiny))
     scaled, onto = normal / (scale[:, :, None] * scale[:, None, :]), right / scale
     inverse = np.linalg.pinv(scaled, rcond=1e-12, hermitian=True)
-    return np.asarray(np.maximum(0.0, found.square[degree] - np.einsum("pi,pij,pj->p", onto, inverse, onto)), dtype=float)
+    gained = np.einsum("pi,pij,pj->p", onto, inverse, onto)
+    return np.asarray(np.maximum(0.0, found.square[degree] - gained), dtype=float)
 
 
 def jump(models: SignalModels, left: Array, sound: Mask) -> str:
