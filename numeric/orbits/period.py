@@ -200,8 +200,8 @@ def mismatch(restoring: Restoring, low: Array, high: Array, inner: int) -> Array
     moves V by V' u, more than the 2 V of a harmonic well next to a wall.  An energy that is off by a share moves a
     turning point by E/|V' u| of that share, which is large where the force is nearly gone.
 
-    >>> mismatch(np.asarray, -np.ones(1), np.ones(1), 8)
-    array([0.])
+    >>> bool(mismatch(np.asarray, -np.ones(1), np.ones(1), 8)[0] < 1e-20)
+    True
     >>> bool(mismatch(np.tan, -np.array([1.57]), np.array([1.57]), 64)[0] > 1e-13)
     True
     """
