@@ -84,6 +84,8 @@ def fits_as(ready: Prepared, measured: Backbone, quantity: str, others: list[Mod
     assert ready.models is not None  # noqa: S101 - it is only asked for where there are
     x = ready.recording.values - ready.recording.values.mean()
     turned = replace(ready.recording, values=displaced(x, ready.models.best, quantity))
+    if measured.omega.size < 2:
+        return
     with suppress(InputError):
         data = prepare(turned, ready.track, kept=ready.kept, measured=behind(measured, ORDERS[quantity]))
         for model in others:

@@ -147,8 +147,9 @@ def jump(models: SignalModels, left: Array, sound: Mask) -> str:
         first = np.searchsorted(np.maximum.accumulate(best.phase - best.phase[0]), turned)
         found = moments(best, left, sound, np.unique(np.append(0, first)))
         scores = np.min([scored(found, best, d, (0, 1))[1:] for d in BENT], axis=0)
-        bent, at = float(scores.min()), float(best.time[found.first[1 + int(scores.argmin())]])
-        middle = float(turned[int(scores.argmin())]) / TWO_PI
+        place = found.first[1 + int(scores.argmin())]
+        bent, at = float(scores.min()), float(best.time[place])
+        middle = float(best.phase[place] - best.phase[0]) / TWO_PI
         ends = max(BORDER, middle - APART), min(models.cycles - BORDER, middle + APART)
         others += [float(scored(found, best, d, (1,))[1:].min()) for d in BENT]
     others += [float(scored(found, best, d, ())[0]) for d in SMOOTH]

@@ -270,9 +270,18 @@ def with_bends(given: Given, model: SplineModel, tones: tuple[Tone, ...], i: int
 
     phase, size = corrected_phase(left, given.rate, np.full(time.size, tone.omega))
     starts = (bent_start(time, phase, size, degree) for degree in DEGREES)
-    tried = [bent_tone(left, time, start, sound) for start in starts]
-    best = min(tried, key=judged)
+    tried = [bent for start in starts if (bent := bent_or_none(left, time, start, sound)) is not None]
+    best = min(tried, key=judged, default=tone)
     return best if judged(best) < judged(tone) - GAIN else tone
+
+
+def bent_or_none(left: Array, time: Array, start: Tone, sound: Array) -> Tone | None:
+    """The tone with bends that fits from a start; None where its exponent leaves the range of numbers."""
+    try:
+        with np.errstate(over="raise", invalid="raise"):
+            return bent_tone(left, time, start, sound)
+    except (FloatingPointError, np.linalg.LinAlgError):
+        return None
 
 
 def one_more(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> tuple[Tone, ...] | None:

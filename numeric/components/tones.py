@@ -23,6 +23,8 @@ STEADY = 3.0
 MOST_GROWTH = 40.0
 """Bound of g times the length of the record."""
 MOST_STEP = 0.5
+FAINT = 1e-3
+"""Share of the largest amplitude as which a smaller one counts where a polynomial is laid through phases."""
 MAINS = (50.0, 60.0)
 MAINS_WITHIN = 2e-3
 
@@ -164,7 +166,8 @@ def bent_start(time: Array, phase: Array, size: Array, degree: int) -> Tone:
     (9.0, -0.3, 2.0, 2.0)
     """
     span, log = float(time[-1]), np.log(np.maximum(size, 1e-6 * float(size.max())))
-    turn, fall = (np.polynomial.polynomial.polyfit(time / span, values, degree, w=size) for values in (phase, log))
+    weight = np.maximum(size, FAINT * float(size.max()))  # where there is none of it, too: the exponent must not rise
+    turn, fall = (np.polynomial.polynomial.polyfit(time / span, values, degree, w=weight) for values in (phase, log))
     bends = tuple(complex(re, im) for re, im in zip(fall[2:], turn[2:], strict=True))
     return Tone(float(turn[1]) / span, float(fall[1]) / span, complex(np.exp(fall[0] + 1j * turn[0])), bends, span)
 

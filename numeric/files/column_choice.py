@@ -150,12 +150,14 @@ def time_index(columns: Columns, wanted: str | int | None, rate: float | None) -
 def rises_evenly(columns: Columns) -> bool:
     """Whether the first of several columns without names rises in even steps, other than those of a count.
 
+    Not where lines above the numbers were left out, which may have said something else of them.
+
     >>> def two(step):
     ...     return Columns(("1", "2"), (9, 9), lambda i: step * np.arange(9.0), str, "run.csv")
     >>> rises_evenly(two(0.1)), rises_evenly(two(1.0)), rises_evenly(two(-0.1))
     (True, False, False)
     """
-    if len(columns.names) < 2 or columns.names != tuple(str(i + 1) for i in range(len(columns.names))):
+    if columns.note or len(columns.names) < 2 or columns.names != tuple(str(i + 1) for i in range(len(columns.names))):
         return False
     steps = np.diff(columns.values(0))
     usual = float(np.median(steps)) if steps.size and np.isfinite(steps).all() else 0.0

@@ -34,10 +34,14 @@ def summary(one: Measurement) -> list[str]:
 
 
 def track_lines(track: Track) -> list[str]:
-    """Frequency from the first valid time to the last, and the share of the samples for which it is claimed."""
+    """Frequency from the first valid time to the last, and the share of the samples for which it is claimed.
+
+    Where there are intervals it is their middle, the estimate less its bias.
+    """
     inside = track.inside()
     ends, share = (0, -1), float(track.valid.mean())
-    interval, f = inside.interval, inside.frequency_hz
+    interval = inside.interval
+    f = inside.frequency_hz if interval is None else (interval.low + interval.high) / (4 * np.pi)
     at = [f"{frequency(float(f[i]))} at t = {inside.time[i]:.6g}" for i in ends]
     lines = [f"frequency: {' to '.join(at)}"]
     if interval is not None:
@@ -104,7 +108,7 @@ def briefly(row: Mapping[str, Any]) -> dict[str, Any]:
     found: dict[str, Any] = {"time, s": row["time_s"]} if "time_s" in row else {}
     for title, value, deviation in (
         ("amplitude", row.get("amplitude"), row.get("amplitude_standard_deviation")),
-        ("frequency, Hz", row.get("frequency_hz"), frequency_deviation(row)),
+        ("frequency, Hz", *hertz_of(row)),
         ("a'/a, 1/s", row.get("growth_rate_per_s"), row.get("growth_rate_standard_deviation_per_s")),
         ("damping ratio", row.get("damping_ratio"), row.get("damping_ratio_standard_deviation")),
     ):
@@ -114,12 +118,18 @@ def briefly(row: Mapping[str, Any]) -> dict[str, Any]:
     return found | ({"valid": row["valid"]} if "valid" in row else {})
 
 
-def frequency_deviation(row: Mapping[str, Any]) -> float | None:
-    """One sigma of a row's frequency in Hz, the bias in it where the row has an interval; None where none is known."""
+def hertz_of(row: Mapping[str, Any]) -> tuple[float | None, float | None]:
+    """A row's frequency in Hz and one sigma of it: by its interval, which lies about the estimate less its bias.
+
+    >>> row = {"frequency_hz": 1.3, "low_95_rad_s": 2 * np.pi * 1.0, "high_95_rad_s": 2 * np.pi * 1.4}
+    >>> [round(value, 6) for value in hertz_of(row)], hertz_of({"frequency_hz": 1.3})
+    ([1.2, 0.102043], (1.3, None))
+    """
     if row.get("low_95_rad_s") is not None:
-        return float(row["high_95_rad_s"] - row["low_95_rad_s"]) / (2.0 * NORMAL_95) / (2.0 * np.pi)
+        low, high = (float(row[end]) / (2.0 * np.pi) for end in ("low_95_rad_s", "high_95_rad_s"))
+        return 0.5 * (low + high), (high - low) / (2.0 * NORMAL_95)
     known = row.get("omega_standard_deviation_rad_s", row.get("standard_deviation_rad_s"))
-    return None if known is None else float(known) / (2.0 * np.pi)
+    return row.get("frequency_hz"), None if known is None else float(known) / (2.0 * np.pi)
 
 
 def thinned(count: int) -> list[int]:

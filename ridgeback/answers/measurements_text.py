@@ -137,12 +137,11 @@ def one_text(one: Measurement, *, backbone: bool, every: bool = True) -> str:
     rows = rows_of(one, backbone=backbone)
     shown = rows if every else [briefly(rows[i]) for i in thinned(len(rows))]
     table = aligned(list(columns_of(shown)), shown) if rows else "no rows"
-    rest = (
-        "" if every else f"\n{len(shown)} of {len(rows)} rows, with one sigma; --all or -o FILE gives all that there is"
-    )
+    less = ", frequencies less their bias" if any(row.get("low_95_rad_s") is not None for row in rows) else ""
+    rest = f"\n{len(shown)} of {len(rows)} rows, with one sigma{less}; --all or -o FILE gives all that there is"
     notes = "".join(f"\n{note}" for note in (*one.notes, *misfit(one)))
     lines = "".join(f"\n{line}" for line in summary(one))
-    return f"{heading(one)}{notes}\n{lines}\n\n{table}{rest}\n\n{how(one)}\n"
+    return f"{heading(one)}{notes}\n{lines}\n\n{table}{'' if every else rest}\n\n{how(one)}\n"
 
 
 def common_text(common: Common) -> str:

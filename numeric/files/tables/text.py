@@ -223,7 +223,7 @@ def parse_table(text: str, *, source: str) -> TextTable:
     delimiter = given or find_delimiter(above if first else lines[0], lines[-1])
     check_quotes(lines.after(max(0, first - 2)), delimiter, source)
     heads = [cells_in(lines[at], delimiter) for at in range(max(0, first - 2), first)]
-    width = len(cells_in(lines[first], delimiter))
+    width = width_of(cells_in(lines[first], delimiter), heads)
     names, used = heading(heads, width)
     if not names and first == 0:
         names = commented(comment, delimiter, width)
@@ -235,8 +235,28 @@ def parse_table(text: str, *, source: str) -> TextTable:
         rows=rows,
         delimiter=delimiter,
         source=source,
-        note="" if skipped == 0 else f"{skipped} lines before the table were left out.",
+        note=left_out(skipped),
     )
+
+
+def width_of(cells: list[str], heads: list[list[str]]) -> int:
+    """How many columns the first row has: empty cells at its end that the header has not are none.
+
+    >>> width_of(["0", "1", ""], [["t", "u"]]), width_of(["0", "1", ""], [["t", "u", "v"]])
+    (2, 3)
+    """
+    filled = max((i for i, cell in enumerate(cells, start=1) if cell.strip()), default=0)
+    return max(filled, min(len(cells), len(heads[-1]))) if heads else len(cells)
+
+
+def left_out(lines: int) -> str:
+    """How many lines before the table, in words; empty for none.
+
+    >>> left_out(1), left_out(2)
+    ('1 line before the table was left out.', '2 lines before the table were left out.')
+    """
+    what = "line before the table was" if lines == 1 else "lines before the table were"
+    return f"{lines} {what} left out." if lines else ""
 
 
 def stated_delimiter(text: str) -> str:

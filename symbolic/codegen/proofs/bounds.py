@@ -80,18 +80,18 @@ def _over(function: Function, run: Run, real: Real) -> Bound:
         return _worst(function, [(low, high, run(arb(0)))], real)
     length = sum(_cost(statement) for statement in function.body) + 1
     budget = max(FEWEST, WORK // length)
-    boxes: list[tuple[float, Fraction, Fraction, Seen]] = []
+    boxes: list[tuple[float, Fraction, Fraction, Fraction, Seen]] = []
 
     def push(left: Fraction, right: Fraction) -> None:
         found = run(ball(left).union(ball(right)))
-        heapq.heappush(boxes, (-_size(found), left, right, found))
+        heapq.heappush(boxes, (-_size(found), left - right, left, right, found))
 
     count = min(16, max(6, budget // 2 * 2))
     for i in range(count):
         push(low + (high - low) * i / count, low + (high - low) * (i + 1) / count)
     done: list[Box] = []
     while boxes and budget > 0:
-        _, left, right, found = heapq.heappop(boxes)
+        _, _, left, right, found = heapq.heappop(boxes)
         middle = (left + right) / 2
         budget -= 3
         if found.whole.error.is_finite() and _near(found, run(ball(middle)), rest=left <= 0 <= right):
@@ -99,7 +99,7 @@ def _over(function: Function, run: Run, real: Real) -> Bound:
             continue
         push(left, middle)
         push(middle, right)
-    return _worst(function, [*done, *(box[1:] for box in boxes)], real)
+    return _worst(function, [*done, *(box[2:] for box in boxes)], real)
 
 
 def _cost(statement: Statement) -> int:
@@ -145,8 +145,10 @@ def _worst(function: Function, boxes: list[Box], real: Real) -> Bound:
         return Bound(None, absolute, None, before, size, zero=float(min(zeros, key=abs)))
     parts = [one for box in boxes for one in box[2].parts]
     relative, ulps = (max(map(upper, x)) for x in (map(_relative, parts), (in_last_places(p, real) for p in parts)))
-    held = any(len(box[2].parts) > 1 for box in boxes)
-    return Bound(relative, absolute, ulps, before, size, least=fraction(least(function, real)) if held else Fraction(0))
+    smallest = fraction(least(function, real)) if any(len(box[2].parts) > 1 for box in boxes) else Fraction(0)
+    if smallest >= max(box[1] for box in boxes):
+        return Bound(None, absolute, None, before, size, zero=0.0)
+    return Bound(relative, absolute, ulps, before, size, least=smallest)
 
 
 def in_last_places(one: Computed, real: Real) -> arb:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import Final, TypeAlias
@@ -177,7 +178,9 @@ def _at_amplitudes(
         bounds = [reading.to_dict(6)["error_bound"] for reading in certified_frequencies(oscillator, formula, places)]
     except InputError:
         return ()
-    pairs = [(upwards(Fraction(str(b))), f"{float(a):.10g}") for b, a in zip(bounds, places, strict=True)]
-    first, *rest = pairs
+    known = [(b, a) for b, a in zip(bounds, places, strict=True) if math.isfinite(float(str(b)))]
+    if not known:
+        return ()
+    first, *rest = [(upwards(Fraction(str(b))), f"{float(a):.10g}") for b, a in known]
     listed = ", ".join([f"{first[0]} at {formula.variable} = {first[1]}", *(f"{b} at {a}" for b, a in rest)])
     return (f"Certified relative error against the exact frequency: below {listed}.",)

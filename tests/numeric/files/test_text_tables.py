@@ -28,7 +28,20 @@ def test_a_row_with_more_cells_than_the_header_is_refused(text: str, said: str) 
 
 
 def test_empty_cells_at_the_end_of_a_row_are_none() -> None:
-    assert parse_table("t,u\n0,1,\n1,2,,\n", source="run.csv").column(1).tolist() == [1.0, 2.0]
+    found = parse_table("t,u\n0,1,\n1,2,,\n", source="run.csv")
+    assert found.names == ("t", "u")
+    assert found.column(1).tolist() == [1.0, 2.0]
+    with_tabs = parse_table("time_ms\tx\n0\t1.0\t\n10\t0.9\t\n", source="run.csv")
+    assert with_tabs.names == ("time_ms", "x")
+
+
+def test_times_are_not_guessed_below_lines_that_were_left_out(tmp_path: Path) -> None:
+    """What stands above the numbers may say that they are no seconds."""
+    path = tmp_path / "run.csv"
+    numbers = "".join(f"{10 * i}\t{np.cos(0.3 * i)}\t0\n" for i in range(200))
+    path.write_text(f"Serial 7\nMilliseconds\n{numbers}", encoding="utf-8")
+    with pytest.raises(InputError, match="has no time column among 1, 2, 3"):
+        read_recording(path)
 
 
 @pytest.mark.parametrize("cell", ["1_05", "1__0", "0x10", "1e5_0"])

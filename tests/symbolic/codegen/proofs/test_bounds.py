@@ -137,3 +137,11 @@ def test_a_wrong_constant_breaks_the_bound(tmp_path: Path) -> None:
     found = re.search(r"relative error is at most (\S+)", " ".join(source.split()))
     assert found is not None
     assert error > float(found[1])
+
+
+@pytest.mark.parametrize("end", [Fraction(10) ** 30, Fraction(1, 10**320)])
+def test_ranges_without_a_relative_bound_say_so(end: Fraction) -> None:
+    """Far beyond the radius nothing certifies the series; a slope smaller than any it is claimed for has no units."""
+    text = generate(lindstedt(find("duffing"), 12), "c", up_to=end)
+    assert "inf" not in re.findall(r"at most (\w+)", text)
+    assert end > 1 or "as the value may be 0 near A = 0" in " ".join(text.replace("//", "").split())
