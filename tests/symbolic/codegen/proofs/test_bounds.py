@@ -145,5 +145,5 @@ def test_ranges_without_a_relative_bound_say_so() -> None:
     text = generate(lindstedt(find("duffing"), 12), "c", up_to=Fraction(1, 10**320))
     assert "inf" not in re.findall(r"at most (\w+)", text)
     assert "as the value may be 0 near A = 0" in " ".join(text.replace("//", "").split())
-    with pytest.raises(InputError, match="may divide by zero, overflow .* give a shorter range"):
+    with pytest.raises(InputError, match=r"may divide by zero, overflow .* give a shorter range"):
         generate(lindstedt(find("duffing"), 12), "c", up_to=Fraction(10**30))
