@@ -2,109 +2,19 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
-from types import MappingProxyType
+from collections.abc import Sequence
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.numeric.files.column_names import is_date, is_time, name_and_units
 from ridgeback.numeric.files.columns import Columns
 
-TIME_NAMES = (
-    "time",
-    "t",
-    "time_s",
-    "t_s",
-    "times",
-    "seconds",
-    "sec",
-    "timestamp",
-    "time_sec",
-    "time_seconds",
-    "datetime",
-    "zeit",
-    "temps",
-    "tiempo",
-    "tempo",
-    "elapsed",
-    "elapsed time",
-    "relative time",
-    "rel. time",
-    "time stamp",
-    "x_value",
-)
-SECONDS: Mapping[str, float] = MappingProxyType(
-    {
-        **dict.fromkeys(("s", "sec", "second", "seconds"), 1.0),
-        **dict.fromkeys(("ms", "msec", "millisecond", "milliseconds"), 1e-3),
-        **dict.fromkeys(("us", "µs", "μs", "usec", "microsecond", "microseconds"), 1e-6),
-        **dict.fromkeys(("ns", "nanosecond", "nanoseconds"), 1e-9),
-        **dict.fromkeys(("min", "minute", "minutes"), 60.0),
-        **dict.fromkeys(("h", "hr", "hour", "hours"), 3600.0),
-        **dict.fromkeys(("d", "day", "days"), 86400.0),
-    }
-)
-"""Units of time and their lengths in seconds."""
-TAILS = tuple(unit for unit in SECONDS if unit.isascii())
-"""Units that may end a time column's name after an underscore."""
-HEADS = ("t", "time", "times", "zeit", "elapsed")
-BRACKETED = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]\s*")
-AFTER_A_SLASH = re.compile(r"(.*\S)\s+/\s*(\S+)\s*")
-DEGREES = ("deg", "degs", "degree", "degrees", "°", "grad")
-"""Units of angles of which 360 are a turn."""
 ALL = "all"
 EVEN = 0.02
 """Share of the usual step by which one may differ in a column without a name that is taken for the time."""
 SHOWN = 12
 """Column names that a message lists."""
-
-
-def name_and_units(header: str) -> tuple[str, str]:
-    """Split a header into its name and the unit at its end, in brackets or after a blank and a slash.
-
-    A number there is a place, not a unit.
-
-    >>> name_and_units("u [mm]"), name_and_units("time (s)"), name_and_units("velocity"), name_and_units("x[2]")
-    (('u', 'mm'), ('time', 's'), ('velocity', ''), ('x[2]', ''))
-    >>> name_and_units("Time /us"), name_and_units("run1/u")
-    (('Time', 'us'), ('run1/u', ''))
-    """
-    match = BRACKETED.fullmatch(header) or AFTER_A_SLASH.fullmatch(header)
-    return (match[1], match[2]) if match and not match[2].isdecimal() else (header, "")
-
-
-def short(name: str) -> str:
-    """What a column is called without its folder or structure and its unit, in small letters.
-
-    >>> short("run1/Time [s]"), short("data.t")
-    ('time', 't')
-    """
-    bare = name_and_units(name)[0].rpartition("/")[2]
-    return bare.rpartition(".")[2].strip().lower()
-
-
-def is_time(name: str) -> bool:
-    """Whether a column's name is that of a time.
-
-    >>> is_time("Time [ms]"), is_time("t_ms"), is_time("time_days"), is_time("temperature")
-    (True, True, True, False)
-    """
-    head, _, tail = short(name).rpartition("_")
-    return short(name) in TIME_NAMES or (head in HEADS and tail in TAILS)
-
-
-def time_unit(header: str) -> tuple[str, float]:
-    """The unit of a time column and its length in seconds; 1 for none stated and for one that is not known.
-
-    >>> time_unit("t [ms]"), time_unit("time_min"), time_unit("t"), time_unit("t [samples]")
-    (('ms', 0.001), ('min', 60.0), ('', 1.0), ('samples', 1.0))
-    """
-    unit = name_and_units(header)[1].strip()
-    tail = short(header).rpartition("_")[2]
-    if not unit and tail in TAILS:
-        unit = tail
-    return unit, SECONDS.get(unit.lower(), 1.0)
 
 
 def listed(columns: Columns, indices: Sequence[int] | None = None) -> str:
@@ -147,21 +57,35 @@ def time_index(columns: Columns, wanted: str | int | None, rate: float | None) -
     return None
 
 
+def unnamed(name: str, index: int) -> bool:
+    """Whether a column has its number for a name."""
+    return name == str(index + 1)
+
+
 def rises_evenly(columns: Columns) -> bool:
     """Whether the first of several columns without names rises in even steps, other than those of a count.
 
-    Not where lines above the numbers were left out, which may have said something else of them.
+    Not where lines above the numbers say something that was not understood: it may have been of them.
 
-    >>> def two(step):
-    ...     return Columns(("1", "2"), (9, 9), lambda i: step * np.arange(9.0), str, "run.csv")
-    >>> rises_evenly(two(0.1)), rises_evenly(two(1.0)), rises_evenly(two(-0.1))
-    (True, False, False)
+    >>> def two(step, **more):
+    ...     return Columns(("1", "2"), (9, 9), lambda i: step * np.arange(9.0), str, "run.csv", **more)
+    >>> rises_evenly(two(0.1)), rises_evenly(two(1.0)), rises_evenly(two(-0.1)), rises_evenly(two(0.1, hinted=True))
+    (True, False, False, False)
     """
-    if columns.note or len(columns.names) < 2 or columns.names != tuple(str(i + 1) for i in range(len(columns.names))):
+    if columns.hinted or len(columns.names) < 2 or not all(map(unnamed, columns.names, range(len(columns.names)))):
         return False
     steps = np.diff(columns.values(0))
     usual = float(np.median(steps)) if steps.size and np.isfinite(steps).all() else 0.0
     return usual > 0.0 and usual != 1.0 and bool((np.abs(steps - usual) <= EVEN * usual).all())
+
+
+def is_signal(name: str, index: int, *, beside: bool) -> bool:
+    """Whether a column's name is no mere number, nor that of a day where it stands ``beside`` a time.
+
+    >>> is_signal("u", 1, beside=True), is_signal("2", 1, beside=True), is_signal("Date", 1, beside=True)
+    (True, False, False)
+    """
+    return not unnamed(name, index) and not (beside and is_date(name))
 
 
 def signal_indices(
@@ -169,16 +93,19 @@ def signal_indices(
 ) -> tuple[int, ...]:
     """Indices of the signals: those asked for (a name, a number, several, or "all"), or the only one left.
 
-    ``taken`` are the columns of the time and the run.  Raises InputError for one that is not there or taken.
+    ``taken`` are the columns of the time and the run.  A day beside a time is no signal, nor a column without a name
+    among some that have one.  Raises InputError for one that is not there or taken.
     """
     clock = next((i for i in taken if i is not None), None)
     rows = None if clock is None else columns.sizes[clock]
     others = [i for i in range(len(columns.names)) if i not in taken and rows in (None, columns.sizes[i])]
+    if wanted is None or (wanted == ALL and ALL not in columns.names):
+        others = [i for i in others if is_signal(columns.names[i], i, beside=clock is not None)] or others
     if wanted is None:
         if len(others) == 1:
             return tuple(others)
         found = listed(columns, others) or "only the time column"
-        raise InputError(f'{columns.source}: say which column holds the signal; it has {found} (or "{ALL}")')
+        raise InputError(f"{columns.source}: say which column holds the signal by --column; it has {found} (or {ALL})")
     if wanted == ALL and ALL not in columns.names and others:
         return tuple(others)
     chosen = tuple(find_column(columns, word) for word in words(columns, wanted))

@@ -43,7 +43,8 @@ def first_line(error: BaseException) -> str:
 class Columns:
     """Named columns of a file, ``sizes`` rows each; ``rate`` is what the file itself states, else None.
 
-    ``values(i)`` gives the numbers of column i, missing ones as NaN; ``place(row)`` says where a row is.
+    ``values(i)`` gives the numbers of column i, missing ones as NaN; ``place(row)`` says where a row is.  ``hinted`` is
+    whether something stands above columns without names that may say what they are, and was not understood.
     """
 
     names: tuple[str, ...]
@@ -54,3 +55,4 @@ class Columns:
     rate: float | None = None
     units: str = ""
     note: str = ""
+    hinted: bool = False

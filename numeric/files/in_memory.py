@@ -13,7 +13,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.files.column_choice import is_time
+from ridgeback.numeric.files.column_names import is_time
 from ridgeback.numeric.files.columns import Columns
 
 Samples: TypeAlias = Any

@@ -15,8 +15,9 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.files.arrays import Stored, from_arrays, held
 from ridgeback.numeric.files.columns import DAMAGE, Columns, first_line
+from ridgeback.numeric.files.tables.numbers import AUTO
 
-Parsed = Callable[[str, str], Columns]
+Parsed = Callable[[str, str, str], Columns]
 END = re.compile(r"^\*\*\*End_of_Header\*\*\*.*$", re.MULTILINE)
 COMMA = re.compile(r"^Decimal_Separator[\t;]+,", re.MULTILINE)
 STEP, UNITS = "Delta_X", "Y_Unit_Label"
@@ -27,17 +28,19 @@ SAME = 1e-9
 """Relative difference below which two steps are one."""
 
 
-def of_lvm(parsed: Parsed, text: str, source: str) -> Columns:
+def of_lvm(parsed: Parsed, text: str, source: str, decimal: str) -> Columns:
     """Columns of the first segment of an LVM file: what no number stands in is no column, and Delta_X may be the step.
 
     Parameters
     ----------
     parsed : callable
-        Makes columns of a table in text.
+        Makes columns of a table in text, its name and the mark of its decimals.
     text : str
         The file.
     source : str
         Its name.
+    decimal : {"auto", ".", ","}
+        The mark of the decimals; the file's own header states it by default.
 
     Raises
     ------
@@ -46,13 +49,14 @@ def of_lvm(parsed: Parsed, text: str, source: str) -> Columns:
     """
     headers = list(END.finditer(text))
     if len(headers) < 2:
-        return parsed(text, source)
+        return parsed(text, source, decimal)
     begin, end = headers[1].end(), len(text) if len(headers) < 3 else headers[2].start()
     lines = text[begin:end].strip("\r\n").splitlines()
     if len(headers) > 2:
         lines = lines[: next((i for i, line in enumerate(lines) if not line.strip()), len(lines))]
-    table = parsed("\n".join(lines), source)
     header, comma = text[headers[0].end() : headers[1].start()], COMMA.search(text, 0, headers[0].start()) is not None
+    mark = decimal if decimal != AUTO else "," if comma else "."
+    table = replace(parsed("\n".join(lines), source, mark), note="")
     steps = stated(header, STEP, comma=comma)
     named = with_units(without_empty(table), stated(header, UNITS, comma=comma))
     return with_step(named, steps[0] if steps else None, len(headers) - 1)

@@ -14,17 +14,11 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.common.files import check_regular, read_regular
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.files.column_choice import (
-    SECONDS,
-    find_column,
-    is_time,
-    name_and_units,
-    signal_indices,
-    time_index,
-    time_unit,
-)
+from ridgeback.numeric.files.column_choice import find_column, signal_indices, time_index
+from ridgeback.numeric.files.column_names import SECONDS, is_time, name_and_units, time_unit
 from ridgeback.numeric.files.columns import FILE_BUDGET, Columns
-from ridgeback.numeric.files.readers import READERS
+from ridgeback.numeric.files.readers import SUFFIXES, columns_of_file
+from ridgeback.numeric.files.tables.numbers import stated_mark
 from ridgeback.numeric.recording.stretches import Rows
 from ridgeback.numeric.recording.uniform import MOST_SAMPLES
 from ridgeback.numeric.signal.samples import checked_rate
@@ -47,24 +41,34 @@ class Signal:
     sha256: str
 
 
-def signals(
-    file: Path, wanted: Wanted, time_column: str | int | None, rate: float | None, run: str | int | None, file_run: str
-) -> Iterator[Signal]:
+@dataclass(frozen=True)
+class Places:
+    """Where the samples, their times and runs are in a file, by names or numbers, and how its numbers are written."""
+
+    columns: Wanted = None
+    time_column: str | int | None = None
+    rate: float | None = None
+    run_column: str | int | None = None
+    decimal: str = "auto"
+
+
+def signals(file: Path, places: Places, file_run: str) -> Iterator[Signal]:
     """The channels and runs of one file, which is itself the run ``file_run`` when no column tells runs."""
     with suppress(FileNotFoundError):  # of which the suffix may be wrong, too
         check_regular(file)
-    reader = READERS.get(file.suffix.lower())
-    if reader is None:
-        raise InputError(f"{file.name}: the suffix {file.suffix!r} is unknown; use one of {', '.join(READERS)}")
+    suffix = file.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise InputError(f"{file.name}: the suffix {file.suffix!r} is unknown; use one of {', '.join(SUFFIXES)}")
     data = read_regular(file, FILE_BUDGET, "cut the recording into parts")
-    columns, digest = reader(data, file.name), hashlib.sha256(data).hexdigest()
+    columns = columns_of_file(data, suffix, file.name, stated_mark(places.decimal))
+    digest = hashlib.sha256(data).hexdigest()
     del data  # what columns need of it they hold
     columns = replace(columns, values=lru_cache(maxsize=2)(columns.values))  # the times, for channel after channel
-    clock = time_index(columns, time_column, rate)
-    if clock is not None and time_column is None and not is_time(columns.names[clock]):
+    clock = time_index(columns, places.time_column, places.rate)
+    if clock is not None and places.time_column is None and not is_time(columns.names[clock]):
         columns = replace(columns, note=f"{columns.note} {TAKEN}".strip())
-    by = None if run is None else find_column(columns, run)
-    for index in signal_indices(columns, wanted, (clock, by)):
+    by = None if places.run_column is None else find_column(columns, places.run_column)
+    for index in signal_indices(columns, places.columns, (clock, by)):
         if columns.sizes[index] > MOST_SAMPLES:
             raise InputError(
                 f"{file.name}, column {columns.names[index]} has {columns.sizes[index]} samples, over {MOST_SAMPLES}; "

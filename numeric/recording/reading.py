@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.recording.file_signals import Wanted, signals
+from ridgeback.numeric.recording.file_signals import Places, Wanted, signals
 from ridgeback.numeric.recording.recording import Recording, longest_of, recordings_of
 from ridgeback.numeric.recording.treatment import Treatment
 
@@ -22,6 +22,7 @@ def read_recording(
     detrend: str = "none",
     span: tuple[float, float] | None = None,
     unit: str = "",
+    decimal: str = "auto",
 ) -> Recording:
     r"""Read one signal from a CSV (.csv, .txt, .tsv, .dat), NPZ, NPY, WAV, MAT or HDF5 (.h5, .hdf5) file.
 
@@ -48,6 +49,8 @@ def read_recording(
         First and last time to keep, such as the free decay after a release.
     unit : str, optional
         Of the samples, in place of the one in the header; angles in degrees are converted to radians.
+    decimal : {"auto", "point", "comma", ".", ","}
+        The mark of the decimals in a table of text; by default what each column's cells prove.
 
     Returns
     -------
@@ -81,6 +84,7 @@ def read_recording(
         detrend=detrend,
         span=span,
         unit=unit,
+        decimal=decimal,
     )
     return longest_of(found)
 
@@ -97,6 +101,7 @@ def read_recordings(
     detrend: str = "none",
     span: tuple[float, float] | None = None,
     unit: str = "",
+    decimal: str = "auto",
 ) -> tuple[Recording, ...]:
     """Read every stretch of every channel of every run: of several files, or by the values of a ``run_column``.
 
@@ -124,6 +129,8 @@ def read_recordings(
         First and last time to keep, such as the free decay after a release.
     unit : str, optional
         Of the samples, in place of the one in the header; angles in degrees are converted to radians.
+    decimal : {"auto", "point", "comma", ".", ","}
+        The mark of the decimals in a table of text; by default what each column's cells prove.
 
     Returns
     -------
@@ -149,10 +156,11 @@ def read_recordings(
     treatment = Treatment(resample, fill, detrend, span, unit)
     files = [paths] if isinstance(paths, str | Path) else paths
     names = [Path(path).name for path in files]
+    places = Places(columns, time_column, rate, run_column, decimal)
     found: list[Recording] = []
     for path, name in zip(files, names, strict=True):
         run = "" if len(files) == 1 else name if names.count(name) == 1 else str(path)
-        for signal in signals(Path(path), columns, time_column, rate, run_column, run):
+        for signal in signals(Path(path), places, run):
             found.extend(recordings_of(signal, rate, treatment))
     if not found:
         raise InputError("no file is given; name at least one")

@@ -16,13 +16,8 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask, frozen, frozen_mask
-from ridgeback.numeric.files.column_choice import (
-    DEGREES,
-    is_time,
-    name_and_units,
-    signal_indices,
-    time_index,
-)
+from ridgeback.numeric.files.column_choice import signal_indices, time_index
+from ridgeback.numeric.files.column_names import DEGREES, is_time, name_and_units
 from ridgeback.numeric.files.in_memory import Samples, columns_of
 from ridgeback.numeric.recording.drift import said_of, wandering
 from ridgeback.numeric.recording.file_signals import Signal, Wanted, stamps

@@ -97,14 +97,32 @@ def stamped(
 
 def check_rising(samples: Stamped, columns: Columns) -> None:
     """Refuse times that repeat or go back."""
-    back = np.flatnonzero(np.diff(samples.time) <= 0.0)
+    steps = np.diff(samples.time)
+    back = np.flatnonzero(steps <= 0.0)
     if back.size:
         at = int(back[0]) + 1
         what = "repeats" if samples.time[at] == samples.time[at - 1] else "is before"
         raise InputError(
             f"{columns.source}, {columns.place(int(samples.row[at]))}: time {samples.time[at]:.9g} {what} the one "
-            f"above ({samples.time[at - 1]:.9g}); time stamps must increase"
+            f"above ({samples.time[at - 1]:.9g}); time stamps must increase: {remedy(steps)}"
         )
+
+
+def remedy(steps: Array) -> str:
+    """What helps against times that do not rise, by their steps.
+
+    >>> remedy(np.array([-1.0, -1.0])), remedy(np.array([1.0, -9.0, 1.0]))
+    ('turn the rows round', 'they begin again 1 time; number the runs in a column (--run-column), or cut the file')
+    >>> remedy(np.array([0.0, 0.1, 0.0]))
+    'where their clock is too coarse, --rate takes the place of --time-column'
+    """
+    if np.all(steps < 0.0):
+        return "turn the rows round"
+    restarts = int(np.count_nonzero(steps < 0.0))
+    if restarts:
+        times = f"{restarts} time{'s' * (restarts > 1)}"
+        return f"they begin again {times}; number the runs in a column (--run-column), or cut the file"
+    return "where their clock is too coarse, --rate takes the place of --time-column"
 
 
 def split(samples: Stamped, longest: float) -> tuple[list[Stamped], list[Gap]]:

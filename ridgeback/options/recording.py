@@ -51,6 +51,7 @@ class Reading:
     time_column: str | None = None
     rate: float | None = None
     run_column: str | None = None
+    decimal: str | None = None
     treatment: Treatment = field(default_factory=Treatment)
 
     def one(self, file: str) -> Recording:
@@ -58,8 +59,7 @@ class Reading:
         from ridgeback.numeric.recording.quantity import as_said
         from ridgeback.numeric.recording.reading import read_recording
 
-        where: dict[str, Any] = {"column": self.column, "time_column": self.time_column, "rate": self.rate}
-        return as_said(read_recording(file, **where, **self.treatment.given()), self.treatment.quantity)
+        return as_said(read_recording(file, column=self.column, **self.given()), self.treatment.quantity)
 
     def all(self, files: Sequence[str]) -> tuple[Recording, ...]:
         """Every stretch of every channel of every run."""
@@ -69,12 +69,15 @@ class Reading:
         found = read_recordings(
             files,
             columns=self.column,
-            time_column=self.time_column,
-            rate=self.rate,
             run_column=self.run_column,
-            **self.treatment.given(),
+            **self.given(),
         )
         return tuple(as_said(one, self.treatment.quantity) for one in found)
+
+    def given(self) -> dict[str, Any]:
+        """What was asked of the reader of any number of signals, by the names of its arguments."""
+        mark = {} if self.decimal is None else {"decimal": self.decimal}
+        return {"time_column": self.time_column, "rate": self.rate, **mark, **self.treatment.given()}
 
 
 def treatment_options(command: Command) -> Command:
@@ -107,14 +110,21 @@ def reading_options(command: Command) -> Command:
         time_column: str | None,
         rate: float | None,
         run_column: str | None,
+        decimal: str | None,
         treatment: Treatment,
         **rest: Any,
     ) -> None:
-        command(*args, reading=Reading(column, time_column, rate, run_column, treatment), **rest)
+        command(*args, reading=Reading(column, time_column, rate, run_column, decimal, treatment), **rest)
 
     return added(wrapped, PLACE_OPTIONS)
 
 
+decimal_option = click.option(
+    "--decimal",
+    type=click.Choice(("auto", "point", "comma", ".", ",")),
+    default=None,
+    help="The mark of the decimals in a table of text.  Default: auto, what each column's cells prove.",
+)
 PLACE_OPTIONS = (
     click.option(
         "--column",
@@ -127,6 +137,7 @@ PLACE_OPTIONS = (
         "--rate", type=POSITIVE, default=None, metavar="R", help="Samples per second, in place of a time column."
     ),
     click.option("--run-column", default=None, metavar="NAME", help="The column that numbers the runs."),
+    decimal_option,
 )
 TREATMENT_OPTIONS = (
     click.option(

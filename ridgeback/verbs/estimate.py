@@ -24,7 +24,7 @@ from ridgeback.options.unused import refuse_unused
 if TYPE_CHECKING:
     from ridgeback.compare.recording.measurements import Measurements
 
-OF_A_FILE = ("column", "time_column", "rate", "quantity", "span", "resample", "fill", "detrend", "unit")
+OF_A_FILE = ("column", "time_column", "rate", "decimal", "quantity", "span", "resample", "fill", "detrend", "unit")
 """Options that say where samples are and how they are treated."""
 
 

@@ -12,7 +12,7 @@ from ridgeback.console.output import json_text, write_text
 from ridgeback.console.tables import aligned, csv_text, readable
 from ridgeback.console.verb import Verb
 from ridgeback.options.arguments import POSITIVE
-from ridgeback.options.recording import Reading, Treatment, treatment_options
+from ridgeback.options.recording import Reading, Treatment, decimal_option, treatment_options
 from ridgeback.options.shared import format_option, output_option
 
 if TYPE_CHECKING:
@@ -37,6 +37,7 @@ def names(text: str | None) -> tuple[str, ...] | None:
 )
 @click.option("--time-column", default=None, metavar="NAME", help="The times.  Default: found by its name.")
 @click.option("--rate", type=POSITIVE, default=None, metavar="R", help="Samples per second, in place of a time column.")
+@decimal_option
 @treatment_options
 @click.option(
     "--candidates", default=None, metavar="NAME,...", help="Classes to try.  Default: all; a wrong name lists them."
@@ -61,6 +62,7 @@ def command(
     column: str | None,
     time_column: str | None,
     rate: float | None,
+    decimal: str | None,
     treatment: Treatment,
     candidates: str | None,
     damping: str | None,
@@ -81,7 +83,7 @@ def command(
     """
     from ridgeback.interface.identify import identify
 
-    recording = Reading(column, time_column, rate, treatment=treatment).one(file)
+    recording = Reading(column, time_column, rate, decimal=decimal, treatment=treatment).one(file)
     found = identify(
         recording,
         candidates=names(candidates),

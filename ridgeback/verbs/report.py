@@ -16,7 +16,7 @@ from ridgeback.console.failure import say
 from ridgeback.console.output import STDOUT, output_path, write_text
 from ridgeback.console.verb import Verb
 from ridgeback.options.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
-from ridgeback.options.recording import Reading, Treatment, treatment_options
+from ridgeback.options.recording import Reading, Treatment, decimal_option, treatment_options
 from ridgeback.options.shared import drift_option, format_option, refuse_twice, unique
 from ridgeback.options.study import STORE
 from ridgeback.options.system import Choice, choosing
@@ -61,6 +61,7 @@ class Source:
     column: str | None
     time_column: str | None
     run_column: str | None
+    decimal: str | None
     cycles: float | None
     treatment: Treatment
 
@@ -96,6 +97,7 @@ class Source:
 )
 @click.option("--time-column", default=None, metavar="NAME", help="The recording's times.")
 @click.option("--run-column", default=None, metavar="NAME", help="The column that numbers runs, all on one page.")
+@decimal_option
 @treatment_options
 @click.option(
     "--predict-from", type=POSITIVE, default=None, metavar="CYCLES", help="Predict the rest of a recording from these."
@@ -139,6 +141,7 @@ def command(
     column: str | None,
     time_column: str | None,
     run_column: str | None,
+    decimal: str | None,
     predict_from: float | None,
     treatment: Treatment,
     trials: int,
@@ -186,11 +189,11 @@ def command(
             report = of_drift(motion, unique(laws, "--drift"), shown, progress, timed=not no_timings)
         elif not recordings:
             places = {"--column": column, "--time-column": time_column, "--run-column": run_column}
-            treating = {f"--{name}": value for name, value in treatment.given().items()}
+            treating = {f"--{name}": value for name, value in {"decimal": decimal, **treatment.given()}.items()}
             refuse({**places, "--predict-from": predict_from, **treating}, "belongs to --recording FILE")
             report = of_motion(motion, scope, shown, progress)
         else:
-            source = Source(recordings, column, time_column, run_column, predict_from, treatment)
+            source = Source(recordings, column, time_column, run_column, decimal, predict_from, treatment)
             report = of_recordings(source, motion, scope, shown, progress)
     try:
         publish(report, output, style)
@@ -304,7 +307,9 @@ def of_recordings(source: Source, motion: Motion, scope: Scope, shown: str, prog
         raise click.UsageError("--set needs a SYSTEM whose parameters it sets; name one, or leave it out")
     if not motion.choice.made:
         refuse({"--title": motion.title}, "names a SYSTEM beside the recording")
-    reading = Reading(source.column, source.time_column, motion.rate, source.run_column, source.treatment)
+    reading = Reading(
+        source.column, source.time_column, motion.rate, source.run_column, source.decimal, source.treatment
+    )
     oscillator = entitled(motion.choice.oscillator(), motion.title) if motion.choice.made else None
     if len(source.files) > 1 or several(source.column) or source.run_column is not None:
         from ridgeback.compare.report.several.runs_report import runs_report

@@ -32,6 +32,8 @@ CASES: tuple[Case, ...] = (
     refused("estimate decay.csv --run-column nosuch", "decay.csv has no column nosuch", "it has time_s"),
     refused("estimate decay.csv --method guess", "'guess'", "use one of"),
     refused("estimate decay.csv --method ''", "method '' is unknown", "use one of"),
+    refused("estimate decay.csv --decimal colon", "'colon'", "is not one of"),
+    refused("estimate decay.csv --decimal comma", "decay.csv: commas separate its cells", "separate the cells by ;"),
     refused("estimate decay.csv --rate 0", "'0'", "give a positive"),
     refused("estimate decay.csv --rate -1", "'-1'", "give a positive"),
     refused("estimate decay.csv --rate nan", "'nan'", "write a decimal"),

@@ -31,9 +31,9 @@ class Lines:
 
     Examples
     --------
-    >>> lines, comment = lines_of("# t, u\n0,1\n\n1,2")
-    >>> list(lines), lines.number.tolist(), comment
-    (['0,1', '1,2'], [2, 4], '# t, u')
+    >>> lines, comments = lines_of("# t, u\n0,1\n\n1,2")
+    >>> list(lines), lines.number.tolist(), comments
+    (['0,1', '1,2'], [2, 4], ('# t, u',))
     """
 
     text: str
@@ -83,12 +83,13 @@ def with_line_feeds(text: str) -> str:
     return text
 
 
-def lines_of(text: str, *, skip: int = 0) -> tuple[Lines, str]:
-    """The lines that are neither empty nor a comment, after the first ``skip``; and the last comment above them.
+def lines_of(text: str, *, skip: int = 0) -> tuple[Lines, tuple[str, ...]]:
+    """The lines that are neither empty nor a comment, after the first ``skip``; and the comments above them.
 
     The text has line feeds at the ends of its lines.
     """
-    begins, numbers, comment = array("q"), array("i"), ""
+    begins, numbers = array("q"), array("i")
+    comments: list[str] = []
     begin, number, size, find = 0, 0, len(text), text.find
     while begin < size:
         end = find("\n", begin)
@@ -99,6 +100,6 @@ def lines_of(text: str, *, skip: int = 0) -> tuple[Lines, str]:
                 begins.append(begin)
                 numbers.append(number)
             elif not begins:
-                comment = line
+                comments.append(line)
         begin = end + 1
-    return Lines(text, np.array(begins, dtype=np.int64), np.array(numbers, dtype=np.int32)), comment
+    return Lines(text, np.array(begins, dtype=np.int64), np.array(numbers, dtype=np.int32)), tuple(comments)

@@ -1,209 +1,212 @@
 """A light reader of delimited number tables: delimiter found, header optional, every fault named by its line.
 
-A column is parsed when it is asked for, some thousands of lines at a time by numpy's own parser, and line by line where
-that finds a fault, which is then named.
+A column is parsed when it is asked for, some thousands of lines at a time by numpy's own parser, and cell by cell where
+that finds a fault, which is then named, or a number that only people read: with marks between thousands, a date.
 """
 
 from __future__ import annotations
 
-import codecs
-import csv
-from collections.abc import Callable, Iterable, Iterator, Sequence
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from datetime import datetime
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.files.tables.lines import COMMENTS, Lines, lines_of, with_line_feeds
+from ridgeback.numeric.files.tables.cells import (
+    BLANKS,
+    NEVER,
+    cells_in,
+    cells_of,
+    check_quotes,
+    check_widths,
+    find_delimiter,
+    is_there,
+    is_value,
+    last_row,
+    stated_delimiter,
+)
+from ridgeback.numeric.files.tables.heading import (
+    MOST_HEADS,
+    commented,
+    empty_columns,
+    heading,
+    left_out,
+    may_say_times,
+)
+from ridgeback.numeric.files.tables.lines import Lines, lines_of, with_line_feeds
+from ridgeback.numeric.files.tables.numbers import AUTO, COMMA, POINT, fits, is_missing, mark_in, number
+from ridgeback.numeric.files.tables.stamps import BadCellError, is_stamp, stamp_seconds
 
-DELIMITERS = (",", ";", "\t")
-BLANKS = " "
-MISSING = frozenset(["", "na", "n/a", "nan", "null", "none", "-"])
-"""Cells that say that there is no value; they are read as NaN."""
-TEXT_BUDGET = 300_000_000
-"""Bytes of text: at about 20 bytes a sample, some ten million of them."""
+GAPS = re.compile(r"\s{2,}")
+"""What separates the names above a table of blanks where they hold single ones."""
+BOM = "\ufeff"
+WORDS = {POINT: "point", COMMA: "comma"}
 
 
 @dataclass(frozen=True)
 class TextTable:
-    """Column names (numbers from 1 when there is no header), and the lines that are its rows."""
+    """Columns of a text.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Of the columns; numbers from 1 when there is no header.
+    places : tuple of int
+        Which cell of a row each of them is, from 0.
+    rows : Lines
+        The lines that are rows.
+    delimiter : str
+        What separates the cells.
+    decimal : str
+        The mark of the decimals: ``"."``, ``","``, or ``"auto"`` for what each column's cells prove.
+    source : str
+        The file's name.
+    note : str
+        What of the text was left out.
+    hinted : bool
+        Whether lines above numbers without names may say what they are.
+    """
 
     names: tuple[str, ...]
+    places: tuple[int, ...]
     rows: Lines
     delimiter: str
+    decimal: str
     source: str
     note: str = ""
+    hinted: bool = False
 
-    @property
-    def decimal_comma(self) -> bool:
-        """Whether a comma is a decimal point: it is when it separates no cells."""
-        return self.delimiter != ","
+    def holds(self, sign: str) -> bool:
+        """Whether a sign stands in the rows."""
+        return self.rows.text.find(sign, int(self.rows.begin[0])) >= 0
 
     def cells(self, index: int) -> Iterator[str]:
         """The cells of one column, one by one; empty where a row is too short."""
-        return (row[index] if index < len(row) else "" for row in cells_of(self.rows, self.delimiter))
+        return column_cells(self.rows, self.delimiter, self.places[index])
+
+    def mark(self, index: int) -> str:
+        """The mark of a column's decimals: stated, or proved by its cells, or by the other columns'.
+
+        Raises InputError where a comma may stand before decimals or between thousands.
+        """
+        if self.decimal != AUTO:
+            return self.decimal
+        if not self.holds('"' if self.delimiter == "," else ","):
+            return POINT
+        proved, doubtful = mark_in(self.cells(index))
+        if proved or not doubtful:
+            return proved or POINT
+        others = {mark_in(self.cells(i))[0] for i in range(len(self.names)) if i != index} - {""}
+        if len(others) == 1 and (COMMA in doubtful or others == {POINT}):
+            return others.pop()
+        if not others and COMMA not in doubtful:
+            return POINT
+        small, large = doubtful.replace(COMMA, POINT), doubtful.replace(COMMA, "").replace(POINT, "")
+        raise InputError(
+            f"{self.source}, column {self.names[index]}: {doubtful} may be {small} or {large}; "
+            "say by --decimal comma or --decimal point which mark is that of the decimals"
+        )
 
     def column(self, index: int) -> Array:
-        """The numbers of one column, NaN where a cell is MISSING; InputError at the first that is not a number.
+        """The numbers of one column, NaN where a cell is missing; InputError at the first that is not a number.
 
-        Dates with times of day (ISO 8601) become seconds since the first of them.
+        Dates with times of day, and times of day alone, become seconds since the first of them.
         """
-        first = next((cell for cell in self.cells(index) if cell.lower() not in MISSING), "")
-        read = since(first) if is_stamp(first) else (decimal_comma if self.decimal_comma else plain_number)
+        first = next((cell for cell in self.cells(index) if not is_missing(cell)), "")
+        if is_stamp(first):
+            return self.seconds(index)
+        mark, quoted, place = self.mark(index), self.holds('"'), self.places[index]
         values = np.empty(len(self.rows))
-        plain = not is_stamp(first) and '"' not in self.rows.text
         for begin, block in self.rows.blocks():
-            found = numbers_of(block, self.delimiter, index) if plain else None
+            found = numbers_of(block, self.delimiter, place, mark, quoted=quoted)
             part = values[begin : begin + len(block)]
-            part[:] = list(self.one_by_one(block, index, begin, read)) if found is None else found
+            part[:] = list(self.one_by_one(block, index, begin, mark)) if found is None else found
         return values
 
-    def one_by_one(self, block: list[str], index: int, begin: int, read: Callable[[str], float]) -> Iterator[float]:
+    def seconds(self, index: int) -> Array:
+        """A column of dates or times of day, in seconds since the first."""
+        cells = list(self.cells(index))
+        try:
+            return stamp_seconds(cells, f"{self.source}, column {self.names[index]}")
+        except BadCellError as wrong:
+            raise self.no_number(cells[wrong.at], wrong.at, index, "") from None
+
+    def one_by_one(self, block: list[str], index: int, begin: int, mark: str) -> Iterator[float]:
         """The numbers of one column of some rows, the first of which is row ``begin``."""
-        for at, row in enumerate(cells_of(block, self.delimiter), start=begin):
-            cell = row[index] if index < len(row) else ""
+        for at, cell in enumerate(column_cells(block, self.delimiter, self.places[index]), start=begin):
             try:
-                yield read(cell)
-            except (ValueError, TypeError):  # a stamp with a time zone among those without raises the latter
-                if cell.lower() not in MISSING:
-                    where = f"line {self.rows.number[at]}, column {self.names[index]}"
-                    raise InputError(f"{self.source}, {where}: {cell!r} is not a number") from None
+                yield number(cell, mark)
+            except ValueError:
+                if not is_missing(cell):
+                    raise self.no_number(cell, at, index, mark) from None
                 yield np.nan
 
+    def no_number(self, cell: str, at: int, index: int, mark: str) -> InputError:
+        """The error for a cell, with the mark under which it would be a number."""
+        other = next((m for m in WORDS if m != mark and fits(cell, m)), "") if mark else ""
+        hint = f" with a decimal {WORDS[mark]} (--decimal {WORDS[other]})" if other else ""
+        where = f"line {self.rows.number[at]}, column {self.names[index]}"
+        return InputError(f"{self.source}, {where}: {cell!r} is not a number{hint or '; a cell holds one, or nothing'}")
 
-def numbers_of(block: list[str], delimiter: str, index: int) -> Array | None:
-    """The numbers of one column of some rows without quotes; None where one of them is not there, or none.
 
-    >>> numbers_of(["0;1,5", "1;2,5"], ";", 1).tolist(), numbers_of(["0,1", "1,x"], ",", 1), numbers_of(["0"], ",", 1)
-    ([1.5, 2.5], None, None)
+def column_cells(rows: list[str] | Lines, delimiter: str, place: int) -> Iterator[str]:
+    """One cell of each row; empty where a row is too short."""
+    return (row[place] if place < len(row) else "" for row in cells_of(rows, delimiter))
+
+
+def numbers_of(block: list[str], delimiter: str, place: int, mark: str, *, quoted: bool = False) -> Array | None:
+    """The numbers of one column of some rows; None where one of them is not there, or none that numpy reads.
+
+    >>> numbers_of(["0;1,5", "1;2,5"], ";", 1, ",").tolist()
+    [1.5, 2.5]
+    >>> numbers_of(["0,1", "1,x"], ",", 1, "."), numbers_of(["0"], ",", 1, "."), numbers_of(["1.500"], ";", 0, ",")
+    (None, None, None)
     """
-    rows = block if delimiter == "," else [row.replace(",", ".") for row in block]
+    if mark == COMMA:
+        if delimiter == "," or any(POINT in row for row in block):
+            return None
+        block = [row.replace(COMMA, POINT) for row in block]
     between = None if delimiter == BLANKS else delimiter
     try:
-        found = np.loadtxt(rows, delimiter=between, usecols=index, comments=None, ndmin=1)
+        found = np.loadtxt(
+            block, delimiter=between, usecols=place, comments=None, ndmin=1, quotechar='"' if quoted else None
+        )
     except ValueError:
         return None
     return found if found.size == len(block) else None
 
 
-def plain_number(cell: str) -> float:
-    """A number as instruments write it; Python's own ``1_05`` is none of them.
-
-    >>> plain_number("1.05e-3")
-    0.00105
-    """
-    if "_" in cell:
-        raise ValueError(cell)
-    return float(cell)
-
-
-def decimal_comma(cell: str) -> float:
-    """A number whose decimal point may be a comma.
-
-    >>> decimal_comma("1,5")
-    1.5
-    """
-    return plain_number(cell.replace(",", "."))
-
-
-def is_stamp(cell: str) -> bool:
-    """Whether a cell is a date with a time of day.
-
-    >>> is_stamp("2026-11-22T10:00:00.125"), is_stamp("20261122"), is_stamp("1.5")
-    (True, False, False)
-    """
-    try:
-        datetime.fromisoformat(cell)
-    except ValueError:
-        return False
-    return ":" in cell
-
-
-def since(first: str) -> Callable[[str], float]:
-    """A reader of stamps as seconds since the first.
-
-    >>> since("2026-11-22 10:00:00")("2026-11-22 10:00:01.5")
-    1.5
-    """
-    start = datetime.fromisoformat(first)
-    return lambda cell: (datetime.fromisoformat(cell) - start).total_seconds()
-
-
-def cells_of(rows: Iterable[str], delimiter: str) -> Iterator[list[str]]:
-    """The cells of each row, without blanks round them.
-
-    >>> list(cells_of(["1  2 3 "], " "))
-    [['1', '2', '3']]
-    """
-    if delimiter == BLANKS:
-        return (row.split() for row in rows)
-    return ([cell.strip() for cell in row] for row in csv.reader(rows, delimiter=delimiter, strict=True))
-
-
-def is_number(cell: str) -> bool:
-    """Whether a cell reads as a number, with a decimal point or comma, or as a missing one.
-
-    >>> is_number("1e-3"), is_number("1,5"), is_number("time"), is_number("NaN")
-    (True, True, False, True)
-    """
-    try:
-        decimal_comma(cell)
-    except ValueError:
-        return cell.lower() in MISSING
-    return True
-
-
-def find_delimiter(line: str, last: str = "") -> str:
-    """The delimiter of a line: a tab or semicolon when there is one (commas are then decimal), else a comma.
-
-    Blanks separate the cells when the table's ``last`` line holds several numbers and no other delimiter.
-
-    >>> find_delimiter("1,5;2,5"), find_delimiter("t,u"), find_delimiter("t u", "0.5 2.5")
-    (';', ',', ' ')
-    """
-    words = last.split()
-    if len(words) > 1 and not any(d in line + last for d in DELIMITERS) and all(map(is_number, words)):
-        return BLANKS
-    return max(DELIMITERS, key=lambda d: (line.count(d) > 0, DELIMITERS.index(d)))
-
-
-def decoded(data: bytes, source: str) -> tuple[str, str]:
-    r"""Text in UTF-8 or UTF-16, else in Windows' or ISO's Latin alphabet, and a note where that was supposed.
-
-    >>> decoded("t;u".encode("utf-16"), "run.csv"), decoded(b"\xb5m", "run.csv")[0]
-    (('t;u', ''), 'µm')
-    """
-    if data[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
-        return readable(data, "utf-16", source), ""
-    if data[1:2] == b"\0" or data[:1] == b"\0":
-        return readable(data, "utf-16-le" if data[1:2] == b"\0" else "utf-16-be", source), ""
-    try:
-        return data.decode("utf-8-sig"), ""
-    except UnicodeDecodeError as error:
-        if b"\0" in data[:10_000]:
-            raise InputError(f"{source}: byte {error.start} is not UTF-8 text; save the table as UTF-8") from None
-    return data.decode("cp1252", "replace"), "The text is not UTF-8; it was read in the Latin alphabet of Windows-1252."
-
-
-def readable(data: bytes, encoding: str, source: str) -> str:
-    """Text in a known encoding; InputError for what is none."""
-    try:
-        return data.decode(encoding)
-    except UnicodeDecodeError as error:
-        raise InputError(f"{source}: byte {error.start} is not {encoding} text; save the table as UTF-8") from None
-
-
-def parse_table(text: str, *, source: str) -> TextTable:
+def parse_table(text: str, *, source: str, decimal: str = AUTO) -> TextTable:
     r"""Split delimited text into a table.
 
     Rows of numbers begin where a line and the last one have as many numbers.  The line above them names the columns,
     and one more between them may hold their units; what stands before, as the preamble of an instrument, is left out,
-    and so are empty lines and comments, which begin with # or % (the last one above the table may name the columns).
-    A first line "sep=;" says what separates the cells.
-    Raises InputError when there is no row of numbers.
+    and so are empty lines, columns without a cell, and comments, which begin with # or % (the last one above the table
+    may name the columns).  A first line "sep=;" says what separates the cells.
 
+    Parameters
+    ----------
+    text : str
+        The table; a byte order mark before it is none of it.
+    source : str
+        What it is called in messages.
+    decimal : {"auto", ".", ","}
+        The mark of the decimals; each column's cells prove it by default.
+
+    Returns
+    -------
+    TextTable
+        Its columns, parsed when they are asked for.
+
+    Raises
+    ------
+    InputError
+        When there is no row of numbers.
+
+    Examples
+    --------
     >>> table = parse_table("t_s,u\n0,1.5\n0.5,2.5\n", source="run.csv")
     >>> table.names, table.column(1).tolist()
     (('t_s', 'u'), [1.5, 2.5])
@@ -211,157 +214,135 @@ def parse_table(text: str, *, source: str) -> TextTable:
     >>> table.names, table.column(1).tolist()
     (('Zeit [ms]', 'u [mm]'), [1.5, 2.5])
     """
-    text = with_line_feeds(text)
+    text = with_line_feeds(text.removeprefix(BOM))
     given = stated_delimiter(text)
-    lines, comment = lines_of(text, skip=1 if given else 0)
+    lines, comments = lines_of(text, skip=1 if given else 0)
     if not len(lines):
         raise InputError(f"{source} holds no data; a table needs rows of numbers")
-    first = first_numbers(lines, given)
+    row = last_row(lines)
+    delimiter = given or find_delimiter(row, lines[0])
+    if decimal == COMMA and delimiter == ",":
+        delimiter = with_decimal_commas(lines, row, source)
+    beside = beside_remarks(lines, delimiter, row)
+    first = 0 if beside else first_numbers(lines, delimiter, row)
     if first == len(lines):
         raise InputError(f"{source} holds no row of numbers below its header")
-    above = lines[first - 1] if first else lines[first]
-    delimiter = given or find_delimiter(above if first else lines[0], lines[-1])
-    check_quotes(lines.after(max(0, first - 2)), delimiter, source)
-    heads = [cells_in(lines[at], delimiter) for at in range(max(0, first - 2), first)]
-    width = width_of(cells_in(lines[first], delimiter), heads)
-    names, used = heading(heads, width)
-    if not names and first == 0:
-        names = commented(comment, delimiter, width)
+    check_quotes(lines.after(max(0, first - MOST_HEADS)), delimiter, source)
+    heads = [cells_in(lines[at], delimiter) for at in range(max(0, first - MOST_HEADS), first)]
     rows = lines.after(first)
-    check_widths(rows, max(len(names), width) if names else width, delimiter, source)
-    skipped = first - used
+    if decimal == AUTO and delimiter == ",":
+        check_halves(heads, cells_in(row, delimiter), source)
+    width = max(len(cells_in(rows[0], delimiter)), len(heads[-1]) if heads else 0)
+    places = beside or filled(rows, delimiter, width)
+    if delimiter == BLANKS:
+        heads, places = spaced(heads, lines[first - 1], len(cells_in(rows[0], delimiter)))
+    names, used = heading(heads, places)
+    names = names or (commented(comments, delimiter, len(places)) if first == 0 else ())
+    check_widths(rows, max(max(places) + 1, len(heads[-1]) if names and heads else 0), delimiter, source)
+    gone = [name for i, name in enumerate(heads[-used]) if i not in places] if used else []
     return TextTable(
-        names=names or tuple(str(i + 1) for i in range(width)),
+        names=numbered(names) or tuple(str(i + 1) for i in range(len(places))),
+        places=places,
         rows=rows,
         delimiter=delimiter,
+        decimal=decimal,
         source=source,
-        note=left_out(skipped),
+        note=" ".join(part for part in (left_out(first - used), empty_columns(gone)) if part),
+        hinted=not names and (first > used or may_say_times(comments)),
     )
 
 
-def width_of(cells: list[str], heads: list[list[str]]) -> int:
-    """How many columns the first row has: empty cells at its end that the header has not are none.
+def spaced(heads: list[list[str]], above: str, width: int) -> tuple[list[list[str]], tuple[int, ...]]:
+    """The lines above a table of blanks, whose names may hold single ones, and its columns; no names that do not fit.
 
-    >>> width_of(["0", "1", ""], [["t", "u"]]), width_of(["0", "1", ""], [["t", "u", "v"]])
-    (2, 3)
+    >>> spaced([["time", "since", "start", "u"]], "time since start   u", 2)
+    ([['time since start', 'u']], (0, 1))
     """
-    filled = max((i for i, cell in enumerate(cells, start=1) if cell.strip()), default=0)
-    return max(filled, min(len(cells), len(heads[-1]))) if heads else len(cells)
+    wide = GAPS.split(above.strip())
+    fitting = heads if heads and len(heads[-1]) == width else [wide] if heads and len(wide) == width else []
+    return fitting, tuple(range(width))
 
 
-def left_out(lines: int) -> str:
-    """How many lines before the table, in words; empty for none.
+def numbered(names: Sequence[str]) -> tuple[str, ...]:
+    """The names, each column without one by its number.
 
-    >>> left_out(1), left_out(2)
-    ('1 line before the table was left out.', '2 lines before the table were left out.')
+    >>> numbered(("", "t", "u"))
+    ('1', 't', 'u')
     """
-    what = "line before the table was" if lines == 1 else "lines before the table were"
-    return f"{lines} {what} left out." if lines else ""
+    return tuple(name or str(i) for i, name in enumerate(names, start=1))
 
 
-def stated_delimiter(text: str) -> str:
-    r"""What a first line "sep=;" says, else nothing.
+def with_decimal_commas(lines: Lines, row: str, source: str) -> str:
+    """The delimiter of a table without another than the comma, the mark of its decimals: of quoted cells, or of none.
 
-    >>> stated_delimiter("sep=;\n1;2"), stated_delimiter("1;2")
-    (';', '')
+    Raises InputError where commas separate the cells, too.
     """
-    line = text[: len("sep=;\n")].partition("\n")[0]
-    return line[-1] if line.lower().startswith("sep=") and len(line) == len("sep=;") else ""
+    if '"' in row:
+        return ","
+    if len(cells_in(lines[0], ",")) > 1 and not fits(lines[0].strip(), COMMA):
+        raise InputError(
+            f"{source}: commas separate its cells, and are its decimal marks; separate the cells by ;, or quote them"
+        )
+    return NEVER
 
 
-def first_numbers(lines: Sequence[str] | Lines, given: str) -> int:
-    """The first line of numbers, several where the last one has several; the second line where there is none.
+def check_halves(heads: Sequence[Sequence[str]], row: Sequence[str], source: str) -> None:
+    """Refuse rows with two whole numbers for each name above them: the comma is more likely the decimal mark."""
+    if not heads or any(map(is_value, heads[-1])) or len(row) != 2 * len(heads[-1]):
+        return
+    if all(cell.lstrip("+-").isdecimal() for cell in row):
+        remedy = "say --decimal comma, or point" if len(row) == 2 else "then separate the cells by ;"
+        raise InputError(
+            f"{source}: the header names {len(heads[-1])} column{'s' * (len(row) > 2)}, the rows have "
+            f"{len(row)} cells; is the comma the decimal mark (--decimal)? {remedy}"
+        )
+
+
+def beside_remarks(lines: Lines, delimiter: str, row: str) -> tuple[int, ...]:
+    """The cells that hold the samples where they begin in the first line, beside an instrument's remarks; else none.
+
+    As oscilloscopes write them: "Record Length,2500,,0.000,1.25", and further down ",,,0.040,1.31".
+    """
+    head, last = cells_in(lines[0], delimiter), cells_in(row, delimiter)
+    there = tuple(i for i, cell in enumerate(last) if cell)
+    if not there or len(head) != len(last) or not all(is_there(head[i]) for i in there):
+        return ()
+    others = [head[i] for i in range(len(head)) if i not in there]
+    return there if any(cell and not is_value(cell) for cell in others) else ()
+
+
+def filled(rows: Lines, delimiter: str, width: int) -> tuple[int, ...]:
+    """The columns in which something stands; all of them where it does in one at most."""
+    some = [cells_in(rows[at], delimiter) for at in (0, len(rows) // 2, -1)]
+    found = tuple(
+        i
+        for i in range(width)
+        if any(i < len(cells) and cells[i] for cells in some) or any(column_cells(rows, delimiter, i))
+    )
+    return found if len(found) > 1 else tuple(range(width))
+
+
+def first_numbers(lines: Sequence[str] | Lines, delimiter: str, row: str) -> int:
+    """The first line of numbers, several where the last row has several; the second line where there is none.
 
     A line beside the first that holds a number, and as many cells, is a row of the table, however wrong.
 
-    >>> first_numbers(("made by X", "t,u", "0,1", "1,2"), ""), first_numbers(("t,u", "0,x", "1,2"), "")
+    >>> first_numbers(("made by X", "t,u", "0,1", "1,2"), ",", "1,2"), first_numbers(("t,u", "0,x", "1,2"), ",", "1,2")
     (2, 1)
     """
-    delimiter = given or find_delimiter(lines[-1], lines[-1])
-    several = len(cells_in(lines[-1], delimiter)) > 1
+    several = len(cells_in(row, delimiter)) > 1
     for at, line in enumerate(lines):
         cells = cells_in(line, delimiter)
         if (len(cells) > 1) == several and all(map(is_value, cells)) and any(map(is_there, cells)):
-            return after_wrong_rows(lines, at, delimiter, len(cells))
+            return after_wrong_rows(lines, at, delimiter, cells)
     return 1
 
 
-def after_wrong_rows(lines: Sequence[str] | Lines, at: int, delimiter: str, width: int) -> int:
-    """The first of the rows up to ``at`` that hold a number beside something else, the first line left out."""
+def after_wrong_rows(lines: Sequence[str] | Lines, at: int, delimiter: str, below: list[str]) -> int:
+    """The first of the rows up to ``at`` that hold a number where the row below has one, the first line left out."""
     while at > 1:
         cells = cells_in(lines[at - 1], delimiter)
-        if len(cells) != width or not any(is_value(cell) and is_there(cell) for cell in cells):
+        if len(cells) != len(below) or not any(is_there(a) and is_there(b) for a, b in zip(cells, below, strict=True)):
             return at
-        at -= 1
+        at, below = at - 1, cells
     return at
-
-
-def is_there(cell: str) -> bool:
-    """Whether a cell does not say that there is no value."""
-    return cell.lower() not in MISSING
-
-
-def cells_in(line: str, delimiter: str) -> list[str]:
-    """The cells of one line; the whole line where its quotes are broken."""
-    try:
-        return next(cells_of([line], delimiter), [])
-    except csv.Error:
-        return [line]
-
-
-def is_value(cell: str) -> bool:
-    """Whether a cell is a number, a missing one or a stamp."""
-    return is_number(cell) or is_stamp(cell)
-
-
-def heading(heads: list[list[str]], width: int) -> tuple[tuple[str, ...], int]:
-    """The names of the columns from the lines above the numbers, with their units, and how many of the lines they are.
-
-    >>> heading([["made by X"], ["t", "u"]], 2), heading([["t", "u"], ["s", "mm"]], 2), heading([["X"]], 2)
-    ((('t', 'u'), 1), (('t [s]', 'u [mm]'), 2), ((), 0))
-    """
-    if not heads or len(heads[-1]) < width:
-        return (), 0
-    last = heads[-1]
-    two = len(heads) == 2 and len(heads[0]) == len(last) and not any(is_value(c) and c for c in (*heads[0], *last))
-    if not two:
-        return tuple(last), 1
-    units = [cell.strip().strip("[]()") for cell in last]
-    return tuple(f"{name} [{unit}]" if unit else name for name, unit in zip(heads[0], units, strict=True)), 2
-
-
-def commented(comment: str, delimiter: str, width: int) -> tuple[str, ...]:
-    """The names of the columns from the last comment above the numbers, where it has as many words.
-
-    >>> commented("% t, u", ",", 2)
-    ('t', 'u')
-    """
-    cells = cells_in(comment.lstrip("".join(COMMENTS)).strip(), delimiter)
-    return tuple(cells) if len(cells) == width and not any(map(is_value, cells)) else ()
-
-
-def check_widths(rows: Lines, width: int, delimiter: str, source: str) -> None:
-    """Refuse a row with more cells than the first; empty ones at its end are no cells."""
-    between = None if delimiter == BLANKS else delimiter
-    quoted = '"' in rows.text
-    for begin, block in rows.blocks():
-        for at, line in enumerate(block, start=begin):
-            if not quoted and between is not None and line.count(between) < width:
-                continue
-            cells = cells_in(line, delimiter)
-            if len(cells) > width and any(cells[width:]):
-                hint = "; is a comma a decimal point there? then separate the cells by ;" if delimiter == "," else ""
-                number = rows.number[at]
-                raise InputError(f"{source}, line {number} has {len(cells)} cells, the first row {width}{hint}")
-
-
-def check_quotes(lines: Lines, delimiter: str, source: str) -> None:
-    """Refuse what the csv reader cannot read row by row: broken quotes, cells over several lines, or without end."""
-    if '"' not in lines.text and lines.longest < csv.field_size_limit():
-        return
-    try:
-        count = sum(1 for _ in cells_of(lines, delimiter))
-    except csv.Error as error:
-        raise InputError(f"{source} is not a readable table: {error}") from None
-    if count != len(lines):
-        raise InputError(f"{source} has a quoted cell that runs over several lines; write one row per line")

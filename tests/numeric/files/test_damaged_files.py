@@ -18,7 +18,7 @@ from scipy.io import loadmat, savemat, wavfile
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.files import level4, level5
 from ridgeback.numeric.files.matlab import from_mat
-from ridgeback.numeric.files.readers import READERS
+from ridgeback.numeric.files.readers import columns_of_file
 
 h5py = pytest.importorskip("h5py")
 
@@ -105,14 +105,14 @@ def test_a_damaged_file_is_read_or_refused_in_one_line(name: str) -> None:
     suffix, refused = name[name.rindex(".") :], list[str]()
     for content in damaged(WHOLE[name], seed=zlib.crc32(name.encode())):
         try:
-            columns = READERS[suffix](content, name)
+            columns = columns_of_file(content, suffix, name)
             for index in range(len(columns.names)):
                 columns.values(index)
         except InputError as error:
             refused.append(str(error))
     assert len(refused) > ROUNDS // 20
     assert all(message.startswith(name) and "\n" not in message for message in refused)
-    READERS[suffix](WHOLE[name], name)
+    columns_of_file(WHOLE[name], suffix, name)
 
 
 def changed(whole: bytes, place: int, form: str, value: int) -> bytes:
@@ -183,7 +183,7 @@ WIDTH_4 = element(5, struct.pack("<i", 4))
 def test_the_place_of_the_damage_is_named(name: str, content: bytes, said: str) -> None:
     suffix = name[-4:]
     with pytest.raises(InputError) as caught:
-        READERS[suffix](content, name)
+        columns_of_file(content, suffix, name)
     assert said in str(caught.value)
 
 
@@ -200,7 +200,7 @@ def test_what_is_beside_the_numbers_is_passed_over() -> None:
     assert np.array_equal(np.ravel(complex_one.load()), U + 2j * U)
     newer = io.BytesIO()
     np.lib.format.write_array(newer, U, version=(2, 0))
-    assert np.array_equal(READERS[".npy"](newer.getvalue(), "a.npy").values(0), U)
+    assert np.array_equal(columns_of_file(newer.getvalue(), ".npy", "a.npy").values(0), U)
 
 
 NUMBERS = st.sampled_from(["f8", "f4", "i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "?", "c16"])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.files.readers import READERS
+from ridgeback.numeric.files.readers import columns_of_file
 
 U = np.cos(0.4 * np.arange(60))
 HEADER = """LabVIEW Measurement\t
@@ -32,7 +32,7 @@ def lvm(*, timed: bool) -> bytes:
 
 @pytest.mark.parametrize("timed", [True, False])
 def test_an_lvm_file_has_no_empty_column_and_a_rate(timed: bool) -> None:
-    found = READERS[".lvm"](lvm(timed=timed), "run.lvm")
+    found = columns_of_file(lvm(timed=timed), ".lvm", "run.lvm")
     assert found.names == (("X_Value", "Voltage") if timed else ("Voltage",))
     assert found.rate == (None if timed else pytest.approx(50.0))
     assert np.allclose(found.values(len(found.names) - 1), U, atol=1e-6)
@@ -43,7 +43,7 @@ def test_a_step_with_a_decimal_comma_and_the_units_of_the_channels_are_read(sepa
     text = HEADER.format(columns="No").replace("Separator\tTab", "Separator\tTab\nDecimal_Separator\t,")
     text = text.replace("X0\t0.0\t", "Y_Unit_Label\tmm\t\nX0\t0,0\t").replace("0.02", "0,02")
     text += "\n".join(f"\t{u:.6f}\t".replace(".", ",") for u in U.tolist())
-    found = READERS[".lvm"](text.replace("\t", separator).encode(), "run.lvm")
+    found = columns_of_file(text.replace("\t", separator).encode(), ".lvm", "run.lvm")
     assert found.names == ("Voltage [mm]",)
     assert found.rate == pytest.approx(50.0)
     assert np.allclose(found.values(0), U, atol=1e-6)
@@ -52,7 +52,7 @@ def test_a_step_with_a_decimal_comma_and_the_units_of_the_channels_are_read(sepa
 def test_the_first_of_several_segments_is_read_and_said() -> None:
     second = HEADER.split("***End_of_Header***\t\n\t\n")[1]
     text = lvm(timed=True).decode() + "\n\t\n" + second + "0\t9.0\t\n0.02\t9.5\t\n"
-    found = READERS[".lvm"](text.encode(), "run.lvm")
+    found = columns_of_file(text.encode(), ".lvm", "run.lvm")
     assert found.sizes == (60, 60)
     assert "first of 2 segments" in found.note
 
@@ -64,7 +64,7 @@ def test_a_tdms_file_states_step_and_unit() -> None:
         writer.write_segment(
             [nptdms.ChannelObject("rig", "u", U, properties={"wf_increment": 0.02, "unit_string": "mm"})]
         )
-    found = READERS[".tdms"](stream.getvalue(), "run.tdms")
+    found = columns_of_file(stream.getvalue(), ".tdms", "run.tdms")
     assert found.names == ("u [mm]",)
     assert found.rate == pytest.approx(50.0)
     assert np.array_equal(found.values(0), U)
@@ -73,4 +73,4 @@ def test_a_tdms_file_states_step_and_unit() -> None:
 def test_what_is_no_tdms_file_is_refused_in_a_line() -> None:
     pytest.importorskip("nptdms")
     with pytest.raises(InputError, match=r"run\.tdms is not a readable TDMS file"):
-        READERS[".tdms"](b"none of it", "run.tdms")
+        columns_of_file(b"none of it", ".tdms", "run.tdms")

@@ -15,7 +15,7 @@ from scipy.io import savemat
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.files.matlab import from_mat
-from ridgeback.numeric.files.readers import READERS
+from ridgeback.numeric.files.readers import columns_of_file
 from ridgeback.numeric.recording.reading import read_recording, read_recordings
 
 h5py = pytest.importorskip("h5py")
@@ -204,7 +204,7 @@ def test_a_damaged_file_is_read_or_refused_in_one_line(suffix: str, data: st.Dat
     del content[data.draw(st.integers(100, len(content))) :]
     message = ""
     try:
-        columns = READERS[suffix](bytes(content), f"run{suffix}")
+        columns = columns_of_file(bytes(content), suffix, f"run{suffix}")
         for index in range(len(columns.names)):
             columns.values(index)
     except InputError as error:

@@ -9,14 +9,14 @@ import pytest
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.files.tables.lines import lines_of, with_line_feeds
-from ridgeback.numeric.files.tables.text import parse_table
+from ridgeback.numeric.files.tables.text import TextTable, parse_table
 from ridgeback.numeric.recording.reading import read_recording
 
 
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("t,u\n0,1\n1,2,3\n", "run.csv, line 3 has 3 cells, the first row 2; is a comma a decimal point there"),
+        ("t,u\n0,1\n1,2,3\n", "run.csv, line 3 has 3 cells, the first row 2; is the comma a decimal mark there"),
         ("0 1\n1 2 3\n2 3\n", "run.csv, line 2 has 3 cells, the first row 2"),
         ("t;u\n0;1\n\n1;2;x\n", "run.csv, line 4 has 3 cells"),
     ],
@@ -76,6 +76,19 @@ PREAMBLE = "Manufacturer: X\nSerial;12\nSampling rate: 20 Hz\n\n"
         ("Zeit [\u00b5s]\tu [mm]\n" + rows("\t", True, 5e4)).encode("latin-1"),
         ("Time /us;u / mm\n" + rows(";", False, 5e4)).encode(),
         ("time_days,u [mm]\n" + rows(",", False, 0.05)).encode(),
+        ("Zeit in ms;u in mm\n" + rows(";", True, 50.0)).encode(),
+        ("Zeit\tu\nrig 7\trig 8\n(ms)\t(mm)\n" + rows("\t", True, 50.0)).encode(),
+        ("Channel,u\nTime [s],[mm]\n" + rows(",", False)).encode(),
+        (" time (s)   u (mm)\n" + rows("   ", False)).encode(),
+        ("time since start [s]   u [mm]\n" + rows("   ", False)).encode(),
+        ("Time|u / mm\n" + rows("|", True)).encode(),
+        ("Zeit  u [mm]\n" + rows("  ", True)).encode(),
+        ("t,u [mm],\n" + rows(",", False).replace("\n", ",\n")).encode(),
+        ("t;u [mm]\n" + rows(";", True).replace("-", "\u2212")).encode(),
+        (",t,u [mm]\n" + "".join(f"{i},{row}\n" for i, row in enumerate(rows(",", False).split()))).encode(),
+        ("SampleRate:\t20 Hz\nTime 1 - default [s]\tu [mm]\n" + rows("\t", True)).encode(),
+        ('"t","u [mm]"\n' + "".join(f'"{row}"\n'.replace(",", '","') for row in rows(",", False).split())).encode(),
+        ('"t","u [mm]"\n' + "".join(f'"{row}"\n'.replace(";", '","') for row in rows(";", True).split())).encode(),
     ],
 )
 def test_tables_as_instruments_and_spreadsheets_write_them(tmp_path: Path, data: bytes) -> None:
@@ -86,7 +99,7 @@ def test_tables_as_instruments_and_spreadsheets_write_them(tmp_path: Path, data:
     per_day = 86400.0 if b"days" in data else 1.0
     assert found.rate * per_day == pytest.approx(20.0)
     assert (found.name, found.units) == ("u", "mm")
-    assert any("lines before the table were left out" in note for note in found.notes) == (b"Serial" in data)
+    assert any("before the table" in note for note in found.notes) == (b"Serial" in data or b"SampleRate" in data)
 
 
 def test_numbers_without_a_header_have_an_even_first_column_for_time_or_need_one(tmp_path: Path) -> None:
@@ -117,11 +130,11 @@ def test_a_workbook_is_read_as_its_first_sheet(tmp_path: Path) -> None:
 
 def test_lines_are_those_of_python_without_empty_ones_and_comments() -> None:
     text = "# a\r\nt,u\r0,1\n\n  \n1,2\v2,3\x85% b\n3,4\u20284,5"
-    lines, comment = lines_of(with_line_feeds(text))
+    lines, comments = lines_of(with_line_feeds(text))
     slow = [(i, line) for i, line in enumerate(text.splitlines(), 1) if line.strip() and line[0] not in "#%"]
     assert list(zip(lines.number.tolist(), lines, strict=True)) == slow
     assert [lines[at] for at in range(-1, len(lines))] == [slow[-1][1], *(line for _, line in slow)]
-    assert comment == "# a"
+    assert comments == ("# a",)
     assert lines.longest >= 3
 
 
@@ -135,3 +148,67 @@ def test_blocks_read_as_cell_by_cell(monkeypatch: pytest.MonkeyPatch) -> None:
     want = [float(cell) if cell.strip() and cell != "n/a" else np.nan for cell in cells]
     np.testing.assert_array_equal(table.column(1), [*want, np.nan, 1.0])
     assert table.column(0).tolist() == list(range(14))
+
+
+def test_what_oscilloscopes_write_beside_their_samples() -> None:
+    """Tektronix' remarks in the first columns, Keysight's two lines of names, Rigol's start and step in a third."""
+    remarks = ("Record Length,40,", "Sample Interval,5.0e-2,", "Source,CH1,")
+    lines = (f"{remarks[i] if i < len(remarks) else ',,'},{0.05 * i:.6f},{v}" for i, v in enumerate(VALUES))
+    found = parse_table("\n".join(lines), source="run.csv")
+    assert (found.names, found.hinted) == (("1", "2"), False)
+    assert np.array_equal(found.column(1), VALUES)
+    keysight = parse_table("x-axis,1\nsecond,Volt\n" + rows(",", False), source="run.csv")
+    assert keysight.names == ("second", "Volt")
+    steps = "".join(f"{i},{v},,\n" for i, v in enumerate(VALUES))
+    rigol = parse_table("X,CH1,Start,Increment,\nSequence,Volt,0.0,5.0e-02\n" + steps, source="run.csv")
+    assert rigol.names == ("X [Sequence]", "CH1 [Volt]")
+    assert rigol.note == "Nothing stands in columns Start, Increment, which were left out."
+    assert np.array_equal(rigol.column(1), VALUES)
+
+
+def test_a_byte_order_mark_before_a_text_is_no_part_of_it() -> None:
+    assert parse_table("\ufefft,u\n0,1\n1,2\n", source="run.csv").names == ("t", "u")
+    assert parse_table("\ufeffsep=;\nt;u\n0;1\n1;2\n", source="run.csv").names == ("t", "u")
+
+
+def test_quoted_numbers_are_read_by_the_block(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Quotes in a header, or about numbers, take nothing from numpy's parser."""
+    monkeypatch.setattr(TextTable, "one_by_one", None)
+    quoted = "".join(f'"{row}"\n'.replace(",", '","') for row in rows(",", False).split())
+    for text in ('"t","u"\n' + quoted, '"t","u"\n' + rows(",", False), 't;"u"\n' + rows(";", True)):
+        assert np.array_equal(parse_table(text, source="run.csv").column(1), VALUES)
+
+
+def test_times_are_taken_beneath_a_note_but_not_beneath_words_of_other_units(tmp_path: Path) -> None:
+    path = tmp_path / "run.txt"
+    path.write_bytes(("# gem\u00e4\u00dfigt\n" + rows(" ", False)).encode("latin-1"))
+    assert read_recording(path).rate == pytest.approx(20.0)
+    path.write_text("# time in ms\n" + rows(" ", False, 50.0))
+    with pytest.raises(InputError, match="has no time column among 1, 2"):
+        read_recording(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("t,u\n0,1\n0,2\n", r"line 3: time 0 repeats .*--rate takes the place of --time-column"),
+        ("t,u\n1,1\n0,2\n1,1\n", r"line 3: time 0 is before .*begin again 1 time; .*--run-column"),
+        ("t,u\n2,1\n1,2\n0,1\n", "line 3: time 1 is before .*turn the rows round"),
+    ],
+)
+def test_times_that_do_not_rise_are_refused_with_what_helps(
+    tmp_path: Path, text: str, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ridgeback.numeric.recording.recording.FEWEST_SAMPLES", 2)
+    path = tmp_path / "run.csv"
+    path.write_text(text)
+    with pytest.raises(InputError, match=said):
+        read_recording(path)
+
+
+@pytest.mark.parametrize("data", [bytes(range(256)) * 9, b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"])
+def test_what_is_no_text_is_called_so(tmp_path: Path, data: bytes) -> None:
+    path = tmp_path / "run.csv"
+    path.write_bytes(data)
+    with pytest.raises(InputError, match="holds no text but binary data"):
+        read_recording(path)

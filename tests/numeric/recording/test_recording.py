@@ -107,7 +107,7 @@ def test_wav_is_scaled_to_full_scale_and_says_so(tmp_path: Path, dtype: type, fu
     assert recording.name == "channel 2"
     assert np.array_equal(recording.values, -samples.astype(float) / full)
     assert (recording.units == "full scale") == (full > 1)
-    with pytest.raises(InputError, match="say which column holds the signal; it has channel 1, channel 2"):
+    with pytest.raises(InputError, match="say which column holds the signal by --column; it has channel 1, channel 2"):
         read_recording(path)
     with pytest.raises(InputError, match="states 800 samples per second, not 3"):
         read_recording(path, column=1, rate=3.0)
@@ -145,7 +145,7 @@ def with_cell(row: int, cell: str) -> list[str]:
         ("t,u", with_cell(5, "inf,1"), {}, "line 7, column t: inf is not finite"),
         ("t,u", with_cell(0, "0,1")[:9], {}, "9 samples; at least 16"),
         ("t,u", [f"{t},3" for t in TIME], {}, "column u is constant at 3"),
-        ("t,u,w", [f"{t},{t},1" for t in TIME], {}, "say which column holds the signal; it has u, w"),
+        ("t,u,w", [f"{t},{t},1" for t in TIME], {}, "say which column holds the signal by --column; it has u, w"),
         ("t,u", with_cell(0, "0,1"), {"column": "velocity"}, "no column velocity; it has t, u"),
         ("t,u", with_cell(0, "0,1"), {"column": 3}, "no column 3; it has t, u"),
         ("t,u", with_cell(0, "0,1"), {"column": "t"}, "column t is the time"),

@@ -90,7 +90,7 @@ VALUES = {
     "run_column": "1", "span": "1,18", "resample": "11", "fill": "1", "detrend": "linear", "band": "4,9", "lag": "3",
     "window": "hann", "smoothing": "2", "harmonics": "2", "harmonic": "2", "combine": "all", "snr": "10", "seed": "3",
     "laws": "k=1+t/9", "system": "linear", "free": "k", "workers": "2", "budget": "1h", "monte_carlo": "2",
-    "quantity": "velocity", "unit": "cm", "components": "1",
+    "quantity": "velocity", "unit": "cm", "decimal": "comma", "components": "1",
 }  # fmt: skip
 """Something to give each option that takes a value."""
 FOUND_ANYWAY = ("column", "time_column", "fill", "about", "potential", "components", "monte_carlo")
