@@ -12,10 +12,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial import Polynomial
 
+from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.harmonics.window_steps import Shape
-from ridgeback.numeric.late import signal
 
 LENGTHS = (2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 16.0, 20.0, 24.0, 32.0, 48.0, 64.0)
 """Windows tried, in cycles."""
@@ -52,18 +53,36 @@ def expected_error(model: SplineModel, half: int, degree: int, margin: int) -> f
     omega, amplitude = model.tone(1)
     size, step = 2 * half + 1, max(1, omega.size // CENTRES)
     at = np.arange(margin, max(omega.size - margin, margin + 1), step)
-    coefficients = signal.savgol_coeffs(size, degree, deriv=1, delta=1.0 / rate, use="dot")
+    coefficients = middle_slope(half, degree) * rate
     slope = np.empty(at.size)
     first, last = (at < half), (at >= omega.size - half)
     inner = ~(first | last)
     slope[inner] = np.lib.stride_tricks.sliding_window_view(model.phase, size)[at[inner] - half] @ coefficients
-    slope[first] = signal.savgol_filter(model.phase[:size], size, degree, deriv=1, delta=1.0 / rate)[at[first]]
-    slope[last] = signal.savgol_filter(model.phase[-size:], size, degree, deriv=1, delta=1.0 / rate)[
-        at[last] - omega.size
-    ]
+    for edge, begin in ((first, 0), (last, omega.size - size)):
+        slope[edge] = rate * fitted_slope(model.phase[begin : begin + size], degree)(at[edge] - begin)
     bias, strength = slope - omega[at], np.maximum(np.abs(amplitude), 1e-3 * np.abs(amplitude).max())[at]
     noise = np.sqrt(2.0 * (coefficients**2).sum()) * model.noise / strength
     return float(np.sqrt(np.mean((bias**2 + noise**2) / omega[at] ** 2)))
+
+
+# A. Savitzky and M. J. E. Golay, Analytical Chemistry 36 (1964) 1627-1639.
+def middle_slope(half: int, degree: int) -> Array:
+    """What 2 ``half`` + 1 samples are weighted with to give the slope of their fitted polynomial in the middle.
+
+    >>> bool(np.allclose(middle_slope(2, 2), [-0.2, -0.1, 0.0, 0.1, 0.2]))
+    True
+    """
+    s = np.arange(-half, half + 1) / half
+    return np.asarray(np.linalg.pinv(np.vander(s, degree + 1, increasing=True))[1] / half, dtype=np.float64)
+
+
+def fitted_slope(values: Array, degree: int) -> Polynomial:
+    """The slope of the polynomial fitted to samples, as one of their number from 0 on.
+
+    >>> float(fitted_slope(np.arange(6.0) ** 2, 2)(4.0).round(12))
+    8.0
+    """
+    return Polynomial.fit(np.arange(values.size), values, degree).deriv()
 
 
 def lengths(model: SplineModel, cycle: float) -> Iterator[int]:

@@ -9,6 +9,7 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.late import signal
+from ridgeback.numeric.signal.convolution import convolved
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import strongest_frequency
 from ridgeback.numeric.signal.windows import window
@@ -32,8 +33,8 @@ def slow_part(x: Array, rate: float) -> Array:
     """
     half = round(0.5 * CYCLES * TWO_PI / strongest_frequency(x, rate) * rate)
     w = window("blackman", min(half, (x.size - 1) // 2))
-    weights = signal.oaconvolve(np.ones(x.size), w, mode="same")
-    return np.asarray(signal.oaconvolve(x, w, mode="same") / weights, dtype=np.float64)
+    weights = convolved(np.ones(x.size), w)
+    return np.asarray(convolved(x, w) / weights, dtype=np.float64)
 
 
 def wandering(x: Array, rate: float) -> float:

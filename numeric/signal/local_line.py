@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ridgeback.numeric.arrays import Array, ComplexArray
-from ridgeback.numeric.late import signal
+from ridgeback.numeric.signal.convolution import convolved
 
 
 # Weighted least squares of a straight line through c over the window: value and slope decouple for a symmetric w.
@@ -16,7 +16,7 @@ def local_line(c: ComplexArray, w: Array, rate: float) -> tuple[ComplexArray, Co
     """
     half = w.size // 2
     j = np.arange(-half, half + 1)
-    present = signal.oaconvolve(np.ones(c.size), w, mode="same")
-    value = signal.oaconvolve(c, w, mode="same") / present
-    slope = signal.oaconvolve(c, (w * j)[::-1] / (w * j * j).sum(), mode="same") * rate
+    present = convolved(np.ones(c.size), w)
+    value = convolved(c, w) / present
+    slope = convolved(c, (w * j)[::-1] / (w * j * j).sum()) * rate
     return np.asarray(value, dtype=np.complex128), np.asarray(slope, dtype=np.complex128)

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import savgol_coeffs, savgol_filter
 
 from ridgeback.numeric.estimators import window_choice
-from ridgeback.numeric.estimators.window_choice import best_window, expected_error
+from ridgeback.numeric.estimators.window_choice import best_window, expected_error, middle_slope
 from ridgeback.numeric.harmonics.spline_fit import best_model, harmonic_splines
 
 RATE = 32.0
@@ -37,6 +37,22 @@ def test_windows_of_every_length_are_judged_over_the_same_samples(model, half, d
     assert expected_error(model, half, degree, 32) == pytest.approx(whole, rel=1e-9)
     monkeypatch.setattr(window_choice, "CENTRES", 160)
     assert expected_error(model, half, degree, 32) == pytest.approx(whole, rel=0.05)
+
+
+@pytest.mark.parametrize("half", [4, 60, 1024, 3000])
+def test_the_slope_in_the_middle_is_exact_for_polynomials_and_reads_the_least_noise(half):
+    """In windows of thousands of samples as well, where powers of the sample's number leave no digits of degree 5."""
+    s = np.arange(-half, half + 1) / half
+    weights = middle_slope(half, 5) * half
+    assert weights @ (2.0 + 3.0 * s - s**2 + 5.0 * s**3 + s**5) == pytest.approx(3.0, rel=1e-12)
+    assert weights @ s**3 == pytest.approx(0.0, abs=1e-12)
+    assert np.linalg.norm(weights) == pytest.approx(1 / np.linalg.norm(_rest(s, s, 5)), rel=1e-9)
+
+
+def _rest(of, s, degree):
+    """What of the first power no other power up to a degree gives: its norm is one over that of the weights."""
+    others = np.stack([s**n for n in range(degree + 1) if n != 1], axis=1)
+    return of - others @ np.linalg.lstsq(others, of, rcond=None)[0]
 
 
 def test_a_window_holds_three_samples_for_two_parameters(monkeypatch):
