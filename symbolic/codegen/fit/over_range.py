@@ -27,9 +27,10 @@ def largest_error(
 ) -> tuple[Fraction, ...]:
     """Upper bounds of |p/q - exact|/exact, exact being the frequency over k, each from rest to a share of the range.
 
-    With p and q in X (``Surrogate.step``), on each part |p/q - exact|/exact = |p - q exact|/(|q| exact); difference, q
-    and exact are expanded about the middle, |D(m + r z)| <= sum |d_i| r^i and |q(m + r z)| >= |q_0| - sum |q_i| r^i for
-    |z| <= 1.  A part on which q may vanish is halved: a finite bound proves that no pole lies in the range.
+    With p and q in X (``Surrogate.step``) and D = p - q s, |exact - s| <= delta, on each part |p/q - exact|/exact =
+    |p - q exact|/|q exact| <= (|D| + delta |q|)/(|q s| - delta |q|).  D, q and q s = p - D are expanded about the middle:
+    |D(m + r z)| <= sum |d_i| r^i and |q s| >= |c_0| - sum of the other |c_i| r^i for |z| <= 1.  A part on which q may
+    vanish is halved: a finite bound proves that no pole lies in the range.
 
     Raises InputError when no bound is found.
 
@@ -44,14 +45,20 @@ def largest_error(
     found, worst, before = [], arb(0), Fraction(-1)
     for share in shares:
         end = 2 * share**exact.step - 1
-        worst = _over(exact, p - q * exact.polynomial, q, (before, end), worst, 8 * len(numerator))
+        worst = _over(exact.remainder, p, q, p - q * exact.polynomial, (before, end), worst, 8 * len(numerator))
         found.append(upper(worst))
         before = end
     return tuple(found)
 
 
 def _over(
-    exact: Surrogate, difference: arb_poly, q: arb_poly, part: tuple[Fraction, Fraction], worst: arb, count: int
+    remainder: arb,
+    p: arb_poly,
+    q: arb_poly,
+    difference: arb_poly,
+    part: tuple[Fraction, Fraction],
+    worst: arb,
+    count: int,
 ) -> arb:
     """The larger of ``worst`` and the error over a part of -1 <= t <= 1."""
     left, width = rational(part[0]), rational(part[1] - part[0]) / count
@@ -61,14 +68,13 @@ def _over(
             return worst
         start, size = waiting.pop()
         box = arb_poly([arb(start + size / 2), arb(size / 2)])
-        off, off_rest = _middle(difference(box))
-        value, value_rest = _middle(exact.polynomial(box))
-        below, below_rest = _middle(q(box))
-        lost = exact.remainder * (abs(below) + below_rest)
-        least = (value - value_rest - exact.remainder) * (abs(below) - below_rest)
+        shifted = difference(box)
+        (off, off_rest), (value, value_rest), (below, below_rest) = map(_middle, (shifted, p(box) - shifted, q(box)))
+        lost = remainder * (abs(below) + below_rest)
+        least = abs(value) - value_rest - lost
         bound = arb(((abs(off) + off_rest + lost) / least).upper())
-        small = bound <= SHARP * arb(((abs(off) + lost) / abs(value * below)).lower())
-        if value - value_rest - exact.remainder > 0 and least > 0 and (bound <= worst or small):
+        small = bound <= SHARP * arb(((abs(off) + lost) / abs(value)).lower())
+        if least > 0 and (bound <= worst or small):
             worst = arb(arb.max(worst, bound))
         else:
             waiting += [(start, size / 2), (start + size / 2, size / 2)]
