@@ -9,9 +9,9 @@ from __future__ import annotations
 import ctypes
 import re
 import shutil
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TypeAlias
@@ -19,11 +19,12 @@ from typing import TypeAlias
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.compare.binding.generated_code import OWN, omega0_alone
+from ridgeback.compare.binding.generated_code import OWN, omega0_of
 from ridgeback.compare.binding.programs import finished
 from ridgeback.numeric.arrays import Array
-from ridgeback.symbolic.codegen import form_of, written
 from ridgeback.symbolic.codegen.fit.fit import Fit
+from ridgeback.symbolic.codegen.languages.c import language as c
+from ridgeback.symbolic.codegen.program import Form
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.resummation import Resummation
 
@@ -55,49 +56,40 @@ def compiled(formula: OfAmplitude) -> Iterator[Vectorised | NotCompiled]:
     It is compiled in a temporary folder that is removed after the block; the library stays loaded until the process
     ends.
     """
-    with compiled_together((formula,)) as (native,):
+    try:
+        form = omega0_of(formula)
+    except InputError as refusal:
+        yield NotCompiled(str(refusal))
+        return
+    with compiled_together((form,)) as (native,):
         yield native
 
 
 @contextmanager
-def compiled_together(formulas: Sequence[OfAmplitude]) -> Iterator[tuple[Vectorised | NotCompiled, ...]]:
-    """The same of several in one library, which takes half the time of one for each."""
-    names = [f"{OWN}_{i}" for i in range(len(formulas))]
-    written_out = [_source_or_why(formula, name) for formula, name in zip(formulas, names, strict=True)]
-    sources = {name: text for name, text in zip(names, written_out, strict=True) if isinstance(text, str)}
-    scales = {name: float(formula.scale) for name, formula in zip(names, formulas, strict=True)}
+def compiled_together(forms: Sequence[Form]) -> Iterator[tuple[Vectorised | NotCompiled, ...]]:
+    """The same of several forms of omega0 in one library, which takes half the time of one for each."""
+    named = [replace(form, name=f"{OWN}_{i}") for i, form in enumerate(forms)]
     with ExitStack() as stack:
-        found = _compiled(sources, scales, stack) if sources else {}
-        yield tuple(
-            text if isinstance(text, NotCompiled) else found if isinstance(found, NotCompiled) else found[name]
-            for name, text in zip(names, written_out, strict=True)
-        )
+        found = _compiled(named, stack) if named else ()
+        yield (found,) * len(named) if isinstance(found, NotCompiled) else found
 
 
-def _source_or_why(formula: OfAmplitude, name: str) -> str | NotCompiled:
-    try:
-        return source_of(formula, name)
-    except InputError as refusal:
-        return NotCompiled(str(refusal))
-
-
-def _compiled(
-    sources: Mapping[str, str], scales: Mapping[str, float], stack: ExitStack
-) -> dict[str, Vectorised] | NotCompiled:
+def _compiled(forms: Sequence[Form], stack: ExitStack) -> tuple[Vectorised, ...] | NotCompiled:
     program = compiler()
     if program is None:
         return NotCompiled("there is no C compiler")
+    source = "\n".join(_apart(form.name, c.untested(form)) for form in forms)
     try:
         folder = Path(stack.enter_context(TemporaryDirectory(prefix="ridgeback-", ignore_cleanup_errors=True)))
         file, library = folder / f"{OWN}.c", folder / f"{OWN}.so"
-        file.write_text("\n".join(_apart(name, text) for name, text in sources.items()), encoding="utf-8")
-        patience = PATIENCE * len(sources)
+        file.write_text(source, encoding="utf-8")
+        patience = PATIENCE * len(forms)
         done = finished([program, *_FLAGS, str(file), "-o", str(library), "-lm"], patience)
         if done is None:
             return NotCompiled(f"the C compiler did not finish within {patience:g} s")
         if done.code != 0:
             return NotCompiled("the C compiler failed")
-        return {name: _loaded(library, name, scales[name]) for name in sources}
+        return tuple(_loaded(library, form) for form in forms)
     except (OSError, AttributeError, ValueError) as error:
         return NotCompiled(f"the temporary folder does not serve for compiled code ({' '.join(str(error).split())})")
 
@@ -115,12 +107,9 @@ def _apart(name: str, text: str) -> str:
     return "\n".join((*(f"#define {n} {name}_{n}" for n in own), text, *(f"#undef {n}" for n in own), ""))
 
 
-def source_of(formula: OfAmplitude, name: str) -> str:
-    """The generated C of omega0 alone, without its slope."""
-    return written(omega0_alone(form_of(formula, name=name)), "c")
-
-
-def _loaded(library: Path, name: str, k: float) -> Vectorised:
+def _loaded(library: Path, form: Form) -> Vectorised:
+    (omega0,), name = form.functions, form.name
+    k = omega0.arguments[-1].default
     fill = getattr(ctypes.CDLL(str(library)), f"{name}_omega0_array")
     pointer = np.ctypeslib.ndpointer(dtype=np.float64, ndim=1, flags="C_CONTIGUOUS")
     fill.argtypes, fill.restype = [pointer, pointer, ctypes.c_size_t, ctypes.c_double], None

@@ -18,7 +18,8 @@ from types import ModuleType
 from typing import Literal
 
 from ridgeback.compare.binding.programs import Finished, finished
-from ridgeback.symbolic.codegen import Formula, form_of, written
+from ridgeback.symbolic.codegen import Formula, form_of
+from ridgeback.symbolic.codegen.languages.python import language as python
 from ridgeback.symbolic.codegen.languages.registry import find_language
 from ridgeback.symbolic.codegen.program import Form
 
@@ -125,9 +126,9 @@ class _Generated(InspectLoader):
         return self.text
 
 
-def omega0_alone(form: Form) -> Form:
-    """A form without its slope and its motion."""
-    return replace(form, functions=tuple(f for f in form.functions if f.name == "omega0"))
+def omega0_of(formula: Formula) -> Form:
+    """The code of omega0 alone, without its slope and its motion."""
+    return form_of(formula, alone="omega0")
 
 
 def python_module(formula: Formula) -> ModuleType:
@@ -138,7 +139,11 @@ def python_module(formula: Formula) -> ModuleType:
     >>> python_module(lindstedt(find("duffing"), 2)).omega0(0.0)
     1.0
     """
-    loader = _Generated(written(omega0_alone(form_of(formula)), "python"))
+    return as_module(omega0_of(formula))
+
+
+def as_module(form: Form) -> ModuleType:
+    """A form's Python as a module, without its self-test."""
     module = ModuleType("ridgeback_generated")
-    loader.exec_module(module)
+    _Generated(python.untested(form)).exec_module(module)
     return module

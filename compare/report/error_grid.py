@@ -16,12 +16,12 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.show.brief import Brief
-from ridgeback.compare.binding.generated_code import omega0_alone, python_module
+from ridgeback.compare.binding.generated_code import as_module, omega0_of
 from ridgeback.compare.study.derived import Derived
 from ridgeback.compare.study.results import Study
 from ridgeback.numeric.arrays import Array, freeze
 from ridgeback.symbolic.certificates.values import Errors, errors_of_values, growth_power
-from ridgeback.symbolic.codegen import form_of, written
+from ridgeback.symbolic.codegen import written
 
 PAIRS = ((0.02, 0.04), (0.16, 0.32))
 """Pairs of amplitudes between which the power of the error is read, as shares of the radius or of the largest one."""
@@ -76,11 +76,9 @@ def error_grid(derived: Derived, study: Study) -> ErrorGrid:
     """
     parts = [derived.expansion.truncated(order) for order in study.orders]
     k = float(derived.expansion.scale)
-    values = np.array([np.asarray(python_module(part).omega0(study.amplitudes), dtype=float) for part in parts])
-    code = {
-        order: function(written(omega0_alone(form_of(part)), "javascript"))
-        for order, part in zip(study.orders, parts, strict=True)
-    }
+    forms = [omega0_of(part) for part in parts]
+    values = np.array([np.asarray(as_module(form).omega0(study.amplitudes), dtype=float) for form in forms])
+    code = {order: function(written(form, "javascript")) for order, form in zip(study.orders, forms, strict=True)}
     enclosed = _enclosed(derived, study.amplitudes, values)
     if enclosed is None:
         errors = values / study.reference - 1

@@ -38,15 +38,21 @@ def convolved(x: Values, w: Array) -> Values:
     >>> convolved(np.array([1.0, 0.0, 0.0, 2.0]), np.array([1.0, 2.0, 3.0])).round(12).tolist()
     [2.0, 3.0, 2.0, 4.0]
     """
-    forth, back = (fft.fft, fft.ifft) if np.iscomplexobj(x) else (fft.rfft, fft.irfft)
     size = block_size(x.size, w.size, real=not np.iscomplexobj(x))
     step, first = size - w.size + 1, (w.size - 1) // 2
     blocks = np.zeros((-(-x.size // step), step), dtype=x.dtype)
     blocks.reshape(-1)[: x.size] = x
-    parts = back(forth(blocks, size) * forth(w, size), size)
+    parts: Values = np.asarray(products(blocks, w, size), dtype=x.dtype)
     parts[1:, : w.size - 1] += parts[:-1, step:]
     whole = np.concatenate((parts[:, :step].reshape(-1), parts[-1, step:]))
     return whole[first : first + x.size]
+
+
+def products(blocks: Array | ComplexArray, w: Array, size: int) -> Array | ComplexArray:
+    """The convolution of each block with the window, by transforms of so many samples."""
+    if np.iscomplexobj(blocks):
+        return np.asarray(fft.ifft(fft.fft(blocks, size) * fft.fft(w, size), size))
+    return np.asarray(fft.irfft(fft.rfft(blocks.real, size) * fft.rfft(w, size), size))
 
 
 def block_size(length: int, window: int, *, real: bool) -> int:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import TypeAlias
 
@@ -134,8 +135,12 @@ def form_of(
     mode: Mode = "strict",
     real: str = "float64",
     motion: bool = False,
+    alone: str = "",
 ) -> Form:
-    """The coefficient form of any of them, with what is proved about it; see ``generate``."""
+    """The coefficient form of any of them, with what is proved about it; see ``generate``.
+
+    With ``alone`` it has the function of this name and no other.
+    """
     if mode not in MODES:
         raise InputError(f"mode {mode!r} is not known; use {', '.join(MODES)}")
     if real not in REALS:
@@ -150,7 +155,9 @@ def form_of(
         real=REALS[real],
         motion=motion,
     )
-    return finished(_built(result, request), request)
+    form = _built(result, request)
+    wanted = form.functions if not alone else tuple(f for f in form.functions if f.name == alone)
+    return finished(replace(form, functions=wanted), request)
 
 
 def _built(result: Formula, request: CodeRequest) -> Form:
@@ -173,6 +180,7 @@ def finished(form: Form, request: CodeRequest) -> Form:
     return replace(made, digest=hashlib.sha256(repr(made).encode()).hexdigest()[:DIGEST])
 
 
+@cache
 def _version() -> str:
     try:
         return version("ridgeback")

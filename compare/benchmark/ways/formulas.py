@@ -20,12 +20,13 @@ from ridgeback.compare.benchmark.contenders import Kind, Row, Source
 from ridgeback.compare.benchmark.ways.contender import Contender, refused
 from ridgeback.compare.benchmark.ways.timing import nanoseconds
 from ridgeback.compare.binding.compiled_code import NotCompiled, OfAmplitude, Vectorised, compiled_together
-from ridgeback.compare.binding.generated_code import python_module
+from ridgeback.compare.binding.generated_code import as_module, omega0_of
 from ridgeback.compare.motion.motion import Motion, exact_omega
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics
 from ridgeback.symbolic.codegen.fit.fit import Fit, minimax
 from ridgeback.symbolic.codegen.fit.surrogate import Surrogate, surrogate
+from ridgeback.symbolic.codegen.program import Form
 from ridgeback.symbolic.enclosure.well import well_of
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.by_name import resum
@@ -58,9 +59,9 @@ class Named:
 
 @dataclass(frozen=True)
 class Generated:
-    """A formula with the Python that is generated for it."""
+    """The code of a formula, and its Python loaded."""
 
-    formula: OfAmplitude
+    form: Form
     named: Named
     python: Vectorised
 
@@ -70,14 +71,15 @@ Tried: TypeAlias = "Generated | Contender"
 
 
 def generated(formula: OfAmplitude, named: Named) -> Generated:
-    """A formula with its Python."""
-    return Generated(formula, named, python_module(formula).omega0)
+    """A formula as code."""
+    form = omega0_of(formula)
+    return Generated(form, named, as_module(form).omega0)
 
 
 def evaluated(tried: Iterable[Tried], at: At) -> Iterator[Contender]:
     """Formulas as generated code: one contender for each, its language and amplitude; what was refused as it is."""
     found = list(tried)
-    with compiled_together([one.formula for one in found if isinstance(one, Generated)]) as compiled:
+    with compiled_together([one.form for one in found if isinstance(one, Generated)]) as compiled:
         in_c = iter(compiled)
         for one in found:
             if isinstance(one, Generated):

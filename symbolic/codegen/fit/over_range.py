@@ -28,9 +28,9 @@ def largest_error(
     """Upper bounds of |p/q - exact|/exact, exact being the frequency over k, each from rest to a share of the range.
 
     With p and q in X (``Surrogate.step``) and D = p - q s, |exact - s| <= delta, on each part |p/q - exact|/exact =
-    |p - q exact|/|q exact| <= (|D| + delta |q|)/(|q s| - delta |q|).  D, q and q s = p - D are expanded about the middle:
-    |D(m + r z)| <= sum |d_i| r^i and |q s| >= |c_0| - sum of the other |c_i| r^i for |z| <= 1.  A part on which q may
-    vanish is halved: a finite bound proves that no pole lies in the range.
+    |p - q exact|/|q exact| <= (|D| + delta |q|)/(|q s| - delta |q|).  D, q and q s = p - D are expanded about the
+    middle: |D(m + r z)| <= sum |d_i| r^i and |q s| >= |c_0| - sum of the other |c_i| r^i for |z| <= 1.  A part on which
+    q may vanish is halved: a finite bound proves that no pole lies in the range.
 
     Raises InputError when no bound is found.
 

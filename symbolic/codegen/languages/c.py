@@ -77,15 +77,20 @@ class C(Language):
     # --- the source ---
 
     def write(self, form: Form) -> str:
-        parts = [
+        return "\n\n".join([*self._functions(form), *self._self_test(form)]) + "\n"
+
+    def untested(self, form: Form) -> str:
+        """The source without its self-test."""
+        return "\n\n".join(self._functions(form)) + "\n"
+
+    def _functions(self, form: Form) -> list[str]:
+        return [
             "\n".join(map(self.remark, self.heading(form))),
             "#include <float.h>\n#include <math.h>\n#include <stddef.h>",
             GUARD,
             *(self._table(name, horner, form) for f in form.functions for name, horner in self.tables(f)),
             *(part for f in form.functions for part in self._function(f, form)),
-            *self._self_test(form),
         ]
-        return "\n\n".join(parts) + "\n"
 
     def header(self, form: Form) -> str:
         """The header file."""

@@ -166,16 +166,23 @@ class Python(Language):
 
     def write(self, form: Form) -> str:
         names = ", ".join(f'"{f.name}{tail}"' for f in form.functions for tail in ("", "_array", "_unchecked"))
-        parts = [
-            "\n".join(['"""' + self.heading(form)[0], *self.heading(form)[1:], '"""', "", *self.imports(form)]),
-            f'__all__ = [{names}, "self_test"]',
+        public = f'__all__ = [{names}, "self_test"]'
+        parts = [f"{self._head(form)}\n\n{public}", *self._functions(form), self._points(form), SELF_TEST]
+        return "\n\n\n".join(parts) + "\n"
+
+    def untested(self, form: Form) -> str:
+        """The source without its self-test."""
+        return "\n\n\n".join([self._head(form), *self._functions(form)]) + "\n"
+
+    def _head(self, form: Form) -> str:
+        return "\n".join(['"""' + self.heading(form)[0], *self.heading(form)[1:], '"""', "", *self.imports(form)])
+
+    def _functions(self, form: Form) -> list[str]:
+        return [
             *(part for f in form.functions for part in self._function(f, form)),
             *self._helpers(form),
             *(self._table(name, horner, form) for f in form.functions for name, horner in self.tables(f)),
-            self._points(form),
-            SELF_TEST,
         ]
-        return "\n\n".join(parts[:2]) + "".join("\n\n\n" + part for part in parts[2:]) + "\n"
 
     def imports(self, form: Form) -> list[str]:
         """What the module needs when it is loaded."""
