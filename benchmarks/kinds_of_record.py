@@ -391,6 +391,14 @@ def any_red(rng: np.random.Generator) -> Kind:
     return any_decay(rng, rng.uniform(0.004, 0.02), rng.uniform(25, 60), coloured(rng.uniform(0.01, 0.06)), noise=0.001)
 
 
+def any_dying_mode(rng: np.random.Generator) -> Kind:
+    """A second mode 5 to 60 % above, which a damping ratio of 5 to 30 % ends within a few cycles."""
+    f = rng.uniform(0.5, 200.0)
+    other = second_mode(rng.uniform(0.3, 0.5), f * rng.uniform(1.05, 1.6), rng.uniform(0.05, 0.3))
+    ratio, cycles, noise = log_uniform(rng, 0.001, 0.01), rng.uniform(10.0, 50.0), log_uniform(rng, 1e-4, 1e-2)
+    return any_decay(rng, ratio, cycles, other, noise, f)
+
+
 DRAWN: dict[str, Kind] = {
     "3 to 5 cycles, damping ratio 0.3 to 15 %": drawn(
         lambda rng: any_decay(rng, log_uniform(rng, 0.003, 0.15), rng.uniform(3.2, 5.0))
@@ -414,5 +422,6 @@ DRAWN: dict[str, Kind] = {
     "clipped": drawn(any_clipped),
     "1/f noise": drawn(any_red),
     "a chirp that runs away": any_chirp,
+    "a mode beside that dies in a few cycles": drawn(any_dying_mode),
 }
 """Each trial draws its parameters, too."""

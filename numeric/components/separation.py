@@ -41,8 +41,9 @@ SAME = 0.1
 """Of the noise, by which tones may differ between two models."""
 ROUNDS = 3
 """In which spikes are looked for."""
-OF_A_HARMONIC = 0.3
-"""Distance from a multiple of the oscillation, in its frequency, within which a line is taken for that harmonic's."""
+OF_A_HARMONIC, AT_A_MULTIPLE = 0.3, 0.1
+"""Distance from a multiple of the oscillation, in its frequency, within which a line is taken for that harmonic's: left
+by a model that holds it, and by one that was fitted without."""
 
 
 @dataclass(frozen=True)
@@ -286,7 +287,7 @@ def bent_or_none(left: Array, time: Array, start: Tone, sound: Array) -> Tone | 
 
 def one_more(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> tuple[Tone, ...] | None:
     """The tones with one more beside the oscillation; None where none is worth its parameters."""
-    x, rate, known = given.x, given.rate, given.known
+    x, rate, known = given.x, given.rate, replace(given.known, band=models.best.band)
     goal = min(model.criterion + STRICTER * (model.parameters - model.basis.count) for model in models.others) - GAIN
     tried: list[float] = []
     found: tuple[Tone, ...] | None = None
@@ -296,7 +297,7 @@ def one_more(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> tup
         line = clearest_line(residual(x, model, tones), rate, LEAST * float(model.size.max()))
         if line is None or any(abs(line - before) < TWO_PI * rate / x.size for before in tried):
             continue
-        if is_harmonic(line, model):
+        if is_harmonic(line, model, models.best.multiples):
             continue
         tried += [] if any(model is one for one in simple) else [line]
         score, more = together(x, model, tones, line, known, goal)
@@ -324,13 +325,15 @@ def plain(x: Array, like: SplineModel, known: Known) -> Iterator[SplineModel]:
     turned = x * np.exp(-1j * omega * time)
     begin = turned[: max(8, time.size // 4)].mean()
     phase, size = omega * time + float(np.angle(begin)), np.full(time.size, 2.0 * float(np.abs(begin)) + 1e-300)
-    yield fit_on(x, time, phase, size, like.breaks[[0, -1]], like.multiples, 1, known)
+    for multiples in dict.fromkeys((like.multiples, ())):  # what was taken for harmonics may be a mode that dies soon
+        yield fit_on(x, time, phase, size, like.breaks[[0, -1]], multiples, 1, known)
 
 
-def is_harmonic(line: float, model: SplineModel) -> bool:
-    """Whether a line lies at a multiple of the oscillation that the model holds."""
+def is_harmonic(line: float, model: SplineModel, multiples: tuple[int, ...]) -> bool:
+    """Whether a line that a model leaves lies at one of the multiples of the oscillation."""
     base = float(np.average(model.omega, weights=model.size**2))
-    return any(abs(line - h * base) < OF_A_HARMONIC * base for h in model.multiples)
+    near = OF_A_HARMONIC if model.multiples else AT_A_MULTIPLE
+    return any(abs(line - h * base) < near * base for h in multiples)
 
 
 def together(

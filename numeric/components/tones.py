@@ -20,9 +20,14 @@ from ridgeback.numeric.signal.samples import TWO_PI
 ITERATIONS = 12
 STEADY = 3.0
 """Of its deviation, that g must exceed to be one."""
-MOST_GROWTH = 40.0
-"""Bound of g times the length of the record."""
-MOST_STEP = 0.5
+STEEPEST = 0.5
+"""Of its frequency, that the growth rate of a tone may reach: a damping ratio of 45 %."""
+SHALLOWEST, FALLS, ASIDE = 4.0, 2.0, (0.0, -0.5, 0.5, -1.0, 1.0)
+"""Growth rates from which a damped tone is looked for: the first times the length of the record, one over the one
+before, and how far beside the line in each, since that of a mode which is gone after a few cycles is as wide."""
+BEYOND = 20.0
+"""Logarithms of its fall after which a tone is nothing."""
+MOST_STEP, STEP_OF_GROWTH = 0.5, 0.3
 FAINT = 1e-3
 """Share of the largest amplitude as which a smaller one counts where a polynomial is laid through phases."""
 MAINS = (50.0, 60.0)
@@ -113,8 +118,32 @@ def fitted_tone(left: Array, time: Array, omega: float, sound: Array, start: Ton
         return bent_tone(left, time, start, sound)
     tone = Tone(omega, 0.0, 0j) if start is None else start
     steady, _ = iterated(left, time, tone, sound, free=False)
-    damped, deviation = iterated(left, time, steady if start is None else start, sound, free=True)
+    begins = (start,) if start is not None else (steady, steep_start(left, time, omega, sound))
+    tried = [iterated(left, time, begin, sound, free=True) for begin in begins]
+    damped, deviation = min(tried, key=lambda one: float(np.sum(((left - one[0].samples(time)) * sound) ** 2)))
     return damped if abs(damped.growth) > STEADY * deviation else steady
+
+
+def steep_start(left: Array, time: Array, omega: float, sound: Array) -> Tone:
+    """The tone near a frequency that explains most of samples, of some growth rates and frequencies: where to begin.
+
+    >>> t = np.arange(2000) / 20.0
+    >>> x = 0.3 * np.exp(-1.5 * t) * np.cos(8.0 * t + 1.0)
+    >>> found = steep_start(x, t, 8.3, np.ones(2000))
+    >>> round(found.omega, 1), round(found.growth, 1), round(fitted_tone(x, t, 8.3, np.ones(2000)).growth, 6)
+    (8.3, -1.3, -1.5)
+    """
+    most, found, fall = 0.0, Tone(omega, 0.0, 0j), SHALLOWEST / float(time[-1])
+    while fall < STEEPEST * omega:
+        count = max(8, int(np.searchsorted(time, BEYOND / fall)))
+        for aside in ASIDE:
+            tone = Tone(omega + aside * fall, -fall, 1.0 + 0j)
+            wave = tone.tangent(time[:count])[:, :2] * sound[:count, None]
+            size, right = np.linalg.lstsq(wave, left[:count], rcond=None)[0], wave.T @ left[:count]
+            if float(size @ right) > most:
+                most, found = float(size @ right), replace(tone, size=complex(*size.tolist()))
+        fall *= FALLS
+    return found
 
 
 def iterated(left: Array, time: Array, tone: Tone, sound: Array, *, free: bool) -> tuple[Tone, float]:
@@ -128,10 +157,11 @@ def iterated(left: Array, time: Array, tone: Tone, sound: Array, *, free: bool) 
         tone = Tone(omega, growth if growth else (1e-300 if free else 0.0), complex(re, im))
         jacobian = tone.tangent(time) * sound[:, None]
         residual = (left - tone.samples(time)) * sound
-        step = np.linalg.lstsq(jacobian, residual, rcond=None)[0]
-        omega += float(np.clip(step[2], -0.5 / span, 0.5 / span))
+        step, reach = np.linalg.lstsq(jacobian, residual, rcond=None)[0], STEP_OF_GROWTH * abs(growth)
+        omega += float(np.clip(step[2], -max(0.5 / span, reach), max(0.5 / span, reach)))
         if free:
-            growth = float(np.clip(growth + np.clip(step[3], -1.0 / span, 1.0 / span), -MOST_GROWTH / span, 2.0 / span))
+            growth += float(np.clip(step[3], -max(1.0 / span, reach), max(1.0 / span, reach)))
+            growth = float(np.clip(growth, -STEEPEST * omega, 2.0 / span))
             inverse = np.linalg.pinv(jacobian.T @ jacobian)
             deviation = float(np.sqrt(inverse[3, 3] * np.mean(residual**2)))
     return Tone(omega, growth if free else 0.0, tone.size), deviation

@@ -58,6 +58,17 @@ def test_a_component_beside_the_oscillation_is_found_for_what_it_is(at: float, g
     assert found.reason == ""
 
 
+@pytest.mark.parametrize("at", [21.5, 30.0])
+def test_a_mode_that_dies_in_two_cycles_is_found_and_does_not_bend_the_start(at: float) -> None:
+    other = 0.4 * np.exp(-30.0 * T) * np.cos(2 * np.pi * at * T + 1.0)
+    found = separated(decay(2, noise=1e-3) + other, RATE, np.full(T.size, OMEGA), half=40, multiples=None)
+    (tone,) = found.tones
+    assert tone.growth == pytest.approx(-30.0, rel=0.05)
+    assert found.models.best.omega[0] == pytest.approx(OMEGA, abs=0.1)
+    assert found.models.best.multiples == ()
+    assert found.reason == ""
+
+
 def test_intervals_hold_beside_hum() -> None:
     hits = []
     for seed in range(5):
