@@ -88,19 +88,31 @@ def is_signal(name: str, index: int, *, beside: bool) -> bool:
     return not unnamed(name, index) and not (beside and is_date(name))
 
 
+def counts(columns: Columns, index: int) -> bool:
+    """Whether a column numbers the rows.
+
+    >>> counts(Columns(("frame", "u"), (4, 4), lambda i: (i + 1) * np.arange(4.0), str, "run.csv"), 0)
+    True
+    """
+    steps = np.diff(columns.values(index))
+    return steps.size > 0 and bool((steps == 1.0).all())
+
+
 def signal_indices(
     columns: Columns, wanted: str | int | Sequence[str | int] | None, taken: Sequence[int | None]
 ) -> tuple[int, ...]:
     """Indices of the signals: those asked for (a name, a number, several, or "all"), or the only one left.
 
     ``taken`` are the columns of the time and the run.  A day beside a time is no signal, nor a column without a name
-    among some that have one.  Raises InputError for one that is not there or taken.
+    among some that have one, nor one that numbers the rows where there is no time.  Raises InputError for one that is not there or taken.
     """
     clock = next((i for i in taken if i is not None), None)
     rows = None if clock is None else columns.sizes[clock]
     others = [i for i in range(len(columns.names)) if i not in taken and rows in (None, columns.sizes[i])]
     if wanted is None or (wanted == ALL and ALL not in columns.names):
         others = [i for i in others if is_signal(columns.names[i], i, beside=clock is not None)] or others
+        if clock is None and len(others) > 1:
+            others = [i for i in others if not counts(columns, i)] or others
     if wanted is None:
         if len(others) == 1:
             return tuple(others)

@@ -21,6 +21,8 @@ MOST_ROWS = 30
 SLOW = 0.05
 """Frequencies below which cycles are counted per day."""
 DAY = 86_400.0
+FEWEST, MOST = 6, 13
+"""Digits of a value that is known ever so sharply."""
 SMALL, SHARP = 1e-4, 1e-6
 """Values below which a power of ten is written; deviations over values below which one is written of the deviation."""
 
@@ -45,13 +47,34 @@ def track_lines(track: Track) -> list[str]:
     at = [f"{frequency(float(f[i]))} at t = {inside.time[i]:.6g}" for i in ends]
     lines = [f"frequency: {' to '.join(at)}"]
     if interval is not None:
-        reach = [f"[{interval.low[i] / (2 * np.pi):.6g}, {interval.high[i] / (2 * np.pi):.6g}]" for i in ends]
+        reach = [between(float(interval.low[i]) / (2 * np.pi), float(interval.high[i]) / (2 * np.pi)) for i in ends]
         lines[0] += f"; 95 % intervals {' and '.join(reach)} Hz"
     elif track.no_interval:
         lines.insert(0, f"no interval: {track.no_interval}")
     if share < 1.0:
         lines.append(f"left out: {100 * (1 - share):.3g} % of the times, where the estimate is not valid")
     return lines
+
+
+def between(low: float, high: float) -> str:
+    """An interval, its ends to the second digit of its width, to six digits at least.
+
+    >>> between(19.99903, 20.00121), between(1.9999999962, 2.0000000031)
+    ('[19.999, 20.0012]', '[1.9999999962, 2.0000000031]')
+    """
+    digits = digits_to(max(abs(low), abs(high)), high - low)
+    return f"[{low:.{digits}g}, {high:.{digits}g}]"
+
+
+def digits_to(value: float, deviation: float) -> int:
+    """Significant digits of a value to the second of its deviation: FEWEST at least, MOST at most.
+
+    >>> digits_to(2.0, 3e-9), digits_to(2.0, 0.3), digits_to(2.0, 0.0)
+    (11, 6, 13)
+    """
+    if not (0.0 < deviation < np.inf and value):
+        return MOST
+    return min(MOST, max(FEWEST, int(np.floor(np.log10(abs(value)))) - int(np.floor(np.log10(deviation))) + 2))
 
 
 def frequency(hertz: float) -> str:
@@ -83,16 +106,16 @@ def backbone_lines(curve: Backbone) -> list[str]:
 
 
 def uncertain(value: float, deviation: float) -> str:
-    """A value to the second digit of its deviation, at most to the seventh of its own; a small one by a power of ten.
+    """A value to the second digit of its deviation; a small one by a power of ten.
 
     >>> uncertain(3.14159, 0.0123), uncertain(-5.7792e-7, 5.4e-10), uncertain(1.0, float("nan"))
     ('3.142 +- 0.012', '(-5.7792 +- 0.0054)e-07', '1 +- nan')
     >>> uncertain(3.14159265, 2e-9)
-    '3.141593 +- 2.0e-09'
+    '3.1415926500 +- 2.0e-09'
     """
     size = abs(value)
     if 0.0 < deviation < SHARP * size:
-        return f"{value:.7g} +- {deviation:.1e}"
+        return f"{value:#.{digits_to(value, deviation)}g} +- {deviation:.1e}"
     if not (np.isfinite(deviation) and deviation > 0.0 and 0.0 < size < SMALL):
         return with_deviation(value, deviation)
     power = int(np.floor(np.log10(size)))

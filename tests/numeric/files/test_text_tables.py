@@ -166,6 +166,15 @@ def test_what_oscilloscopes_write_beside_their_samples() -> None:
     assert np.array_equal(rigol.column(1), VALUES)
 
 
+def test_a_column_that_numbers_the_rows_is_no_signal_beside_a_rate(tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text("frame,u\n" + "".join(f"{i},{v}\n" for i, v in enumerate(VALUES)))
+    assert np.array_equal(read_recording(path, rate=20.0).values, VALUES)
+    with pytest.raises(InputError, match="say which column holds the signal by --column; it has u, v"):
+        path.write_text("frame,u,v\n" + "".join(f"{i},{v},0\n" for i, v in enumerate(VALUES)))
+        read_recording(path, rate=20.0)
+
+
 def test_a_byte_order_mark_before_a_text_is_no_part_of_it() -> None:
     assert parse_table("\ufefft,u\n0,1\n1,2\n", source="run.csv").names == ("t", "u")
     assert parse_table("\ufeffsep=;\nt;u\n0;1\n1;2\n", source="run.csv").names == ("t", "u")
