@@ -104,7 +104,9 @@ def signal_indices(
     """Indices of the signals: those asked for (a name, a number, several, or "all"), or the only one left.
 
     ``taken`` are the columns of the time and the run.  A day beside a time is no signal, nor a column without a name
-    among some that have one, nor one that numbers the rows where there is no time.  Raises InputError for one that is not there or taken.
+    among some that have one, nor one that numbers the rows where there is no time.
+
+    Raises InputError for one that is not there or taken.
     """
     clock = next((i for i in taken if i is not None), None)
     rows = None if clock is None else columns.sizes[clock]

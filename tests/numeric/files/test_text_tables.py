@@ -170,8 +170,8 @@ def test_a_column_that_numbers_the_rows_is_no_signal_beside_a_rate(tmp_path: Pat
     path = tmp_path / "run.csv"
     path.write_text("frame,u\n" + "".join(f"{i},{v}\n" for i, v in enumerate(VALUES)))
     assert np.array_equal(read_recording(path, rate=20.0).values, VALUES)
+    path.write_text("frame,u,v\n" + "".join(f"{i},{v},0\n" for i, v in enumerate(VALUES)))
     with pytest.raises(InputError, match="say which column holds the signal by --column; it has u, v"):
-        path.write_text("frame,u,v\n" + "".join(f"{i},{v},0\n" for i, v in enumerate(VALUES)))
         read_recording(path, rate=20.0)
 
 
