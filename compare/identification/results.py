@@ -140,7 +140,8 @@ class Prediction(ShownPrediction, _Values):
     """The rest of a decay as predicted from its first cycles, against what was then measured.
 
     ``*_low`` and ``*_high`` are 95 % bands; ``measured_*`` are local harmonic least squares on the part that the fit
-    did not see.  ``phase_error`` is measured less predicted, in rad, unwrapped; ``phase_band`` is half its band.
+    did not see, with their standard deviations.  ``phase_error`` is measured less predicted, in rad, unwrapped;
+    ``phase_band`` is half the band of the prediction.
     """
 
     candidate: str
@@ -153,14 +154,17 @@ class Prediction(ShownPrediction, _Values):
     amplitude_low: Array
     amplitude_high: Array
     measured_amplitude: Array
+    measured_amplitude_sd: Array
     omega: Array
     omega_low: Array
     omega_high: Array
     measured_omega: Array
+    measured_omega_sd: Array
     phase_error: Array
     phase_band: Array
+    measured_phase_sd: Array
     coverage: Mapping[str, float]
-    """Share of the measured ``amplitude``, ``omega`` and ``phase`` inside the bands."""
+    """Share of the measured ``amplitude``, ``omega`` and ``phase`` that the bands of both, taken together, reach."""
     errors: Mapping[str, float]
     """Root mean square of measured less predicted: ``amplitude`` and ``omega`` relative, ``phase`` in rad."""
     note: str = ""

@@ -19,7 +19,7 @@ Indices = NDArray[np.intp]
 KNOWN = 2.0
 """A point of the backbone is spoken of when its deviation is at most this many times the median one."""
 HELD = 0.8
-"""Share of what was measured later that must lie in the 95 % bands of a forecast that is said to have held."""
+"""Share of what was measured later that must lie near a forecast, by the 95 % bands of both, for it to have held."""
 
 
 def _known(found: RecordingComparison) -> Indices:
@@ -75,8 +75,6 @@ def _sentences(found: RecordingComparison, made: Identification | None) -> Itera
         yield _what_made_it(made)
         if made.prediction is not None:
             yield forecast(made)
-    if not found.doubt:
-        yield f"The backbone’s relative standard deviation is {per_cent(_middle(_relative_sd(found)))} in the median."
 
 
 def _what_made_it(made: Identification) -> str:
@@ -89,7 +87,7 @@ def _what_made_it(made: Identification) -> str:
 
 
 def held(made: Identification) -> bool:
-    """Whether the forecast's bands held what was measured later."""
+    """Whether what was measured later lies as near to the forecast as their bands allow."""
     return made.prediction is not None and min(made.prediction.coverage.values(), default=0.0) >= HELD
 
 
@@ -100,7 +98,10 @@ def forecast(made: Identification) -> str:
         return "Nothing was forecast."
     shares = ", ".join(f"{100 * share:.0f} % of {_PLURAL.get(name, name)}" for name, share in ahead.coverage.items())
     verb = "held" if held(made) else "did not hold"
-    return f"The forecast from the first {number(ahead.cycles, 3)} cycles {verb}: {shares} lie in its 95 % bands."
+    return (
+        f"The forecast from the first {number(ahead.cycles, 3)} cycles {verb}: {shares} that were measured later "
+        "lie as near to it as the 95 % bands of both allow."
+    )
 
 
 _PLURAL = {"amplitude": "amplitudes", "omega": "frequencies", "phase": "phases"}

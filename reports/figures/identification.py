@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ridgeback.common.numbers import number, per_cent
 from ridgeback.common.quantities import symbol, unit_text
 from ridgeback.compare.identification.results import Candidate, Identification, Parameter, Prediction
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.tracking.track import NORMAL_95
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout
 from ridgeback.reports.drawing.marks import area, drawing, text
 from ridgeback.reports.drawing.panel import Panel
@@ -56,62 +59,83 @@ def _ordered(candidate: Candidate, name: str) -> tuple[Array, Array]:
     return candidate.amplitude[order], np.asarray(getattr(candidate, name))[order]
 
 
+@dataclass(frozen=True)
+class Panelled:
+    """What one panel of a forecast shows, in its own unit: the forecast and what was measured, each with its band."""
+
+    title: str
+    centre: Array
+    low: Array
+    high: Array
+    measured: Array
+    half: Array
+
+    def apart(self, title: str) -> Panelled:
+        """In per cent of the forecast from it."""
+        centre, low, high, measured = (
+            100.0 * (values / self.centre - 1.0) for values in (self.centre, self.low, self.high, self.measured)
+        )
+        return Panelled(title, centre, low, high, measured, 100.0 * self.half / self.centre)
+
+    @property
+    def shown(self) -> tuple[Array, ...]:
+        """All that the panel has room for."""
+        return self.low, self.high, self.measured - self.half, self.measured + self.half
+
+
+def panels_of(made: Prediction, unit: str) -> tuple[Panelled, ...]:
+    """Amplitude, amplitude and frequency off the forecast in per cent, and phase off it in rad."""
+    halves = (NORMAL_95 * sd for sd in (made.measured_amplitude_sd, made.measured_omega_sd, made.measured_phase_sd))
+    a, omega, phase = (np.nan_to_num(half) for half in halves)
+    amplitude = Panelled(
+        f"amplitude{unit}", made.amplitude, made.amplitude_low, made.amplitude_high, made.measured_amplitude, a
+    )
+    frequency = Panelled("", made.omega, made.omega_low, made.omega_high, made.measured_omega, omega)
+    none = np.zeros_like(made.time)
+    return (
+        amplitude,
+        amplitude.apart("amplitude, off by %"),
+        frequency.apart("frequency, off by %"),
+        Panelled("phase, off by rad", none, -made.phase_band, made.phase_band, made.phase_error, phase),
+    )
+
+
 def forecast_figure(made: Prediction, found: Identification) -> Figure:
     """Amplitude, frequency and phase as forecast from the first cycles, with what was measured later."""
-    rows = (
-        (
-            f"amplitude{unit_of(found)}",
-            made.amplitude,
-            made.amplitude_low,
-            made.amplitude_high,
-            made.measured_amplitude,
-        ),
-        (
-            "amplitude, off by %",
-            *_apart(made.amplitude, made.amplitude_low, made.amplitude_high, made.measured_amplitude),
-        ),
-        ("frequency, off by %", *_apart(made.omega, made.omega_low, made.omega_high, made.measured_omega)),
-        ("phase, off by rad", np.zeros_like(made.time), -made.phase_band, made.phase_band, made.phase_error),
-    )
+    rows = panels_of(made, unit_of(found))
     label = "Forecast amplitude, frequency and phase with what was measured"
     groups = tuple(
-        tuple(
-            _panel(made, (low, high, measured), i, narrow=narrow) for i, (_, _, low, high, measured) in enumerate(rows)
-        )
-        for narrow in (False, True)
+        tuple(_panel(made, row.shown, i, narrow=narrow) for i, row in enumerate(rows)) for narrow in (False, True)
     )
     drawn = []
     for narrow, panels in zip((False, True), groups, strict=True):
         marks = []
-        for (title, centre, low, high, measured), panel in zip(rows, panels, strict=True):
+        for row, panel in zip(rows, panels, strict=True):
             x = panel.x.of(made.time)
-            marks += [panel.rows(most=4), text(0, panel.top - 10, title, "m")]
-            band = area(x, panel.y.clipped(low), panel.y.clipped(high), "ef")
-            curves = [panel.curve(made.time, centre, "el nf"), panel.curve(made.time, measured, "tl nf")]
-            marks.append(panel.zooming([band, *curves]))
+            marks += [panel.rows(most=4), text(0, panel.top - 10, row.title, "m")]
+            bands = [
+                area(x, panel.y.clipped(row.low), panel.y.clipped(row.high), "ef"),
+                area(x, panel.y.clipped(row.measured - row.half), panel.y.clipped(row.measured + row.half), "tf"),
+            ]
+            curves = [panel.curve(made.time, row.centre, "el nf"), panel.curve(made.time, row.measured, "tl nf")]
+            marks.append(panel.zooming([*bands, *curves]))
         marks.append(panels[-1].columns(most=4 if narrow else 8, unit="t, s"))
-        drawn.append(drawing(NARROW if narrow else WIDE, 560, "narrow" if narrow else "wide", label, marks))
-    series = [Series(f"{title}, measured", made.time, measured) for title, _, _, _, measured in rows]
-    series += [Series("forecast", made.time, rows[0][1])]
+        drawn.append(drawing(NARROW if narrow else WIDE, 550, "narrow" if narrow else "wide", label, marks))
+    series = [Series(f"{row.title}, measured", made.time, row.measured) for row in rows]
+    series += [Series("forecast", made.time, rows[0].centre)]
     errors = made.errors
     return Figure(
         key="forecast",
         wide=drawn[0],
         narrow=drawn[1],
         caption=f"{_title(made.candidate, found)} fitted to the first {number(made.cycles, 3)} cycles, to t = "
-        f"{number(made.until)} s. Orange: forecast and its 95 % band; teal: what was measured later, less the forecast "
-        f"below the first panel. Rms distance: amplitude "
+        f"{number(made.until)} s. Orange: forecast; teal: what was measured later, less the forecast below the first "
+        f"panel; each with its 95 % band. Rms distance: amplitude "
         f"{per_cent(errors.get('amplitude'))}, frequency {per_cent(errors.get('omega'))}, phase "
         f"{number(errors.get('phase'), 3)} rad.",
         data=readout((groups[0], groups[1]), series, name="t", unit="s", link="time"),
         label=label,
     )
-
-
-def _apart(centre: Array, low: Array, high: Array, measured: Array) -> tuple[Array, Array, Array, Array]:
-    """Forecast, its band and what was measured, in per cent of the forecast from it."""
-    forecast, *others = (100.0 * (values / centre - 1.0) for values in (centre, low, high, measured))
-    return forecast, others[0], others[1], others[2]
 
 
 def _panel(made: Prediction, values: tuple[Array, ...], i: int, *, narrow: bool) -> Panel:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from ridgeback.numeric.recording.recording import Recording
 
 COMBINED = "combined"
+LEAST = 1e-300
+"""The least probability that is told."""
 
 
 def measurements_text(found: Measurements, style: str, *, backbone: bool, every: bool = True) -> str:
@@ -90,7 +92,8 @@ def chance(one: Measurement) -> tuple[str, ...]:
     if seen is None:
         return ()
     what = "An oscillation stands out" if seen.found else "No oscillation stands out"
-    return (f"{what} of the noise, which alone shows as clear a peak with probability {seen.probability:.1g}.",)
+    how_likely = f"{seen.probability:.1g}" if seen.probability > LEAST else f"below {LEAST:g}"
+    return (f"{what} of the noise, which alone shows as clear a peak with probability {how_likely}.",)
 
 
 def asides(one: Measurement) -> list[str]:
