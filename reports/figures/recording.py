@@ -20,8 +20,8 @@ from ridgeback.reports.figures.clock import Clock, shown
 from ridgeback.reports.figures.planes import level_plane, record_data
 
 CLOCK = Clock("s")
-LETTER, HEIGHTS = 7.0, 5
-"""Width of a letter of a key, about, and heights at which it may stand."""
+LETTER, ROW, HEIGHTS = 7.0, 17.0, 5
+"""Width of a letter of a key, about, height of its lines, and heights at which it may stand."""
 STYLES = ("tl nf", "tl d1 nf", "tl d2 nf", "tl d3 nf", "el nf", "sl nf")
 
 
@@ -54,12 +54,19 @@ def side_by_side(key: str, bands: Sequence[Band], *, x_title: str, caption: str,
     wide = [_band_panel(band, i, len(bands), narrow=False) for i, band in enumerate(bands)]
     narrow = [_band_panel(band, i, len(bands), narrow=True) for i, band in enumerate(bands)]
     height = (356.0, 300.0 * len(bands) - 28.0)
+    names = _named(bands[0])
     series = [Series(band.title, band.x, band.y) for band in bands]
     series += [Series(name, band.x, y) for band in bands for name, y, _ in band.over]
     return Figure(
         key=key,
-        wide=drawing(WIDE, height[0], "wide", label, _bands(bands, wide, x_title)),
-        narrow=drawing(NARROW, height[1], "narrow", label, _bands(bands, narrow, x_title)),
+        wide=drawing(WIDE, height[0], "wide", label, [*_bands(bands, wide, x_title), _key(bands[0], wide[0])]),
+        narrow=drawing(
+            NARROW,
+            height[1] + ROW * len(names),
+            "narrow",
+            label,
+            [*_bands(bands, narrow, x_title), *_rows(names, 4.0, height[1] + 4.0)],
+        ),
         caption=caption,
         data=readout((wide, narrow), series, name="amplitude", unit=unit, link="amplitude"),
         label=label,
@@ -67,9 +74,8 @@ def side_by_side(key: str, bands: Sequence[Band], *, x_title: str, caption: str,
 
 
 def _bands(bands: Sequence[Band], panels: Sequence[Panel], x_title: str) -> list[str]:
-    """All panels; the names of the curves stand in the first."""
-    drawn = [_band(band, panel, x_title) for band, panel in zip(bands, panels, strict=True)]
-    return [*drawn, _key(bands[0], panels[0])]
+    """All panels."""
+    return [_band(band, panel, x_title) for band, panel in zip(bands, panels, strict=True)]
 
 
 def _band_panel(band: Band, i: int, count: int, *, narrow: bool) -> Panel:
@@ -99,24 +105,34 @@ def _band(band: Band, panel: Panel, x_title: str) -> str:
     return "".join(marks)
 
 
-def _key(band: Band, panel: Panel) -> str:
-    """Names behind a piece of their line, at the side and height where the fewest points of the curves go."""
+def _named(band: Band) -> list[tuple[str, str]]:
+    """Names and styles of a panel's curves; none where there is but one."""
     measured = "measured, 95 %" if np.nan_to_num(band.sd).any() else "measured"
-    names = [(measured, "tl nf"), *((name, style) for name, _, style in band.over)]
-    if len(names) == 1:
+    return [(measured, "tl nf"), *((name, style) for name, _, style in band.over)] if band.over else []
+
+
+def _rows(names: Sequence[tuple[str, str]], x: float, top: float) -> list[str]:
+    """Names below each other, each behind a piece of its line."""
+    return [
+        f'<path d="M{places(x)} {places(top + ROW * i - 4)}h22" class="{style}"/>'
+        + text(x + 28, top + ROW * i, name, "sm")
+        for i, (name, style) in enumerate(names)
+    ]
+
+
+def _key(band: Band, panel: Panel) -> str:
+    """The names of the curves, at the side and height where the fewest points of the curves go."""
+    names = _named(band)
+    if not names:
         return ""
     wide = 40.0 + LETTER * max(len(name) for name, _ in names)
     places_of = [
         (left, top)
-        for top in np.linspace(panel.bottom - 8 - 17 * (len(names) - 1), panel.top + 14, HEIGHTS).tolist()
+        for top in np.linspace(panel.bottom - 8 - ROW * (len(names) - 1), panel.top + 14, HEIGHTS).tolist()
         for left in (panel.left + 12, panel.right - wide)
     ]
-    x, top = min(places_of, key=lambda at: crossing(band, panel, at, (wide, 17.0 * len(names))))
-    marks = []
-    for i, (name, style) in enumerate(names):
-        y = top + 17 * i
-        marks.append(f'<path d="M{places(x)} {places(y - 4)}h22" class="{style}"/>' + text(x + 28, y, name, "sm"))
-    return group(marks, "halo")
+    x, top = min(places_of, key=lambda at: crossing(band, panel, at, (wide, ROW * len(names))))
+    return group(_rows(names, x, top), "halo")
 
 
 def crossing(band: Band, panel: Panel, at: tuple[float, float], size: tuple[float, float]) -> int:
@@ -242,14 +258,12 @@ def tracks_figure(recording: RecordingComparison) -> Figure:
         for c, v in zip(drawn, values, strict=True)
     ]
     beside = _names(names, wide)
-    below = [
-        f'<path d="M4 {300 + 17 * i}h22" class="{style}"/>' + text(32, 304 + 17 * i, name, "sm")
-        for i, (name, style, _, _) in enumerate(names)
-    ]
+    told = [(name if away is None else f"{name}, {per_cent(away)}", style) for name, style, away, _ in names]
+    below = _rows(told, 4.0, 304.0)
     return Figure(
         key="recording-tracks",
         wide=drawing(WIDE, 300, "wide", label, [*marks(wide, False), *beside]),
-        narrow=drawing(NARROW, 300 + 17 * len(names), "narrow", label, [*marks(panels[1], True), *below]),
+        narrow=drawing(NARROW, 300 + ROW * len(names), "narrow", label, [*marks(panels[1], True), *below]),
         caption=f"Thick: {chosen.label}, from which the backbone is made; beside the others, their rms distance.",
         data=readout(((wide,), (panels[1],)), series, name="t", unit="s", link="time"),
         label=label,
