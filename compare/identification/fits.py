@@ -59,7 +59,7 @@ def rank(data: Data, names: tuple[str, ...], laws: tuple[DampingLaw, ...], kind:
         tried = polished(found, laws[1:], data) if found.sum_of_squares <= WORTH_TRYING * least else [found]
         kept.append(min(tried, key=lambda f: criterion(f, f.residual.size, kind)))
     best = min(kept, key=lambda f: criterion(f, f.residual.size, kind))
-    effective = min(float(data.x.size), effective_number(best.residual) + best.model.count)
+    effective = min(float(best.residual.size), effective_number(best.residual) + best.model.count)
     scored = sorted(((criterion(f, effective, kind), i) for i, f in enumerate(kept)))
     return Ranked(tuple(kept[i] for _, i in scored), tuple(s for s, _ in scored), effective, tuple(failed))
 

@@ -165,6 +165,8 @@ def recording_truth(
 ) -> Truth:
     """The smooth harmonic model of a recording: harmonic least squares, its residual left out.
 
+    It is of the stretch in which the motion stands above the noise, where its frequency is not known already.
+
     Parameters
     ----------
     x
@@ -183,11 +185,14 @@ def recording_truth(
     InputError
         For what harmonic least squares refuses, and where noise alone explains the samples.
     """
+    x = np.asarray(x, dtype=np.float64)
     if omega is None:
-        omega = estimate(x, rate, method=SMOOTH, start=start, bias=False).of_oscillation().omega
+        track = estimate(x, rate, method=SMOOTH, start=start, bias=False).of_oscillation()
+        first = round((float(track.time[0]) - start) * rate)
+        x, start, omega = x[first : first + track.time.size], float(track.time[0]), track.omega
     what = "frequency of the recording's own smooth harmonic model, whose residual is replaced by white noise"
     smooth = smoothed(omega, rate, KNOT_WINDOWS * LAG_CYCLES * TWO_PI / float(np.median(omega)))
-    return _with_harmonics(title, what, np.asarray(x, dtype=np.float64), smooth, rate, start, own=True)
+    return _with_harmonics(title, what, x, smooth, rate, start, own=True)
 
 
 def smoothed(omega: Array, rate: float, spacing: float) -> Array:

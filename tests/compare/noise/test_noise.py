@@ -141,6 +141,17 @@ def test_truth_of_a_recording_is_its_smooth_model() -> None:
     assert truth_of(rough, 30.0).x.size == 900
 
 
+def test_truth_of_what_is_held_and_released_is_that_of_its_motion() -> None:
+    t = np.arange(900) / 20.0
+    motion = np.where((t >= 4.1) & (t < 40.0), np.exp(-0.004 * (t - 4.1)) * np.cos(5.969 * (t - 4.1)), 0.0)
+    held = np.where(t < 4.1, 1.0, motion) + 0.003 * np.random.default_rng(6).standard_normal(t.size)
+    truth = recording_truth(held, 20.0)
+    assert truth.x.size < t.size
+    first = round(float(truth.signal.time[0]) * 20.0)
+    assert 80 <= first <= 90
+    assert np.abs(truth.x - held[first : first + truth.x.size]).max() < 0.02
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
