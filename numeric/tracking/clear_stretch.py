@@ -3,7 +3,8 @@
 Windows of four cycles, half overlapping, are fitted by harmonic least squares.  The stretch runs from the first to the
 last in which the amplitude is CLEAR of its own deviation.  Where it does not begin or end with the record, the end is
 moved inward until the residual of the window there is no larger than that of its neighbours: a window that holds the
-jump of a release or a stop fits badly, one in a tail that sinks into the noise does not.
+jump of a release or a stop fits badly, one in a tail that sinks into the noise does not.  It is moved from the last
+window that fits badly, for the jump can be anywhere in it.
 """
 
 from __future__ import annotations
@@ -76,17 +77,20 @@ def clear_once(samples: bytes, rate: float, guide_bytes: bytes, centre: float) -
     outside = np.concatenate([clearness[:first], clearness[last + 1 :]])
     if outside.size == 0 or float(outside.mean()) > WEAKER * float(np.median(clearness[clear])):
         return None
-    beyond = np.concatenate([fit.noise[:first], fit.noise[last + 1 :]])
-    if float(np.median(beyond)) > LOUD * float(np.median(np.abs(fit.amplitude[clear]))):
-        return None
     begin, end = 0, x.size
     if first > 0:
         typical = float(np.median(fit.noise[clear[1:4]]))
-        begin = smooth_from(x, rate, guide, shape, half=half, near=first * half, typical=typical)
+        jumped = int(fit.noise[first - 1] > ROUGH * typical)
+        begin = smooth_from(x, rate, guide, shape, half=half, near=(first - jumped) * half, typical=typical)
     if last < clearness.size - 1:
         typical = float(np.median(fit.noise[clear[-4:-1]]))
-        near = x.size - (last * half + 2 * half + 1)
+        jumped = int(fit.noise[last + 1] > ROUGH * typical)
+        near = x.size - ((last + jumped) * half + 2 * half + 1)
         end = x.size - smooth_from(x[::-1], rate, guide[::-1], shape, half=half, near=max(0, near), typical=typical)
+    beyond = float(np.median(np.concatenate([fit.noise[:first], fit.noise[last + 1 :]])))
+    loud = LOUD * float(np.median(np.abs(fit.amplitude[clear])))
+    if beyond > loud and max(wavering(x[:begin]), wavering(x[end:])) > loud:
+        return None
     return slice(begin, end) if end - begin > 2 * half else None
 
 
@@ -103,6 +107,15 @@ def followed_stretch(request: Request) -> slice | None:
     longest = int(np.argmax(edges[1::2] - edges[::2]))
     begin, end = int(edges[2 * longest]), int(edges[2 * longest + 1])
     return slice(begin, end) if FOLLOWED * guide.size <= end - begin < guide.size else None
+
+
+def wavering(x: Array) -> float:
+    """The standard deviation of samples at rest, by their median absolute deviation: a jump at their end counts little.
+
+    >>> wavering(np.concatenate([np.full(50, 2.0), np.full(9, 7.0)]))
+    0.0
+    """
+    return 1.4826 * float(np.median(np.abs(x - np.median(x)))) if x.size else 0.0
 
 
 def smooth_from(x: Array, rate: float, guide: Array, shape: Shape, *, half: int, near: int, typical: float) -> int:

@@ -69,6 +69,21 @@ def test_what_is_loud_is_not_cut(rest: float, cut: bool) -> None:
     assert found is None or 580 <= found.stop <= 620
 
 
+@pytest.mark.parametrize("rest", [0.0, 1.0])
+@pytest.mark.parametrize("cycles", [2.6, 4.3, 6.1])
+def test_a_short_rest_before_the_motion_is_cut(rest: float, cycles: float) -> None:
+    """Most windows that hold some of the rest hold the jump, too, and are loud."""
+    rate, omega = 20.0, 2.0 * math.pi
+    t = np.arange(500) / rate
+    there = t >= cycles
+    moving = np.exp(-0.1 * (t - cycles)) * np.cos(omega * (t - cycles))
+    x = np.where(there, moving, rest) + 0.004 * np.random.default_rng(2).normal(size=t.size)
+    cut = clear_once(x.tobytes(), rate, np.full(t.size, omega).tobytes(), omega)
+    assert cut is not None
+    assert -1 <= cut.start - int(np.argmax(there)) <= 0.3 * rate
+    assert cut.stop == t.size
+
+
 def test_a_decay_is_kept_as_far_as_it_stands_five_deviations_above_the_noise() -> None:
     rng, t = np.random.default_rng(2), np.arange(1600) / 20.0
     x = np.exp(-0.08 * t) * np.cos(2 * np.pi * t) + 0.05 * rng.normal(size=t.size)
