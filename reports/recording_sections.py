@@ -57,8 +57,7 @@ def _made(report: Report) -> Section | None:
     ]
     if found.notes:
         parts.append(fold("Notes on the ranking", Part("lines", found.notes)))
-    title = f"Nearest class: {found.best.title}" if found.described else "No class describes this recording"
-    return Section("identification", "What made it", title, tuple(parts))
+    return Section("identification", "What made it", found.title, tuple(parts))
 
 
 def _fit(report: Report) -> Section | None:

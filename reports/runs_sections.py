@@ -52,8 +52,8 @@ def signal_table(runs: Runs) -> Table:
 
 
 def _named_title(runs: Runs) -> str:
-    titles = {named.made.best.title for named in runs.named if named.made is not None}
-    return f"Nearest class: {titles.pop()}" if len(titles) == 1 else "The nearest class of each"
+    titles = {named.made.title for named in runs.named if named.made is not None}
+    return titles.pop() if len(titles) == 1 else "The nearest class of each"
 
 
 def _named(runs: Runs) -> Iterator[Part]:
@@ -82,7 +82,7 @@ def _class_row(named: Named) -> tuple[str, str, str, str]:
     title = f"{made.best.title}, {made.best.damping_law} damping"
     return (
         named.label,
-        title if made.described else f"none; nearest {title}",
+        f"none; nearest {title}" if made.unclaimed else title,
         per_cent(made.unexplained),
         ", ".join(others),
     )

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
@@ -13,9 +15,16 @@ from ridgeback.compare.identification.fits import Ranked, rank
 from ridgeback.compare.identification.fitting import Data, Fit, prepare
 from ridgeback.compare.identification.preparation import Prepared, prepared
 from ridgeback.compare.identification.quantities import refuse_another_quantity
-from ridgeback.compare.identification.ranking import CLEAR, CRITERIA, candidate
+from ridgeback.compare.identification.ranking import CLEAR, CRITERIA, ROUNDING, candidate
 from ridgeback.compare.identification.results import Identification, MeasuredBackbone, Prediction
-from ridgeback.compare.identification.sample_fit import SampleFit, sample_fit
+from ridgeback.compare.identification.sample_fit import (
+    UNKNOWN,
+    Misfit,
+    SampleFit,
+    over_elsewhere,
+    over_model,
+    sample_fit,
+)
 from ridgeback.numeric.recording.recording import Recording
 
 FEWEST_CYCLES = 6
@@ -80,16 +89,61 @@ def identify(
     names, allowed = checked(candidates, laws, kind)
     progress(0.0, "frequency track")
     ready = prepared(recording, span=span) if isinstance(recording, Recording) else recording
+    found = attempted(ready, names, allowed, kind, progress)
+    refuse_another_quantity(found.ready, found.data, found.ranked, progress)
+    ready, used = found.ready, found.ready.recording
+    where = float(used.time[0]), float(used.time[-1])
+    measured = () if ready.doubt else found.data.measured.notes
+    said = (*ready.notes, *used.drift_notes(where), *used.notes, *measured, *notes)
+    return assembled(found, kind, said, prediction)
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """The ranking of what a recording may be, and how much more than noise the best leaves."""
+
+    ready: Prepared
+    data: Data
+    ranked: Ranked
+    misfit: Misfit
+
+
+def attempted(
+    ready: Prepared, names: tuple[str, ...], laws: tuple[DampingLaw, ...], kind: str, progress: Progress
+) -> Attempt:
+    """The ranking of the oscillation as it was prepared, or as it else may be, if only then a class leaves noise alone.
+
+    Raises InputError where nothing can be measured, and where there are too few cycles.
+    """
+    first: Attempt | None = None
+    refusal: InputError | None = None
+    for one in chain((ready,), ready.others()):
+        try:
+            found = attempt(one, names, laws, kind, progress)
+        except InputError as error:
+            refusal = refusal or error
+            continue
+        first = first or found
+        if not found.misfit.out:
+            return found
+        if one.whole is None:
+            break
+    if first is None:
+        raise refusal or InputError(f"{ready.recording.source}: nothing can be measured")
+    return first
+
+
+def attempt(
+    ready: Prepared, names: tuple[str, ...], laws: tuple[DampingLaw, ...], kind: str, progress: Progress
+) -> Attempt:
+    """Rank the candidates on samples as they were prepared."""
     used = ready.recording
     data = prepare(used, ready.track, models=ready.models, kept=ready.kept)
     cycles = float(data.time[-1]) / data.cycle
     if cycles < FEWEST_CYCLES:
         raise InputError(f"{used.source}: {cycles:.1f} cycles are too few to tell oscillators apart; give 6 or more")
-    ranked = rank(data, names, allowed, kind, progress)
-    refuse_another_quantity(ready, data, ranked, progress)
-    where = float(used.time[0]), float(used.time[-1])
-    said = (*ready.notes, *used.drift_notes(where), *used.notes, *(() if ready.doubt else data.measured.notes), *notes)
-    return assembled(ready, data, ranked, kind, said, prediction)
+    ranked = rank(data, names, laws, kind, progress)
+    return Attempt(ready, data, ranked, misfit(ready, data, ranked.fits[0]))
 
 
 def checked(
@@ -113,10 +167,9 @@ def checked(
     return names, tuple(law for law in ALL_LAWS if law in laws)
 
 
-def assembled(
-    ready: Prepared, data: Data, ranked: Ranked, kind: str, notes: tuple[str, ...], prediction: Prediction | None
-) -> Identification:
+def assembled(attempt: Attempt, kind: str, notes: tuple[str, ...], prediction: Prediction | None) -> Identification:
     """Put the ranking into its result."""
+    ready, data, ranked = attempt.ready, attempt.data, attempt.ranked
     recording = ready.recording
     best, total = ranked.scores[0], float(np.sum(np.exp(-0.5 * (np.array(ranked.scores) - ranked.scores[0]))))
     candidates = tuple(
@@ -150,8 +203,22 @@ def assembled(
         failed=ranked.failed,
         prediction=prediction,
         fitted=over_samples(recording, data, ranked.fits[0]),
+        misfit=attempt.misfit,
     )
-    return found.without_intervals() if found.unclaimed else found
+    return found.claiming()
+
+
+def misfit(ready: Prepared, data: Data, best: Fit) -> Misfit:
+    """How much more than noise the best fit leaves: beside a model of the samples, else beside other frequencies."""
+    left, count, models = data.length * best.residual, best.model.count, ready.models
+    beside = UNKNOWN if models is None else over_model(left, count, models, ROUNDING * data.length)
+    if models is not None and not beside.better:
+        return beside
+    omega = best.model.motion(best.theta, data.time).omega
+    whole = np.zeros(data.time.size)
+    whole[data.kept] = left
+    band, colour = (float(omega.min()), float(omega.max())), 1.0 if models is None else models.best.colour
+    return over_elsewhere(whole, count, data.rate, band, colour)
 
 
 def over_samples(recording: Recording, data: Data, best: Fit) -> SampleFit:

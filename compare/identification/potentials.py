@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.bilinear import Bilinear
 from ridgeback.numeric.motion.dynamics import Dynamics, duffing, helmholtz_duffing, pendulum
 from ridgeback.numeric.orbits.orbit_table import HARMONICS, OrbitTable, bilinear_table, orbit_table
@@ -21,8 +22,8 @@ REACH = 1.5
 """Largest peak of a table, in lengths L: the largest measured amplitude is 1."""
 CLOSEST = 0.992
 """Share of the amplitude at which oscillation ends that a table reaches."""
-COARSE = 32
-FINE = 240
+COARSE = 40
+FINE = 320
 LEAST = 2e-3
 """Smallest peak of a table, relative to the largest; below it the oscillator is taken as linear."""
 
@@ -53,7 +54,19 @@ def smooth_orbits(dynamics: Dynamics, limit: float) -> ScaledOrbits:
     """
     top = min(REACH, CLOSEST * limit)
     peaks = top * np.sin(np.arange(1, COARSE + 1) * (0.5 * math.pi / COARSE))
-    return refine(orbit_table(dynamics, peaks), np.geomspace(LEAST * top, top, FINE))
+    return refine(orbit_table(dynamics, peaks), nodes(top))
+
+
+def nodes(top: float) -> Array:
+    """Peaks in proportion up to half of the largest, then closer and closer to it: orbits change fast at a well's end.
+
+    >>> x = nodes(2.0)
+    >>> x.size == FINE, round(float(x[0]), 9), round(float(x[-1]), 9), bool((np.diff(x) > 0.0).all())
+    (True, 0.004, 2.0, True)
+    """
+    upper = FINE // 2
+    fine = 0.5 + 0.5 * np.sin(np.arange(upper + 1) * (0.5 * math.pi / upper))
+    return np.asarray(top * np.concatenate((np.geomspace(LEAST, 0.5, FINE - upper), fine[1:])))
 
 
 def linear_orbits(_: Shape) -> ScaledOrbits:

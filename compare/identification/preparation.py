@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -45,6 +46,19 @@ class Prepared:
     """Standard deviation of what such a model leaves, in the signal's unit."""
     doubt: str = ""
     """Why no model of one oscillation can be trusted, if so."""
+    whole: Prepared | None = None
+    """The same with the tones that were found beside the oscillation, where there are any."""
+
+    def others(self) -> Iterator[Prepared]:
+        """What else the oscillation may be, where no class describes it: with all that is beside it, and in windows.
+
+        A folded harmonic, and a decay that ends at once, may have been taken for tones beside an oscillation.
+        """
+        least = self.whole or self
+        if self.whole is not None:
+            yield self.whole
+        if self.models is not None:
+            yield in_windows(least.recording, least.notes)
 
 
 def prepared(recording: Recording, *, span: tuple[float, float] | None = None) -> Prepared:
@@ -82,15 +96,25 @@ def prepared(recording: Recording, *, span: tuple[float, float] | None = None) -
     try:
         found = estimation(used.values, used.rate, method="harmonic-least-squares", start=start, wrong=wrong)
     except InputError:
-        return Prepared(used, local_track(used).of_oscillation(), notes, ~used.clipped)
+        return in_windows(used, notes)
     track = found.track.of_oscillation()
     if not found.modelled or track.used.doubt or track.interval is None:
         doubt = track.used.doubt or track.no_interval or ""
-        return Prepared(used, local_track(used).of_oscillation(), notes, ~used.clipped, doubt=doubt)
+        return in_windows(used, notes, doubt)
     alone, where = in_its_span(used, track, found.samples.x)
     here = replace(track, used=replace(track.used, span=None))
-    said = (*where, *beside_notes(track.used.tones, track.used.spikes), *notes)
-    return Prepared(alone, here, said, ~alone.clipped, found.claimed_models, track.used.noise)
+    said = (*where, *beside_notes((), track.used.spikes), *notes)
+    told = (*where, *beside_notes(track.used.tones, track.used.spikes), *notes)
+    bare = Prepared(alone, here, told, ~alone.clipped, found.claimed_models, track.used.noise)
+    if not track.used.tones or track.used.spikes:
+        return bare
+    together = in_its_span(used, track, used.values)[0]
+    return replace(bare, whole=replace(bare, recording=together, notes=said))
+
+
+def in_windows(recording: Recording, notes: tuple[str, ...], doubt: str = "") -> Prepared:
+    """All samples of a recording, with a track of short windows."""
+    return Prepared(recording, local_track(recording).of_oscillation(), notes, ~recording.clipped, doubt=doubt)
 
 
 def in_its_span(recording: Recording, track: Track, values: Array) -> tuple[Recording, tuple[str, ...]]:

@@ -9,12 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from enum import Enum
 
 import numpy as np
 
 from ridgeback.common.show.brief import Brief
 from ridgeback.compare.identification.candidates import DampingLaw
-from ridgeback.compare.identification.sample_fit import SampleFit
+from ridgeback.compare.identification.sample_fit import UNKNOWN, Misfit, SampleFit
 from ridgeback.compare.identification.shown import ShownIdentification, ShownPrediction
 from ridgeback.numeric.arrays import Array, freeze
 
@@ -22,10 +23,23 @@ NORMAL_95 = 1.959963984540054
 """The 97.5 % point of the normal distribution: half the width of a 95 % interval in standard deviations."""
 
 
-ABOVE_NOISE, NOTABLE = 2.0, 0.01
-"""Times the noise, and share of the signal's rms, that a candidate leaves which is not the one."""
 POOR = 0.6
 """Share of the signal's rms that the best candidate may leave before the verdict says that none describes it."""
+
+
+class Standing(Enum):
+    """What is claimed of the best candidate; from NEAREST on no interval is."""
+
+    CLAIMED = "claimed"
+    """It does better than all others that were tried."""
+    UNTOLD = "not told apart"
+    """From others, which fit as well."""
+    NEAREST = "nearest"
+    """It leaves more than noise."""
+    DOUBTED = "doubted"
+    """The samples are not those of one oscillation."""
+    NONE = "none"
+    """It describes hardly any of the signal."""
 
 
 class _Values:
@@ -213,6 +227,8 @@ class Identification(ShownIdentification, _Values):
         Why the samples are not those of one oscillation, if so.
     fitted : SampleFit, optional
         The best candidate over the samples, with the spectrum of what it leaves.
+    misfit : Misfit
+        How much more than noise the best candidate leaves.
 
     Examples
     --------
@@ -241,6 +257,7 @@ class Identification(ShownIdentification, _Values):
     noise: float = math.nan
     doubt: str = ""
     fitted: SampleFit | None = None
+    misfit: Misfit = UNKNOWN
 
     @property
     def best(self) -> Candidate:
@@ -258,35 +275,62 @@ class Identification(ShownIdentification, _Values):
         return self.unexplained <= POOR
 
     @property
+    def standing(self) -> Standing:
+        """What is claimed of the best candidate.
+
+        One that leaves noise alone speaks for one oscillation where no model without an oscillator in mind does.
+        """
+        if not self.described:
+            return Standing.NONE
+        if self.doubt and not self.misfit.agrees:
+            return Standing.DOUBTED
+        if self.misfit.out:
+            return Standing.NEAREST
+        return Standing.UNTOLD if len(self.indistinguishable) > 1 else Standing.CLAIMED
+
+    @property
     def unclaimed(self) -> str:
         """Why no interval of a parameter is claimed; empty where they are."""
-        if not self.described:
-            return f"the best candidate leaves {self.unexplained:.0%} of the signal's rms"
-        if self.doubt:
-            return self.doubt
-        if self.best.residual > ABOVE_NOISE * self.noise and self.unexplained > NOTABLE:
-            return (
-                f"the best candidate leaves {self.best.residual / self.noise:.2g} times the noise that a model without "
-                "any oscillator in mind leaves"
-            )
+        match self.standing:
+            case Standing.NONE:
+                return f"the best candidate leaves {self.unexplained:.0%} of the signal's rms"
+            case Standing.DOUBTED:
+                return self.doubt
+            case Standing.NEAREST:
+                return f"the best candidate {self.misfit.sentence()}"
         return ""
 
-    def without_intervals(self) -> Identification:
-        """The same without a claim on any deviation; of what was measured too, where that is in doubt."""
+    def claiming(self) -> Identification:
+        """The same without a claim on any deviation that is in doubt: of the candidates, of what was measured."""
         data = self.data
         if self.doubt:
             unknown = np.full_like(data.amplitude, np.nan)
             data = replace(data, omega_sd=unknown, growth_rate_sd=unknown)
-        return replace(self, candidates=tuple(c.without_intervals() for c in self.candidates), data=data)
+        candidates = tuple(c.without_intervals() for c in self.candidates) if self.unclaimed else self.candidates
+        return replace(self, candidates=candidates, data=data)
+
+    @property
+    def title(self) -> str:
+        """What made the recording, as far as it is claimed, in a few words."""
+        others = len(self.indistinguishable) - 1
+        match self.standing:
+            case Standing.NONE:
+                return "No class describes this recording"
+            case Standing.DOUBTED:
+                return "No class is claimed: no model of one oscillation holds"
+            case Standing.NEAREST:
+                return f"No class comes down to the noise; the nearest: {self.best.title}"
+            case Standing.UNTOLD:
+                fit = "other class fits" if others == 1 else "other classes fit"
+                return f"Nearest class: {self.best.title}; {others} {fit} as well"
+        return f"Nearest class: {self.best.title}"
 
     @property
     def verdict(self) -> str:
         """The ranking in one or two sentences: which class, how sure, and which others cannot be told apart from it."""
         best, others = self.best, [c for c in self.candidates[1:] if c.name in self.indistinguishable]
         name = self.criterion_title
-        text = f"{best.title}, damping {best.damping_law}"
-        if not self.described:
-            text = "No candidate describes this recording; the nearest is " + text
+        text = f"{self._before()}{best.title}, damping {best.damping_law}"
         if not best.has_equation and not others:
             text += ": no equation among the candidates does as well"
         if others:
@@ -298,7 +342,20 @@ class Identification(ShownIdentification, _Values):
         why = f" No interval is claimed: {self.unclaimed}." if self.unclaimed else ""
         return f"{text}. What it leaves unexplained is {self.unexplained:.2g} of the signal's rms.{why}"
 
+    def _before(self) -> str:
+        """What is said before the name of the best candidate."""
+        match self.standing:
+            case Standing.NONE:
+                return "No candidate describes this recording; the nearest is "
+            case Standing.DOUBTED:
+                return "No class is claimed, since no model of one oscillation holds; the nearest is "
+            case Standing.NEAREST:
+                return "No candidate comes down to the noise; the nearest is "
+        return ""
+
     def record(self) -> dict[str, object]:
         """All fields by name but the samples, the verdict that follows, and why no interval is claimed, if so."""
-        named = {name: value for name, value in super().record().items() if name != "fitted"}
-        return {**named, "verdict": self.verdict, "unclaimed": self.unclaimed}
+        named = {name: value for name, value in super().record().items() if name not in ("fitted", "misfit")}
+        misfit = {"ratio": self.misfit.ratio, "chance": self.misfit.chance, "against": self.misfit.against.name.lower()}
+        said = {"standing": self.standing.value, "verdict": self.verdict, "unclaimed": self.unclaimed}
+        return {**named, "misfit": misfit, **said}

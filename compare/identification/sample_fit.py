@@ -1,18 +1,28 @@
-"""The best class over the samples themselves, and what the spectrum of the residual says of what it leaves.
+"""The best class over the samples themselves, and what its residual says: only noise, or that the class is not it.
 
 A residual without a line is told from one with a line by Fisher's test: of m ordinates I_j of the periodogram of white
 noise, the largest one's share g = max I / sum I exceeds x with a probability of at most m (1 - x)^(m - 1) (R. A.
 Fisher, Proc. R. Soc. A 125 (1929) 54).
+
+A class with p parameters that leaves the sum of squares S of n samples is held against a model with P > p without any
+oscillator in mind, which leaves R: where the class is right, n ln(S / R) is chi-square distributed with P - p degrees
+of freedom (S. S. Wilks, Ann. Math. Stat. 9 (1938) 60), times the colour of the noise, its power near the oscillation
+over its mean power.  Without such a model the ordinates of its periodogram near the oscillation are held against the
+others: their means are as F of twice their numbers.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
+from scipy.special import chdtrc, fdtrc
 
 from ridgeback.common.show.brief import Brief
 from ridgeback.numeric.arrays import Array, freeze
+from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.late import signal
 
 RARE = 0.01
@@ -21,8 +31,106 @@ SEGMENTS = 4
 """Segments of the record, half overlapping with each other, over which a spectrum is averaged, about."""
 TOP = 8.5
 """Highest multiple of the fundamental that a spectrum shows."""
+OUT = 1e-4
+"""Chance of so much more than noise below which a class is out, and nothing of its parameters is claimed."""
+NEVER = 1e-12
+"""Chance below which it is not told."""
+AROUND = 0.2
+"""Distance from the frequencies of the motion, in the fundamental, within which ordinates are near it."""
+FEWEST = 8
+"""Ordinates, near and far, that can be held against each other."""
 NEAR = 0.1
 """Distance from a whole multiple of the fundamental, in fundamentals, within which a line is called by it."""
+
+
+class Against(Enum):
+    """What the residual of a class is held against."""
+
+    MODEL = "a model without any oscillator in mind leaves"
+    ELSEWHERE = "it leaves away from the oscillation"
+    NOTHING = "nothing"
+
+
+@dataclass(frozen=True)
+class Misfit:
+    """How much more a class leaves than noise."""
+
+    ratio: float = math.nan
+    """Root mean square left over that of the noise."""
+    chance: float = math.nan
+    """How often noise alone would leave so much, or more; NaN where nothing tells."""
+    against: Against = Against.NOTHING
+
+    @property
+    def out(self) -> bool:
+        """Whether the class is out."""
+        return self.chance < OUT
+
+    @property
+    def better(self) -> bool:
+        """Whether the class leaves less than what it is held against, which then tells nothing."""
+        return self.chance > 1.0 - OUT
+
+    @property
+    def agrees(self) -> bool:
+        """Whether something tells that it leaves noise alone."""
+        return self.chance >= OUT
+
+    def sentence(self) -> str:
+        """The judgement in words, without a full stop."""
+        chance = f"does once in {1 / self.chance:.1g} times" if self.chance > NEVER else "never does"
+        where = " near the oscillation" if self.against is Against.ELSEWHERE else ""
+        return f"leaves{where} {self.ratio:.3g} times the noise that {self.against.value}, as noise alone {chance}"
+
+
+UNKNOWN = Misfit()
+
+
+def over_model(residual: Array, parameters: int, models: SignalModels, floor: float = 0.0) -> Misfit:
+    """Hold what a class leaves against what a model of the same samples without any oscillator in mind does.
+
+    Parameters
+    ----------
+    residual
+        Samples less the class, in the unit of the samples that the models are of.
+    parameters
+        How many of the class were fitted.
+    models
+        Those of the samples, whose best is taken.
+    floor
+        Root mean square below which nothing is told.
+    """
+    best = models.best
+    free = max(best.noise, floor) ** 2 * max(best.count - best.parameters, 1)
+    left = max(float(residual @ residual), best.count * floor**2)
+    if not free > 0.0 or not left > 0.0:
+        return UNKNOWN
+    beyond = best.count * math.log(left / free) / max(best.colour, 1.0)
+    chance = float(chdtrc(max(best.parameters - parameters, 1), max(beyond, 0.0)))
+    return Misfit(math.sqrt(left / best.count) / max(best.noise, floor), chance, Against.MODEL)
+
+
+def over_elsewhere(
+    residual: Array, parameters: int, rate: float, band: tuple[float, float], colour: float = 1.0
+) -> Misfit:
+    """Hold what a class leaves near the oscillation, the ``band`` in rad per time unit, against what it does elsewhere.
+
+    ``colour`` is the noise's power there over its mean power, as far as it is known.
+
+    >>> t, noise = np.arange(640) / 32.0, 0.01 * np.random.default_rng(1).normal(size=640)
+    >>> [over_elsewhere(x, 5, 32.0, (6.0, 6.5)).out for x in (noise, noise + 0.01 * np.cos(6.2 * t))]
+    [False, True]
+    """
+    power = np.abs(np.fft.rfft(residual - residual.mean()))[1:-1] ** 2
+    omega = 2 * np.pi * rate / residual.size * np.arange(1, power.size + 1)
+    middle = 0.5 * (band[0] + band[1])
+    near = (omega > band[0] - AROUND * middle) & (omega < band[1] + AROUND * middle)
+    freedom = 2 * int(near.sum()) - parameters
+    far = 2 * int((~near).sum())
+    if freedom < FEWEST or far < FEWEST or not power[~near].sum() > 0.0:
+        return UNKNOWN
+    ratio = float(power[near].sum() / freedom / (power[~near].sum() / far)) / max(colour, 1.0)
+    return Misfit(math.sqrt(ratio), float(fdtrc(freedom, far, ratio)), Against.ELSEWHERE)
 
 
 @dataclass(frozen=True, repr=False)

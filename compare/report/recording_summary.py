@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ridgeback.common.numbers import number, per_cent, uncertain
 from ridgeback.common.quantities import frequency
-from ridgeback.compare.identification.results import Identification
+from ridgeback.compare.identification.results import Identification, Standing
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.results import Card
 from ridgeback.compare.study.results import Trend, trend_of
@@ -79,9 +79,14 @@ def _sentences(found: RecordingComparison, made: Identification | None) -> Itera
 
 def _what_made_it(made: Identification) -> str:
     """The class in a sentence; its section says how sure that is."""
-    others = len(set(made.indistinguishable) - {made.best.name})
-    if not made.described:
-        return f"What made it: no candidate describes this recording; the nearest is {made.best.title}."
+    others = len(made.indistinguishable) - 1
+    match made.standing:
+        case Standing.NONE:
+            return f"What made it: no candidate describes this recording; the nearest is {made.best.title}."
+        case Standing.DOUBTED:
+            return "What made it: no class is claimed, since no model of one oscillation holds."
+        case Standing.NEAREST:
+            return f"What made it: no candidate comes down to the noise; the nearest is {made.best.title}."
     rest = f"; {others} other {'class fits' if others == 1 else 'classes fit'} as well" if others else ""
     return f"What made it: {made.best.title}, damping {made.best.damping_law}{rest}."
 

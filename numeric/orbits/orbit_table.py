@@ -19,7 +19,7 @@ from ridgeback.numeric.arrays import Array, freeze, frozen
 from ridgeback.numeric.motion.bilinear import Bilinear, bilinear_frequency, bilinear_waveform, potential
 from ridgeback.numeric.motion.dynamics import Dynamics
 
-HARMONICS = 4
+HARMONICS = 11
 NODES = 64
 _NEWTON_STEPS = 12
 

@@ -27,7 +27,7 @@ from ridgeback.numeric.orbits.orbit_table import OrbitTable
 LEAST_RATE = 1e-9
 """Floor of R relative to omega: where damping is lost or turns to growth, the amplitude stays."""
 LEAST_OMEGA, MOST_MORE, MOST_SINE, UNSEEN = 0.1, 0.3, 0.5, 1e-9
-"""Bounds of phi' over k, of a third order over its first and of a sine over the fundamental; a sine to leave out."""
+"""Bounds of phi' over k, of a third order over its first, of a sine over the fundamental; a harmonic to leave out."""
 MOST_LOG = 50.0
 """Amplitudes are kept within exp(-50) and exp(50), so that a step of a fit that goes astray has a finite cost."""
 
@@ -165,14 +165,15 @@ def decay_flow(orbits: ScaledOrbits, *, k: float, length: float, rates: tuple[fl
         loss = loss + rates[3] * orbits.width / (math.pi * orbits.action)
     fundamental, scaled = orbits.cosine[1], [rate / k for rate in rates]
     omega, loss, sine = responding(orbits.response, orbits.omega, fundamental, loss / k, scaled)
-    down = slice(None, None, -1)
+    cosine, down = orbits.cosine / fundamental, slice(None, None, -1)
+    cosine[np.abs(cosine).max(axis=1) < UNSEEN] = 0.0
     return Flow(
         level=-orbits.level[down],
         rate=k * loss[down],
         omega=k * omega[down],
         growth=-k * (loss * orbits.bend)[down],
         amplitude=length * fundamental[down],
-        cosine=(orbits.cosine / fundamental)[:, down],
+        cosine=cosine[:, down],
         sine=sine[:, down],
     )
 

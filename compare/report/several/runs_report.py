@@ -14,6 +14,7 @@ from ridgeback.common.progress import Progress, silent
 from ridgeback.common.quantities import frequency
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.preparation import prepared
+from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.recording.measurement import Measurement
 from ridgeback.compare.recording.measurements import Measurements, measure_recordings
 from ridgeback.compare.recording.theory import TheoryBackbone, over_curve
@@ -209,7 +210,7 @@ def _sentences(runs: Runs) -> Iterator[str]:
             )
         else:
             yield "Where two runs reach an amplitude they agree within their own errors."
-    kinds = [(named.label, named.made.best.title) for named in runs.named if named.made is not None]
+    kinds = [(named.label, _class_of(named.made)) for named in runs.named if named.made is not None]
     if kinds:
         same = len({title for _, title in kinds}) == 1
         yield (
@@ -217,6 +218,11 @@ def _sentences(runs: Runs) -> Iterator[str]:
             f"{kinds[0][1] if same else '; '.join(f'{label}: {title}' for label, title in kinds)}."
         )
     yield from (f"{failed}." for failed in runs.found.failed[:2])
+
+
+def _class_of(made: Identification) -> str:
+    """The class, as far as one is claimed."""
+    return f"none claimed, {made.best.title} leaves least" if made.unclaimed else made.best.title
 
 
 def _cards(runs: Runs) -> Iterator[Card]:

@@ -12,7 +12,7 @@ from ridgeback.compare.identification import preparation
 from ridgeback.compare.identification.candidates import LAWS
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.preparation import prepared
-from ridgeback.compare.identification.results import Identification
+from ridgeback.compare.identification.results import Identification, Standing
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import duffing, pendulum
 from ridgeback.numeric.motion.trajectory import integrate
@@ -125,3 +125,39 @@ def test_no_interval_is_claimed_where_no_candidate_describes_the_samples() -> No
     assert found.unclaimed
     assert found.unclaimed in found.verdict
     assert np.isnan(found.best.omega_low).all()
+
+
+def test_a_struck_twice_record_names_no_class_before_saying_why() -> None:
+    t = np.arange(240) / 8.0
+    after = np.maximum(t - 13.0, 0.0)
+    blow = np.where(t < 13.0, np.exp(-0.05 * t) * np.cos(6.0 * t), np.exp(-0.05 * after) * np.cos(6.0 * after + 2.0))
+    found = identify(of(blow, 8.0), candidates=("linear",), laws=LAWS[:1])
+    assert found.standing is Standing.DOUBTED
+    assert found.title == "No class is claimed: no model of one oscillation holds"
+    assert found.verdict.startswith("No class is claimed, since no model of one oscillation holds")
+    assert all(math.isnan(one.standard_deviation) for one in found.best.parameters)
+
+
+def test_a_class_whose_waveform_is_another_claims_nothing() -> None:
+    """A cosine without the third harmonic of a Duffing oscillator: it leaves but little more than the noise."""
+    t = np.arange(800) / 20.0
+    a = np.exp(-0.0628 * t)
+    cosine = a * np.cos(12.566 * t + 0.628 * (1.0 - a**2) / (2.0 * 0.0628))
+    noisy = Recording.from_arrays(cosine + 0.001 * np.random.default_rng(3).normal(size=800), 20.0)
+    named = identify(noisy, candidates=("duffing-hardening",))
+    assert named.misfit.ratio < 1.5
+    assert named.standing is Standing.NEAREST
+    assert all(math.isnan(one.standard_deviation) for one in named.best.parameters)
+    free = identify(noisy, candidates=("duffing-hardening", "backbone-polynomial"), laws=LAWS[:1])
+    assert free.best.name == "backbone-polynomial"
+    assert near(free, "mu", 0.0628)
+    assert near(free, "a0", 1.0)
+
+
+def test_a_folded_harmonic_is_no_mode_beside() -> None:
+    """Five samples a cycle: the third harmonic comes down as a tone of its own, which goes with the class."""
+    run = integrate(duffing(eps=0.8, mu=0.004), (1.0, 0.0), duration=150.0, rate=1.0, rtol=1e-9)
+    values = run.u + 0.002 * np.random.default_rng(4).normal(size=run.u.size)
+    found = identify(Recording.from_arrays(values, 1.0), candidates=("duffing-hardening",), laws=LAWS[:1])
+    assert not any("taken off" in note for note in found.notes)
+    assert near(found, "eps", 0.8)
