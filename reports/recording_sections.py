@@ -65,12 +65,12 @@ def _fit(report: Report) -> Section | None:
     if made is None or made.fitted is None:
         return None
     best = made.best
-    share = per_cent(made.unexplained)
+    share, named = per_cent(made.unexplained), f"The nearest, {best.title}," if made.unclaimed else best.title
     parts = (
         Part("figure", fit_figure(made.fitted, best.title, made.unit)),
         Part("figure", spectrum_figure(made.fitted)),
     )
-    return Section("fit", "Samples and fit", f"{best.title} leaves {share} of the signal’s rms", parts)
+    return Section("fit", "Samples and fit", f"{named} leaves {share} of the signal’s rms", parts)
 
 
 def _forecast(report: Report) -> Section | None:

@@ -328,30 +328,31 @@ class Identification(ShownIdentification, _Values):
     @property
     def verdict(self) -> str:
         """The ranking in one or two sentences: which class, how sure, and which others cannot be told apart from it."""
-        best, others = self.best, [c for c in self.candidates[1:] if c.name in self.indistinguishable]
-        name = self.criterion_title
-        text = f"{self._before()}{best.title}, damping {best.damping_law}"
-        if not best.has_equation and not others:
-            text += ": no equation among the candidates does as well"
-        if others:
-            listed = ", ".join(f"{c.title} ({name} {c.delta:.1f} higher)" for c in others)
-            text += f"; the data cannot tell it apart from: {listed}"
-        elif len(self.candidates) > 1:
-            second = self.candidates[1]
-            text += f"; next comes {second.title}, {name} {second.delta:.4g} higher"
-        why = f" No interval is claimed: {self.unclaimed}." if self.unclaimed else ""
-        return f"{text}. What it leaves unexplained is {self.unexplained:.2g} of the signal's rms.{why}"
-
-    def _before(self) -> str:
-        """What is said before the name of the best candidate."""
+        best, left = self.best, f"What it leaves unexplained is {self.unexplained:.2g} of the signal's rms."
+        named = f"{best.title}, damping {best.damping_law}"
         match self.standing:
             case Standing.NONE:
-                return "No candidate describes this recording; the nearest is "
+                return f"No candidate describes this recording: {self.unclaimed}. The nearest is {named}."
             case Standing.DOUBTED:
-                return "No class is claimed, since no model of one oscillation holds; the nearest is "
+                return f"No class is claimed: {self.unclaimed}. The nearest is {named}. {left}"
             case Standing.NEAREST:
-                return "No candidate comes down to the noise; the nearest is "
-        return ""
+                why = f"No candidate comes down to the noise: {self.unclaimed}"
+                return f"{why}. The nearest is {named}{self._next()}. {left}"
+        return f"{named}{self._next()}. {left}"
+
+    def _next(self) -> str:
+        """What comes behind the best candidate."""
+        best, others = self.best, [c for c in self.candidates[1:] if c.name in self.indistinguishable]
+        name, text = self.criterion_title, ""
+        if not best.has_equation and not others:
+            text = ": no equation among the candidates does as well"
+        if others:
+            listed = ", ".join(f"{c.title} ({name} {c.delta:.1f} higher)" for c in others)
+            return f"{text}; the data cannot tell it apart from: {listed}"
+        if len(self.candidates) > 1:
+            second = self.candidates[1]
+            return f"{text}; next comes {second.title}, {name} {second.delta:.4g} higher"
+        return text
 
     def record(self) -> dict[str, object]:
         """All fields by name but the samples, the verdict that follows, and why no interval is claimed, if so."""

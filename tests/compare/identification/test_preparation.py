@@ -99,7 +99,7 @@ def test_a_waveform_that_contradicts_a_displacement_is_refused(accelerated: Arra
     assert near(found, "mu", 0.05)
     assert near(found, "eps", 60.0)
     insisted = identify(as_displacement(recording, "displacement"), candidates=FEW)
-    assert "No interval is claimed: the best candidate leaves" in insisted.verdict
+    assert "No candidate comes down to the noise: the best candidate leaves" in insisted.verdict
     assert all(math.isnan(one.standard_deviation) for one in insisted.best.parameters)
 
 
@@ -134,7 +134,7 @@ def test_a_struck_twice_record_names_no_class_before_saying_why() -> None:
     found = identify(of(blow, 8.0), candidates=("linear",), laws=LAWS[:1])
     assert found.standing is Standing.DOUBTED
     assert found.title == "No class is claimed: no model of one oscillation holds"
-    assert found.verdict.startswith("No class is claimed, since no model of one oscillation holds")
+    assert found.verdict.startswith(f"No class is claimed: {found.doubt}. The nearest is Linear oscillator")
     assert all(math.isnan(one.standard_deviation) for one in found.best.parameters)
 
 
