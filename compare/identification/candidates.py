@@ -17,7 +17,7 @@ import numpy as np
 
 from ridgeback.compare.identification.potentials import FINE, POTENTIALS, Potential, Shape
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.orbits.slow_flow import Flow, Motion, ScaledOrbits, decay_flow, motion
+from ridgeback.numeric.orbits.slow_flow import Flow, Motion, Path, ScaledOrbits, decay_flow, motion, path
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
 from ridgeback.symbolic.flow.reconstruction import Reconstruction
 from ridgeback.symbolic.flow.term import Term
@@ -53,6 +53,8 @@ VAN_DER_POL = "van-der-pol"
 BACKBONE = "backbone-polynomial"
 NAMES = (*(p.name for p in POTENTIALS), VAN_DER_POL, BACKBONE)
 """Every candidate that there is."""
+COLUMNS = 16
+"""More than any candidate has parameters."""
 
 
 @dataclass(frozen=True)
@@ -92,6 +94,23 @@ class Model:
     def signal(self, theta: Array, time: Array) -> Array:
         """The modelled samples, in units of L, the offset included."""
         return np.asarray(self.motion(theta, time).u + theta[-1])
+
+    def signals(self, time: Array) -> Callable[[Array], Array]:
+        """``signal`` at these times, which keeps what another offset or another phase leaves as it is.
+
+        Two of the columns of a Jacobian by differences then cost less than one.
+        """
+
+        @lru_cache(maxsize=COLUMNS)
+        def way(numbers: tuple[float, ...]) -> Path:
+            flow = self.flow(np.array(numbers), float(time[-1]))
+            return path(flow, level_at(flow, numbers[-1]), time)
+
+        @lru_cache(maxsize=COLUMNS)
+        def wave(numbers: tuple[float, ...]) -> Array:
+            return way(numbers[:-1]).at_phase(numbers[-1]).u
+
+        return lambda theta: np.asarray(wave(tuple(theta[:-1].tolist())) + theta[-1])
 
     def curves(self, theta: Array, amplitude: Array, span: float) -> tuple[Array, Array]:
         """omega0 and a'/a at fundamental amplitudes in units of L."""

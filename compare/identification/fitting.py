@@ -245,10 +245,10 @@ def failed(model: Model, data: Data, theta: Array) -> Fit:
 
 def by_samples(model: Model, data: Data, theta: Array, tolerance: float) -> Fit:
     """Least squares of the samples less the model."""
-    limits = bounds(model, data)
+    limits, signal = bounds(model, data), model.signals(data.time)
 
     def samples(values: Array) -> Array:
-        return np.asarray((model.signal(values, data.time) - data.x)[data.kept])
+        return np.asarray((signal(values) - data.x)[data.kept])
 
     try:
         begin = np.clip(theta, *limits)

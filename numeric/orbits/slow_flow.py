@@ -53,14 +53,30 @@ class Flow:
         return np.array([1 / self.rate, self.omega / self.rate])
 
     @cached_property
+    def _bends(self) -> Array:
+        """Derivatives by the level of both slopes and of omega."""
+        return np.asarray(np.gradient(np.vstack((self.slopes, self.omega)), self.level, axis=1))
+
+    # h/2 (f0 + f1) - h^2/12 (f1' - f0'): the integral of the cubic that has these values and slopes
+    @cached_property
     def increments(self) -> Array:
         """Time and phase from each node to the next, ``[2, node - 1]``."""
-        return _increments(self.slopes, self.level)
+        f, h = self.slopes, np.diff(self.level)
+        return np.asarray(h / 2 * (f[:, 1:] + f[:, :-1]) - h**2 / 12 * np.diff(self._bends[:2], axis=1))
 
     @cached_property
     def chirp(self) -> Array:
         """d omega / dt at the nodes."""
-        return np.asarray(self.rate * np.gradient(self.omega, self.level))
+        return np.asarray(self.rate * self._bends[2])
+
+    @cached_property
+    def parts(self) -> tuple[tuple[int, bool, Array], ...]:
+        """The harmonics that are there: multiple, whether a sine, and coefficient at the nodes."""
+        sine = np.zeros_like(self.cosine) if self.sine is None else self.sine
+        both = [
+            (m, odd, row) for m, pair in enumerate(zip(self.cosine, sine, strict=True)) for odd, row in enumerate(pair)
+        ]
+        return tuple((m, bool(odd), row) for m, odd, row in both if row.any())
 
     @cached_property
     def log_amplitude(self) -> Array:
@@ -194,6 +210,40 @@ def responding(
     return np.sqrt(np.maximum(square, LEAST_OMEGA**2)), loss, sine
 
 
+@dataclass(frozen=True)
+class Places:
+    """Where points lie between nodes: indices of both, and the shares of the step there that are passed and left.
+
+    ``weights`` are those of the values left and right, and of the slopes there, in the cubic through them.
+    """
+
+    index: NDArray[np.intp]
+    after: NDArray[np.intp]
+    share: Array
+    rest: Array
+    weights: tuple[Array, Array, Array, Array]
+
+
+@dataclass(frozen=True)
+class Path:
+    """A motion but for its phase at t = 0: what it has turned by since, frequency, amplitude, and where on the flow."""
+
+    flow: Flow
+    place: Places
+    done: float
+    turned: Array
+    late: Array
+    """What it has turned by beyond the last node."""
+    omega: Array
+    amplitude: Array
+
+    def at_phase(self, phase: float, *, waveform: bool = True) -> Motion:
+        """The motion with this phase at t = 0; without ``waveform`` u is left at 0."""
+        angle = phase - self.done + self.turned + self.late
+        wave = _wave(self.flow, self.place, angle) if waveform else np.zeros_like(angle)
+        return Motion(angle, self.omega, self.amplitude, self.amplitude * wave)
+
+
 def motion(flow: Flow, start: float, phase: float, time: Array, *, waveform: bool = True) -> Motion:
     """Follow the flow from the level ``start`` and a phase at t = 0, for ``time`` of 0 or more.
 
@@ -207,6 +257,11 @@ def motion(flow: Flow, start: float, phase: float, time: Array, *, waveform: boo
     >>> np.allclose(at.u, np.exp([0.0, -0.2]) * np.cos([0.5, 6.5])), np.allclose(at.phase, [0.5, 6.5])
     (True, True)
     """
+    return path(flow, start, time).at_phase(phase, waveform=waveform)
+
+
+def path(flow: Flow, start: float, time: Array) -> Path:
+    """The same for any phase at t = 0."""
     begin = np.array([np.clip(start, flow.level[0], flow.level[-1])])
     at = _places(flow.level, begin)
     # counted from the node before the start: where damping is almost none, nodes are ages apart
@@ -218,64 +273,51 @@ def motion(flow: Flow, start: float, phase: float, time: Array, *, waveform: boo
     late = want - inside
     place = _places(clock, inside, first)
     omega = _hermite(place, flow.omega, flow.chirp)
-    angle = phase - done + _hermite(place, turned, flow.omega) + late * omega
     logarithm = _hermite(place, flow.log_amplitude, flow.growth) + late * flow.growth[-1]
-    size = np.exp(np.clip(logarithm, -MOST_LOG, MOST_LOG))
-    wave = _wave(flow, place, angle) if waveform else np.zeros_like(angle)
-    return Motion(angle, omega, size, size * wave)
+    return Path(
+        flow=flow,
+        place=place,
+        done=done,
+        turned=_hermite(place, turned, flow.omega),
+        late=late * omega,
+        omega=omega,
+        amplitude=np.exp(np.clip(logarithm, -MOST_LOG, MOST_LOG)),
+    )
 
 
-# h/2 (f0 + f1) - h^2/12 (f1' - f0'): the integral of the cubic that has these values and slopes
-def _increments(values: Array, x: Array) -> Array:
-    """Integral of each row from each node to the next."""
-    h = np.diff(x)
-    slope = np.gradient(values, x, axis=1)
-    return np.asarray(h / 2 * (values[:, 1:] + values[:, :-1]) - h**2 / 12 * np.diff(slope, axis=1))
-
-
-@dataclass(frozen=True)
-class _Places:
-    """Where points lie between nodes: index of the left one, and the share of the step there that is passed.
-
-    ``weights`` are those of the values left and right, and of the slopes there, in the cubic through them.
-    """
-
-    index: NDArray[np.intp]
-    share: Array
-    weights: tuple[Array, Array, Array, Array]
-
-
-def _places(nodes: Array, points: Array, first: int = 0) -> _Places:
+def _places(nodes: Array, points: Array, first: int = 0) -> Places:
     """Places of points among the nodes from ``first`` on."""
     index = np.clip(np.searchsorted(nodes[first:], points) - 1, 0, nodes.size - first - 2) + first
-    step = nodes[index + 1] - nodes[index]
-    s = (points - nodes[index]) / step
+    after = index + 1
+    begin = nodes[index]
+    step = nodes[after] - begin
+    s = (points - begin) / step
     rest = 1 - s
     left, right, between = rest**2, s**2, step * s * rest
-    return _Places(index, s, ((1 + 2 * s) * left, (1 + 2 * rest) * right, between * rest, -between * s))
+    return Places(index, after, s, rest, ((1 + 2 * s) * left, (1 + 2 * rest) * right, between * rest, -between * s))
 
 
-def _hermite(at: _Places, values: Array, slopes: Array) -> Array:
+def _hermite(at: Places, values: Array, slopes: Array) -> Array:
     """Cubic through values and slopes of both neighbouring nodes."""
-    i, j = at.index, at.index + 1
+    i, j = at.index, at.after
     left, right, rise_left, rise_right = at.weights
-    return np.asarray(left * values[i] + right * values[j] + rise_left * slopes[i] + rise_right * slopes[j])
+    whole = left * values.take(i) + right * values.take(j)
+    return np.asarray(whole + rise_left * slopes.take(i) + rise_right * slopes.take(j))
 
 
-def _linear(at: _Places, values: Array) -> Array:
-    return np.asarray(values[at.index] * (1 - at.share) + values[at.index + 1] * at.share)
+def _linear(at: Places, values: Array) -> Array:
+    return np.asarray(values.take(at.index) * at.rest + values.take(at.after) * at.share)
 
 
-def _wave(flow: Flow, at: _Places, phase: Array) -> Array:
+def _wave(flow: Flow, at: Places, phase: Array) -> Array:
     """u/a by powers of exp(i phi); the small coefficients of the other harmonics are interpolated linearly."""
     turn = np.empty(phase.shape, dtype=np.complex128)
     turn.real, turn.imag = np.cos(phase), np.sin(phase)
-    power = np.ones_like(turn)
+    power, reached = np.ones_like(turn), 0
     total = np.zeros_like(phase)
-    for m, row in enumerate(flow.cosine):
-        if row.any():
-            total += (row[0] if m == 1 else _linear(at, row)) * power.real
-        if flow.sine is not None and flow.sine[m].any():
-            total += _linear(at, flow.sine[m]) * power.imag
-        power = power * turn
+    for m, odd, row in flow.parts:
+        for _ in range(m - reached):
+            power = power * turn
+        reached = m
+        total += (row[0] if (m, odd) == (1, False) else _linear(at, row)) * (power.imag if odd else power.real)
     return total
