@@ -25,11 +25,10 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
-from functools import lru_cache
+from functools import cache, lru_cache
 from itertools import combinations_with_replacement
 
 import numpy as np
-from scipy.fft import irfft, rfft
 from scipy.interpolate import CubicSpline
 
 from ridgeback.numeric.arrays import Array
@@ -70,7 +69,10 @@ class Orbits:
 
 @dataclass(frozen=True, eq=False)
 class First:
-    """The first order of one loss, ``[peak, phase]``; it is linear in the loss."""
+    """The first order of one loss, ``[peak, phase]``, or of a sum in each trial, ``[trial, peak, phase]``.
+
+    It is linear in the loss.
+    """
 
     F: Array
     P1: Array
@@ -86,10 +88,14 @@ class First:
     f_phi1: Array
 
 
-def weighted(firsts: Sequence[First], rates: Sequence[float]) -> First:
-    """The first order of a sum of losses."""
-    pairs = list(zip(rates, firsts, strict=True))
-    return First(*(np.sum([rate * getattr(one, name.name) for rate, one in pairs], axis=0) for name in fields(First)))
+def weighted(firsts: Sequence[First], rates: Array) -> First:
+    """The first order of sums of losses at their rates, ``[trial, loss]``."""
+    columns = rates.T[:, :, None, None]
+
+    def total(name: str) -> Array:
+        return np.asarray(sum(column * getattr(one, name) for column, one in zip(columns, firsts, strict=True)))
+
+    return First(*(total(name.name) for name in fields(First)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +107,7 @@ class AlongPeaks:
     """Values of a spline to its slopes, at the peaks."""
 
     def slope(self, values: Array, power: int) -> Array:
-        """d/dA of values ``[peak, ...]`` that go with this power of the peak as that vanishes."""
+        """d/dA of values ``[..., peak, phase]`` that go with this power of the peak as that vanishes."""
         A = self.peak[:, None]
         return np.asarray(A**power * (self.matrix @ (values / A**power)) + power / A * values)
 
@@ -140,21 +146,31 @@ def orbits_of(table: OrbitTable) -> Orbits:
 
 def mean(values: Array) -> Array:
     """Over a cycle."""
-    return np.asarray(values.mean(axis=1, keepdims=True))
+    return np.asarray(values.mean(axis=-1, keepdims=True))
+
+
+@cache
+def _primitives() -> Array:
+    """What phases are multiplied by for the integral of their trigonometric polynomial: dft, 1/(i m), and back."""
+    m = np.fft.fftfreq(POINTS, 1 / POINTS)
+    weight = np.where(np.abs(m) % (POINTS // 2) == 0, 0.0, 1 / np.where(m == 0.0, 1.0, 1j * m))
+    return np.asarray(np.fft.ifft(weight[:, None] * np.fft.fft(np.eye(POINTS), axis=0), axis=0).real.T.copy())
 
 
 def primitive(values: Array) -> Array:
     """The integral over the phase, of zero mean, of values less their mean."""
-    spectrum = rfft(values, axis=1)
-    m = np.arange(1, spectrum.shape[1])
-    spectrum[:, 0] = 0.0
-    spectrum[:, 1:] /= 1j * m
-    return np.asarray(irfft(spectrum, POINTS, axis=1))
+    return np.asarray(values @ _primitives())
+
+
+@cache
+def _waves(multiple: int, wave: np.ufunc) -> Array:
+    """The cosine or sine of a multiple of the phase."""
+    return np.asarray(wave(multiple * (np.arange(POINTS) + 0.5) * (2 * np.pi / POINTS)))
 
 
 def harmonic(values: Array, multiple: int, wave: np.ufunc) -> Array:
     """Coefficient of the cosine or sine of a multiple of the phase."""
-    return 2.0 * mean(values * wave(multiple * (np.arange(POINTS) + 0.5) * (2 * np.pi / POINTS)))
+    return 2.0 * mean(values * _waves(multiple, wave))
 
 
 def first_order(orbits: Orbits, exponent: int) -> First:
@@ -186,7 +202,7 @@ def first_order(orbits: Orbits, exponent: int) -> First:
 
 # g_phi Q1 and f_phiphi Q1^2 are taken by parts: dry friction jumps at the turning points
 def higher_orders(orbits: Orbits, first: First, lowest: int) -> tuple[Array, Array]:
-    """B and -G/J at each peak, of losses of which ``lowest`` is the least exponent."""
+    """B and -G/J at each peak, ``[trial, peak]``, of losses of which ``lowest`` is the least exponent."""
     o, s = orbits, first
     turning = (s.g + o.omega1 * s.P1) / o.omega
     P2 = primitive(s.f1 * s.P1 + s.f_phi * s.Q1 - s.F * s.P1_J) / o.omega
@@ -196,7 +212,7 @@ def higher_orders(orbits: Orbits, first: First, lowest: int) -> tuple[Array, Arr
     level = -harmonic(waves, 1, np.cos) / harmonic(o.U_J, 1, np.cos)
     lost = s.f1 * (P2 + level) + s.f_phi * (Q2 - s.Q1 * turning) + 0.5 * s.f2 * s.P1**2 + s.f_phi1 * s.P1 * s.Q1
     G = mean(lost) - s.F * o.by_action(level, 2 * lowest)
-    return (mean(rest) + o.omega1 * level)[:, 0], -(G / o.J)[:, 0]
+    return (mean(rest) + o.omega1 * level)[..., 0], -(G / o.J)[..., 0]
 
 
 @dataclass(frozen=True)
@@ -235,8 +251,7 @@ def parts_at_peaks(orbits: Orbits, acting: Acting) -> Array:
     """B by pairs, -G/J by triples and the coefficients of sin(m phi) in u by losses, at each peak: ``[part, peak]``."""
     firsts = [first_order(orbits, EXPONENTS[i]) for i in acting.losses]
     rates, lowest = acting.tried(), min(EXPONENTS[i] for i in acting.losses)
-    found = [higher_orders(orbits, weighted(firsts, row), lowest) for row in rates.tolist()]
-    B, lost = (np.array(rows) for rows in zip(*found, strict=True))
+    B, lost = higher_orders(orbits, weighted(firsts, rates), lowest)
     second = np.linalg.lstsq(acting.products(rates, acting.pairs), B, rcond=None)[0]
     third = np.linalg.solve(acting.products(rates, acting.triples), lost)
     waves = [orbits.U_J * one.P1 + orbits.slope * one.Q1 for one in firsts]

@@ -232,6 +232,18 @@ def test_tables_are_fine_up_to_their_end_next_to_the_separatrix() -> None:
     assert np.abs(orbits.omega / np.asarray(pendulum().closed_form(peak)) - 1).max() < 3e-5
 
 
+def test_signals_that_keep_what_they_share_are_those_of_the_model_to_the_bit() -> None:
+    """Whatever comes before: the same, another phase, another offset, another start."""
+    time = np.arange(300) / 20.0
+    model = models_of("duffing-hardening", DampingLaw.QUADRATIC)
+    signal = model.signals(time)
+    theta = np.array([2.0, 0.1, 0.05, 0.02, np.log(0.8), 0.3, 0.01])
+    for changed in (None, -1, -2, -3, -1, 0, -2, None):
+        if changed is not None:
+            theta[changed] += 0.01
+        assert np.array_equal(signal(theta), model.signal(theta, time))
+
+
 def test_effective_number_of_a_narrow_band() -> None:
     """White noise kept in a tenth of the band counts as a tenth of its samples, wherever the band lies."""
     rng = np.random.default_rng(5)

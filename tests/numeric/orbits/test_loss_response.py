@@ -12,7 +12,7 @@ from scipy.optimize import least_squares
 import ridgeback
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import Dynamics, duffing, helmholtz_duffing, pendulum
-from ridgeback.numeric.orbits.loss_response import EXPONENTS, Acting, OfPotential, linear_parts
+from ridgeback.numeric.orbits.loss_response import EXPONENTS, POINTS, Acting, OfPotential, linear_parts, primitive
 from ridgeback.numeric.orbits.orbit_table import orbit_table
 from ridgeback.numeric.orbits.slow_flow import decay_flow, motion, refine
 from ridgeback.symbolic.flow.second_order import Shape, coefficient
@@ -20,6 +20,13 @@ from ridgeback.symbolic.flow.second_order import Shape, coefficient
 COARSE = np.sin(np.arange(1, 33) * (np.pi / 64))
 CLOSE = 1e-3
 """Of the larger pairs: dry friction jumps, and 64 phases take it by the trapezoidal rule."""
+
+
+def test_the_integral_over_the_phase_is_that_of_every_harmonic_it_can_see() -> None:
+    phase = (np.arange(POINTS) + 0.5) * (2 * np.pi / POINTS)
+    for m in range(1, POINTS // 2):
+        assert np.allclose(primitive(3.0 + np.cos(m * phase)), np.sin(m * phase) / m, rtol=0.0, atol=1e-14)
+        assert np.allclose(primitive(np.sin(m * phase)[None, None]), -np.cos(m * phase) / m, rtol=0.0, atol=1e-14)
 
 
 @pytest.mark.parametrize(("i", "j"), list(combinations_with_replacement(range(4), 2)))
