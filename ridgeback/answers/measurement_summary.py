@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ridgeback.common.quantities import DAY, SLOW
 from ridgeback.numeric.backbone.damping import damping, with_deviation
 from ridgeback.numeric.tracking.track import NORMAL_95
 
@@ -18,9 +19,6 @@ if TYPE_CHECKING:
 
 MOST_ROWS = 30
 """Rows of a table that a terminal is given."""
-SLOW = 0.05
-"""Frequencies below which cycles are counted per day."""
-DAY = 86_400.0
 FEWEST, MOST = 6, 13
 """Digits of a value that is known ever so sharply."""
 SMALL, SHARP = 1e-4, 1e-6

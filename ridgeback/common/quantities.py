@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from ridgeback.common.numbers import NONE, two_digits
+from ridgeback.common.numbers import NONE, number, two_digits
 
 # fmt: off
 _GREEK = {
@@ -17,6 +17,8 @@ _GREEK = {
 # fmt: on
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+SLOW, LARGE, DAY = 0.05, 1000.0, 86_400.0
+"""Frequencies below and above which four decimals are too few or too many; seconds of a day."""
 
 
 def in_pi(value: float, *, digits: int = 3) -> str:
@@ -50,12 +52,25 @@ def short_amplitude(value: float, unit: str) -> str:
 def frequency(omega: float, time_unit: str) -> str:
     """Angular frequency as a reader meets it: hertz when time is in seconds, else rad per time unit.
 
-    >>> frequency(2 * math.pi, "s"), frequency(2.0, "")
-    ('1.0000 Hz', '2.0000')
+    A slow one is told per day too.
+
+    >>> frequency(2 * math.pi, "s"), frequency(2.0, ""), frequency(2 * math.pi * 25e3, "s")
+    ('1.0000 Hz', '2.0000', '25000 Hz')
+    >>> frequency(2 * math.pi * 1.5 / 86400, "s")
+    '1.7361 × 10⁻⁵ Hz (1.5000 per day)'
     """
-    if time_unit == "s":
-        return f"{omega / (2 * math.pi):.4f} Hz"
-    return f"{omega:.4f} rad/{time_unit}" if time_unit else f"{omega:.4f}"
+    if time_unit != "s":
+        return f"{_rounded(omega)} rad/{time_unit}" if time_unit else _rounded(omega)
+    hertz = omega / (2 * math.pi)
+    slow = 0.0 < abs(hertz) < SLOW
+    return f"{_rounded(hertz)} Hz" + (f" ({_rounded(hertz * DAY)} per day)" if slow else "")
+
+
+def _rounded(value: float) -> str:
+    """Four decimals, but five digits of a small value and seven of a large one."""
+    return (
+        f"{value:.4f}" if value == 0.0 or SLOW <= abs(value) < LARGE else number(value, 5 if abs(value) < SLOW else 7)
+    )
 
 
 def nanoseconds(value: float) -> str:
