@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import silent
 from ridgeback.common.show.brief import Brief
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
@@ -245,7 +246,8 @@ def of_half_cycles(recording: Recording, settings: Mapping[str, object]) -> Meas
     """Measure one signal half cycle by half cycle; those with clipped samples stay out of the backbone."""
     band: Any = settings.get("band")
     start = float(recording.time[0])
-    found = half_cycles(recording.values, recording.rate, start=start, band=band)
+    told: Any = settings.get("progress", silent)
+    found = half_cycles(recording.values, recording.rate, start=start, band=band, progress=told)
     hit = None if not recording.clipped.any() else overlapping(recording, found)
     own = (*recording.drift_notes(), *recording.notes)
     try:

@@ -10,12 +10,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.progress import Wanted, showing
+from ridgeback.common.progress import Progress, Wanted, showing
 from ridgeback.compare.recording.components import measured_components
 from ridgeback.compare.recording.measurement import Measurement
 from ridgeback.numeric.backbone.combined import CombinedBackbone, combine
 from ridgeback.numeric.recording.recording import Recording
 
+ESTIMATE = 0.8
+"""Share of a measurement's time that the track takes, about."""
 COMBINE = ("runs", "all", "none")
 
 
@@ -93,9 +95,10 @@ def measure_recordings(
     refused: list[tuple[Recording, InputError]] = []
     with showing(progress) as told:
         for i, recording in enumerate(recordings):
-            told(i / len(recordings), f"estimating {recording.label}")
+            inner = within(told, recording.label, i / len(recordings), 1.0 / len(recordings))
+            inner(0.0, "search band and components")
             try:
-                measured += measured_components(recording, harmonic=harmonic, halves=halves, **settings)
+                measured += measured_components(recording, harmonic=harmonic, halves=halves, progress=inner, **settings)
             except InputError as error:
                 refused.append((recording, error))
     if not measured:
@@ -106,6 +109,17 @@ def measure_recordings(
         combined=tuple(common(measured, combine_over)),
         failed=tuple(f"{r.label}: {error}" for r, error in refused if signal_of(r) not in good),
         notes=tuple(f"Left out, {r.label}: {error}." for r, error in refused if signal_of(r) in good),
+    )
+
+
+def within(told: Progress, label: str, begin: float, share: float) -> Progress:
+    """What a signal's estimate is to be told, which is the larger part of its measurement.
+
+    >>> within(lambda fraction, step: print(f"{fraction:g} {step}"), "run.csv, u", 0.5, 0.5)(1.0, "done")
+    0.9 run.csv, u: amplitude and backbone
+    """
+    return lambda fraction, step: told(
+        begin + ESTIMATE * share * fraction, f"{label}: {step if fraction < 1.0 else 'amplitude and backbone'}"
     )
 
 

@@ -156,10 +156,19 @@ def command(
     if plot is not None:
         from ridgeback.reports.figures.measurement import plot_file
 
-        write_bytes(plot, plot_file(found, plot.rpartition(".")[2].lower()))
+        with showing(True) as progress:
+            progress(0.0, "figure")
+            picture = plot_file(found, plot.rpartition(".")[2].lower())
+        write_bytes(plot, picture)
     if planes is not None:
-        write_bytes(planes, plane_file(found, planes.rpartition(".")[2].lower()))
-    write_text(output, measurements_text(found, style, backbone=backbone_wanted, every=every or output != STDOUT))
+        with showing(True) as progress:
+            progress(0.0, "time-frequency plane")
+            drawn = plane_file(found, planes.rpartition(".")[2].lower())
+        write_bytes(planes, drawn)
+    with showing(True) as progress:
+        progress(0.0, "table")
+        text = measurements_text(found, style, backbone=backbone_wanted, every=every or output != STDOUT)
+    write_text(output, text)
     if style == "csv":
         tell(found)
     refuse_empty(found, backbone=backbone_wanted)
@@ -208,10 +217,10 @@ def measured_files(
     """Every signal of the files, measured."""
     from ridgeback.compare.recording.measurements import measure_recordings
 
-    recordings = reading.all(files)
     with showing(True) as progress:
+        progress(0.0, f"reading {files[0]}" if len(files) == 1 else f"reading {len(files)} files")
         return measure_recordings(
-            recordings,
+            reading.all(files),
             combine_over=combine,
             harmonic=harmonic,
             halves=halves,

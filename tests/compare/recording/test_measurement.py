@@ -97,14 +97,6 @@ def test_what_is_combined():
         measure_recordings(mixed, combine_over="all", **QUICK)
 
 
-def test_progress_names_each_signal():
-    told = []
-    measure_recordings(
-        [recording(run="1"), recording(run="2")], progress=lambda share, text: told.append((share, text)), **QUICK
-    )
-    assert told == [(0.0, "estimating a.csv, 1, u"), (0.5, "estimating a.csv, 2, u")]
-
-
 def test_a_long_record_is_measured_at_the_rate_of_its_decimated_track(monkeypatch):
     """Amplitude and backbone fit the samples that the track used, not a hundred times as many."""
     seen = []
@@ -144,3 +136,15 @@ def test_the_reason_stands_first_where_nothing_is_claimed() -> None:
     assert found.track.interval is None
     assert found.backbone is None
     assert found.notes[0].startswith("No ")
+
+
+def test_a_measurement_says_how_far_it_is() -> None:
+    """From nought to nearly one, signal after signal, by the step that it is at."""
+    told: list[tuple[float, str]] = []
+    signals = [recording(), recording(name="w")]
+    measure_recordings(signals, progress=lambda share, step: told.append((share, step)), **QUICK)
+    shares = [share for share, _ in told]
+    assert shares == sorted(shares)
+    assert (shares[0], shares[-1]) == (0.0, pytest.approx(0.9))
+    assert {step.rpartition(": ")[0] for _, step in told} == {one.label for one in signals}
+    assert len(told) >= 8
