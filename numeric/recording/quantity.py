@@ -91,8 +91,8 @@ def as_displacement(recording: Recording, quantity: str) -> Recording:
     Returns
     -------
     Recording
-        The same times, in the unit of the samples times the second, or its square.  Its mean is 0: a constant is
-        nothing that a derivative shows.
+        The same times, in the unit of the samples times the second, or its square, and named as what it is.  Its mean
+        is 0: a constant is nothing that a derivative shows.
 
     Raises
     ------
@@ -127,7 +127,8 @@ def as_displacement(recording: Recording, quantity: str) -> Recording:
         f"The {quantity} was converted to a displacement{f' ({unit})' if unit else ''}, harmonic by harmonic along a "
         "model of the signal; its mean is not known."
     )
-    return replace(recording, values=values, units=unit, notes=(note, *recording.notes), facts=facts)
+    name = f"displacement from {recording.name}"
+    return replace(recording, values=values, name=name, units=unit, notes=(note, *recording.notes), facts=facts)
 
 
 def displaced(x: Array, model: SplineModel, quantity: str) -> Array:

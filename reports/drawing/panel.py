@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
+from ridgeback.common.numbers import power_of_ten
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.marks import curve, line, places, rect, text
-from ridgeback.reports.drawing.scale import Scale, tick_labels
+from ridgeback.reports.drawing.scale import Scale, shared_power, tick_labels
 
 Labelled = Callable[[float], str]
 
@@ -40,13 +41,17 @@ class Panel:
         return self.y.start
 
     def rows(self, ticks: Sequence[float] | None = None, *, label: Labelled | None = None, most: int = 5) -> str:
-        """Horizontal grid lines with their values at the left."""
+        """Horizontal grid lines with their values at the left, a power of ten that they share below them."""
         values = self.y.ticks(most) if ticks is None else ticks
-        names = tick_labels(values) if label is None else [label(v) for v in values]
-        return "".join(
+        power = shared_power(values) if label is None else 0
+        names = tick_labels(v / 10.0**power for v in values) if label is None else [label(v) for v in values]
+        marks = [
             line(self.left, self.y(v), self.right, self.y(v)) + text(self.left - 7, self.y(v) + 4, name, "m", "end")
             for v, name in zip(values, names, strict=True)
-        )
+        ]
+        if power:
+            marks.append(text(self.left - 20, self.bottom + 19, f"× {power_of_ten(power)}", "m", "end"))
+        return "".join(marks)
 
     def columns(
         self, ticks: Sequence[float] | None = None, *, label: Labelled | None = None, most: int = 6, unit: str = ""

@@ -13,6 +13,8 @@ from ridgeback.numeric.arrays import Array
 
 ROUNDING = 1e-9
 """A relative spread below this is shown as none: it is that of the arithmetic."""
+SMALL, LARGE = 1e-3, 1e6
+"""Ticks below and from which they are written by powers of ten."""
 STEPS = (1.0, 2.0, 2.5, 5.0, 10.0)
 
 
@@ -97,6 +99,16 @@ def padded(values: Iterable[Array], *, share: float = 0.06) -> tuple[float, floa
     return low - room, high + room
 
 
+def shared_power(values: Iterable[float]) -> int:
+    """The power of ten that labels of small or large ticks have in common, 0 of others.
+
+    >>> shared_power([1.73e-5, 1.74e-5]), shared_power([0.0, 2.5e6]), shared_power([0.0, 2.5])
+    (-5, 6, 0)
+    """
+    size = max((abs(v) for v in values), default=0.0)
+    return math.floor(math.log10(size)) if size >= LARGE or 0.0 < size < SMALL else 0
+
+
 def tick_labels(values: Iterable[float]) -> list[str]:
     """Labels of linear ticks, all with the same decimals.
 
@@ -105,7 +117,7 @@ def tick_labels(values: Iterable[float]) -> list[str]:
     """
     ticks = list(values)
     size = max((abs(v) for v in ticks), default=0.0)
-    if size >= 1e6 or 0.0 < size < 1e-3:
+    if size >= LARGE or 0.0 < size < SMALL:
         digits = next((d for d in range(3, 17) if len({f"{v:.{d}g}" for v in ticks}) == len(set(ticks))), 17)
         return [minus(f"{v:.{digits}g}") for v in ticks]
     places = next((d for d in range(7) if all(abs(v - round(v, d)) <= 1e-9 * max(size, 1e-9) for v in ticks)), 7)

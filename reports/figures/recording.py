@@ -22,6 +22,8 @@ from ridgeback.reports.figures.planes import level_plane, record_data
 CLOCK = Clock("s")
 LETTER, ROW, HEIGHTS = 7.0, 17.0, 5
 """Width of a letter of a key, about, height of its lines, and heights at which it may stand."""
+CLOSE = 0.5
+"""Share of the largest amplitude above which all of them may lie for their axis not to begin at zero."""
 STYLES = ("tl nf", "tl d1 nf", "tl d2 nf", "tl d3 nf", "el nf", "sl nf")
 
 
@@ -85,8 +87,22 @@ def _band_panel(band: Band, i: int, count: int, *, narrow: bool) -> Panel:
     kept = np.isfinite(band.sd) & (band.sd <= 6.0 * np.nanmedian(band.sd))
     others = [y[kept] for _, y, _ in band.over[:1] if np.isfinite(y[kept]).any()]
     low, high = padded([band.y, band.y[kept] - band.sd[kept], band.y[kept] + band.sd[kept], *others], share=0.08)
-    end = float(np.nanmax(band.x)) * 1.03 if band.x.size else 1.0
-    return Panel(Scale(0.0, end, left, right), Scale(low, high, top + (196.0 if narrow else 280.0), top))
+    return Panel(Scale(*amplitudes(band.x), left, right), Scale(low, high, top + (196.0 if narrow else 280.0), top))
+
+
+def amplitudes(x: Array) -> tuple[float, float]:
+    """The range of an amplitude's axis: from zero, unless that left most of it empty.
+
+    >>> amplitudes(np.array([0.2, 1.0])), amplitudes(np.array([0.9, 1.0]))
+    ((0.0, 1.03), (0.895, 1.005))
+    """
+    if not x.size:
+        return 0.0, 1.0
+    low, high = float(np.nanmin(x)), float(np.nanmax(x))
+    if high - low >= (1.0 - CLOSE) * high:
+        return 0.0, 1.03 * high
+    room = 0.05 * (high - low) if high > low else 0.05 * high
+    return low - room, high + room
 
 
 def _band(band: Band, panel: Panel, x_title: str) -> str:

@@ -16,6 +16,7 @@ from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
 from ridgeback.reports.figures.answer import STYLES
 from ridgeback.reports.figures.clock import Clock
+from ridgeback.reports.figures.recording import amplitudes
 
 CLOCK = Clock("s")
 TWO_SIDED = 1.96
@@ -91,9 +92,8 @@ def _panel(curves: Sequence[Curve], i: int, *, narrow: bool) -> Panel:
         width = np.abs(c.high - c.low)
         near = np.isfinite(width) & (width <= 6.0 * np.nanmedian(width))
         tops += [c.low[near], c.high[near]]
-    end = max((float(np.nanmax(c.x)) for c in curves if c.x.size), default=1.0)
     y = Scale(*padded(tops, share=0.06), top + (196.0 if narrow else 280.0), top)
-    return Panel(Scale(0.0, 1.03 * end, left, right), y)
+    return Panel(Scale(*amplitudes(np.concatenate([c.x for c in curves])), left, right), y)
 
 
 def _drawn(curves: Sequence[Curve], panel: Panel, title: str, x_title: str) -> list[str]:
