@@ -122,10 +122,8 @@ def in_its_span(recording: Recording, track: Track, values: Array) -> tuple[Reco
     if track.used.span is None:
         return replace(recording, values=values), ()
     first, last = (round((time - recording.time[0]) * recording.rate) for time in track.used.span)
-    cut, (begin, end) = slice(first, last + 1), track.used.span
-    part = part_of(replace(recording, values=values), cut)
-    why = track.used.span_why or "the amplitude stands above the noise"
-    return part, (f"{why[0].upper()}{why[1:]} from t = {begin:.6g} to {end:.6g}; the rest is left out.",)
+    part = part_of(replace(recording, values=values), slice(first, last + 1))
+    return part, track.used.span_notes()
 
 
 def usable(recording: Recording, span: tuple[float, float] | None) -> tuple[Recording, tuple[str, ...]]:

@@ -169,13 +169,8 @@ def monte_carlo(
     )
 
 
-def truth_of(
-    source: Truth | Recording | ArrayLike | None, rate: float | None = None, *, omega: Array | None = None
-) -> Truth:
-    """The noise-free record that a study is about; InputError for samples without their rate.
-
-    ``omega`` is the frequency of a recording at every sample, when that is known already.
-    """
+def truth_of(source: Truth | Recording | ArrayLike | None, rate: float | None = None) -> Truth:
+    """The noise-free record that a study is about; InputError for samples without their rate."""
     if source is None:
         return paper_truth() if rate is None else paper_truth(rate=rate)
     if isinstance(source, Truth):
@@ -183,7 +178,7 @@ def truth_of(
     if isinstance(source, Recording):
         start = float(source.time[0])
         title = f"{source.source}, {source.name}"
-        return recording_truth(source.values, source.rate, start=start, title=title, omega=omega)
+        return recording_truth(source.values, source.rate, start=start, title=title)
     if rate is None:
         raise InputError("the samples come without their sampling rate; give rate=, samples per time unit")
     return recording_truth(np.asarray(source, dtype=np.float64), rate)

@@ -160,12 +160,10 @@ def _integrated_truth(run: Trajectory, cycle: CycleFrequency, title: str, name: 
     )
 
 
-def recording_truth(
-    x: Array, rate: float, *, start: float = 0.0, title: str = "the recording", omega: Array | None = None
-) -> Truth:
+def recording_truth(x: Array, rate: float, *, start: float = 0.0, title: str = "the recording") -> Truth:
     """The smooth harmonic model of a recording: harmonic least squares, its residual left out.
 
-    It is of the stretch in which the motion stands above the noise, where its frequency is not known already.
+    It is of the stretch in which the motion stands above the noise, less the tones that are found beside it.
 
     Parameters
     ----------
@@ -177,19 +175,16 @@ def recording_truth(
         Time of the first sample.
     title
         What the recording is called in a table.
-    omega
-        Its frequency at every sample by harmonic least squares, shape (n,), when that is known already.
 
     Raises
     ------
     InputError
         For what harmonic least squares refuses, and where noise alone explains the samples.
     """
-    x = np.asarray(x, dtype=np.float64)
-    if omega is None:
-        track = estimate(x, rate, method=SMOOTH, start=start, bias=False).of_oscillation()
-        first = round((float(track.time[0]) - start) * rate)
-        x, start, omega = x[first : first + track.time.size], float(track.time[0]), track.omega
+    track = estimate(x, rate, method=SMOOTH, start=start).of_oscillation()
+    start, first = float(track.time[0]), round((float(track.time[0]) - start) * rate)
+    x, omega = np.asarray(x, dtype=np.float64)[first : first + track.time.size], track.omega
+    x = x - sum(tone.samples(track.time - start) for tone in track.used.tones)
     what = "frequency of the recording's own smooth harmonic model, whose residual is replaced by white noise"
     smooth = smoothed(omega, rate, KNOT_WINDOWS * LAG_CYCLES * TWO_PI / float(np.median(omega)))
     return _with_harmonics(title, what, x, smooth, rate, start, own=True)

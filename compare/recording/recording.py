@@ -21,6 +21,7 @@ from ridgeback.compare.recording.measurement import estimated, marked, measured
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.recording.theory import over_measured, theory_curve
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
+from ridgeback.numeric.components.tones import beside_notes
 from ridgeback.numeric.estimators.estimate import Estimation
 from ridgeback.numeric.recording.reading import read_recording
 from ridgeback.numeric.recording.recording import Recording
@@ -162,8 +163,19 @@ def _assembled(
         notes=tuple(_notes(curves, said)),
         theory=() if oscillator is None else (theory_curve(oscillator, curve),),
         over=None if oscillator is None else over_measured(oscillator, curve, known=not doubt),
+        remarks=tuple(remarks(chosen, recording)),
         doubt=doubt,
     )
+
+
+def remarks(track: Track, recording: Recording) -> Iterable[str]:
+    """What of a record is no part of the oscillation that a track follows."""
+    used, clipped = track.used, int(np.count_nonzero(recording.clipped))
+    yield from beside_notes(used.tones, used.spikes)
+    yield from used.span_notes()
+    if clipped:
+        what = "sample is clipped or lies" if clipped == 1 else "samples are clipped or lie"
+        yield f"{clipped} {what} beside one that is; they enter no fit of the motion."
 
 
 def _notes(curves: tuple[Curve, ...], said: list[str]) -> Iterable[str]:

@@ -44,6 +44,8 @@ class RecordingComparison(Brief):
     theory: tuple[Curve, ...] = ()
     over: TheoryBackbone | None = None
     """The named oscillator's backbone over the measured one."""
+    remarks: tuple[str, ...] = ()
+    """What of the record is no part of the oscillation that is measured: other tones, times, clipped samples."""
     doubt: str = ""
     """Why no deviation is claimed, if so: those of backbone and growth rate are NaN then."""
 

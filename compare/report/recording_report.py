@@ -8,7 +8,6 @@ from pathlib import Path
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.identification.preparation import part_of
 from ridgeback.compare.noise.monte_carlo import truth_of
-from ridgeback.compare.noise.truth import SMOOTH, Truth
 from ridgeback.compare.recording.recording import compare_recording
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report import csv_tables as tables
@@ -83,7 +82,7 @@ def recording_report(
     with watch.stage("what made it", 0.3, 0.7) as inner:
         made = identification_part(recording, found, cycles, inner)
     with watch.stage("estimators in noise", 0.7, 1.0) as inner:
-        noise = noise_part(lambda: _truth(recording, found), trials, inner)
+        noise = noise_part(lambda: truth_of(part_of(recording, slice(MOST_SAMPLES))), trials, inner)
     progress(1.0, "done")
     left_out = tuple(reason for reason in (made.left_out, noise.left_out) if reason)
     settings = _settings(found, theory, {"cycles": cycles, "trials": trials})
@@ -117,13 +116,6 @@ def _read(
     if isinstance(source, Recording):
         return source
     return read_recording(source, column=column, time_column=time_column, rate=rate)
-
-
-def _truth(recording: Recording, found: RecordingComparison) -> Truth:
-    """The smooth model of the recording's first MOST_SAMPLES, from the comparison's track where that has them all."""
-    known = [c.omega for c in found.curves if c.name == SMOOTH and c.time.size == recording.time.size]
-    first = part_of(recording, slice(MOST_SAMPLES))
-    return truth_of(first, omega=known[0][:MOST_SAMPLES] if known else None)
 
 
 def _settings(found: RecordingComparison, theory: Oscillator | None, chosen: Mapping[str, object]) -> dict[str, object]:

@@ -62,8 +62,8 @@ def recording_title(found: RecordingComparison) -> str:
 
 
 def recording_sentences(found: RecordingComparison, made: Identification | None) -> tuple[str, ...]:
-    """At most five findings: the theory named, what made it, the forecast, how well the backbone is known."""
-    return tuple(_sentences(found, made))[:5]
+    """Doubts, the theory named, what of the record was left out, what made it, and the forecast."""
+    return tuple(_sentences(found, made))
 
 
 def _sentences(found: RecordingComparison, made: Identification | None) -> Iterator[str]:
@@ -71,6 +71,7 @@ def _sentences(found: RecordingComparison, made: Identification | None) -> Itera
         yield f"{found.doubt}."
     if found.over is not None:
         yield found.over.sentence()
+    yield from found.remarks
     if made is not None:
         yield _what_made_it(made)
         if made.prediction is not None:

@@ -92,11 +92,7 @@ def backbone(
         measured = along_models(models, track, first, exclude)
     else:
         measured = along_windows(samples - offset, rate, track, first, window_seconds, exclude)
-    notes = [f"The mean of the samples, {offset:.4g}, was removed.", *measured.notes]
-    if track.used.span is not None:
-        begin, end = track.used.span
-        what = track.used.span_why or "the amplitude stands above the noise"
-        notes.insert(0, f"{what[0].upper()}{what[1:]} from t = {begin:.6g} to {end:.6g}; the rest is left out.")
+    notes = [*track.used.span_notes(), f"The mean of the samples, {offset:.4g}, was removed.", *measured.notes]
     return assemble(
         measured.points,
         crowding=measured.crowding,

@@ -91,6 +91,17 @@ class Choices:
     doubt: str = ""
     why: str = ""
 
+    def span_notes(self) -> tuple[str, ...]:
+        """The stretch that the track is of, in words, where that is not all of the record.
+
+        >>> Choices(span=(4.2, 39.9)).span_notes()
+        ('The amplitude stands above the noise from t = 4.2 to 39.9; the rest is left out.',)
+        """
+        if self.span is None:
+            return ()
+        why = self.span_why or "the amplitude stands above the noise"
+        return (f"{why[0].upper()}{why[1:]} from t = {self.span[0]:.6g} to {self.span[1]:.6g}; the rest is left out.",)
+
     def shown(self) -> dict[str, object]:
         """What differs from its default, by name, for display."""
         held = {item.name: (getattr(self, item.name), item.default) for item in fields(self)}

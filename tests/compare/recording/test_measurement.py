@@ -128,9 +128,10 @@ def test_hum_that_is_stronger_than_any_decay_is_named() -> None:
 
 
 def test_the_reason_stands_first_where_nothing_is_claimed() -> None:
-    """Two oscillations whose frequencies cross: no model of one, and none of one with tones."""
+    """Three oscillations whose frequencies cross again and again: no model of one, and none of one with tones."""
     t = np.arange(600) / 40.0
     x = np.cos(2 * np.pi * (3.0 * t + 0.06 * t**2)) + 0.9 * np.cos(2 * np.pi * (5.0 * t - 0.06 * t**2))
+    x += 0.8 * np.cos(2 * np.pi * (4.0 * t + 0.5 * np.sin(0.9 * t)))
     found = measure(Recording.from_arrays(x + 0.01 * np.random.default_rng(2).normal(size=t.size), 40.0))
     assert found.track is not None
     assert found.track.interval is None
