@@ -61,7 +61,7 @@ def trial(kind: Kind, seed: int) -> Outcome:
     size = within(curve.amplitude, curve.amplitude_sd, np.interp(curve.time, t, motion.amplitude))
     rise = np.interp(curve.time, t, motion.growth)
     growth = within(curve.growth_rate, curve.growth_rate_sd, rise)
-    if np.ptp(motion.amplitude) > 0.01:
+    if np.ptp(motion.amplitude) > 0.01 and np.diff(motion.amplitude).max() <= 0.0:
         order = np.argsort(motion.amplitude)
         on_curve = np.interp(curve.curve_amplitude, motion.amplitude[order], motion.growth[order])
         growth = within(curve.curve_growth_rate, curve.curve_growth_rate_sd, on_curve)

@@ -399,6 +399,20 @@ def any_dying_mode(rng: np.random.Generator) -> Kind:
     return any_decay(rng, ratio, cycles, other, noise, f)
 
 
+# F. J. Richards, J. Exp. Bot. 10 (1959) 290: a^p = 1 - (1 - a_0^p) e^(-k t); p = -2 is Landau's equation.
+def any_swell(rng: np.random.Generator) -> Record:
+    """A swell from 2 to 95 % within 3 to 6 cycles, in three forms, then a decay."""
+    f, p = rng.uniform(0.5, 200.0), float(rng.choice([1.0, -1.0, -2.0]))
+    t = np.arange(round(rng.uniform(20.0, 60.0) * (per_cycle := rng.uniform(9.0, 40.0)))) / (f * per_cycle)
+    lack = 0.02**p - 1.0
+    k, fall = f / rng.uniform(3.0, 6.0) * np.log(lack / (0.95**p - 1.0)), TWO_PI * f * rng.uniform(0.002, 0.015)
+    left = lack * np.exp(-k * t)
+    a, growth = (1.0 + left) ** (1.0 / p) * np.exp(-fall * t), -k / p * left / (1.0 + left) - fall
+    noise = log_uniform(rng, 0.002, 0.02) * float(a.max())
+    x = a * np.cos(TWO_PI * f * t + rng.uniform(0, TWO_PI)) + noise * rng.normal(size=t.size)
+    return Record(x, f * per_cycle, Motion(a, np.full(t.size, TWO_PI * f), growth, t >= 0), noise)
+
+
 DRAWN: dict[str, Kind] = {
     "3 to 5 cycles, damping ratio 0.3 to 15 %": drawn(
         lambda rng: any_decay(rng, log_uniform(rng, 0.003, 0.15), rng.uniform(3.2, 5.0))
@@ -423,5 +437,6 @@ DRAWN: dict[str, Kind] = {
     "1/f noise": drawn(any_red),
     "a chirp that runs away": any_chirp,
     "a mode beside that dies in a few cycles": drawn(any_dying_mode),
+    "a swell from 2 % within 3 to 6 cycles": any_swell,
 }
 """Each trial draws its parameters, too."""

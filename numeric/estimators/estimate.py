@@ -28,7 +28,7 @@ from ridgeback.numeric.signal.decimation import LONG, PER_CYCLE, Samples, checke
 from ridgeback.numeric.signal.presence import presence
 from ridgeback.numeric.signal.search_band import SearchBand
 from ridgeback.numeric.tracking.choices import Scope
-from ridgeback.numeric.tracking.own_stretch import has_model, in_its_stretch
+from ridgeback.numeric.tracking.own_stretch import after_its_start, has_model, in_its_stretch
 from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, Request, prepared, refuse_cross_term
 from ridgeback.numeric.tracking.settings import refuse_unused
 from ridgeback.numeric.tracking.track import NORMAL_95, Track
@@ -270,7 +270,7 @@ def estimation(
         refuse_cross_term(request, method)
     request = in_its_stretch(request, samples) if noise.found else without_bias_of(request)
     if request.options.bias:
-        request = request.separated()
+        request = after_its_start(request.separated(), samples)
         samples = with_motion_of(request, samples)
     progress(0.1, "choosing an estimator" if method == "auto" else method)
     name, request = for_auto(request) if method == "auto" else (method, request)

@@ -1,11 +1,20 @@
-"""The part of a record that an estimate is of: where the motion stands above the noise and can be followed."""
+"""The part of a record that an estimate is of: where the motion stands above the noise and can be followed.
+
+A tone that dies within a few cycles beside an oscillation of nearly its frequency is that oscillation's own swell or
+fall, or a second mode: no record tells which, and the amplitude of the oscillation is another in either case.  So the
+first cycles, in which there is such a tone, are left out; and those, too, without which a model holds that does not
+hold with them.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
+from ridgeback.numeric.components.tones import Tone
 from ridgeback.numeric.signal.decimation import Samples
 from ridgeback.numeric.signal.search_band import SearchBand
 from ridgeback.numeric.tracking.clear_stretch import clear_stretch, followed_stretch
@@ -15,6 +24,20 @@ from ridgeback.numeric.tracking.request import Request, prepared
 FOLLOWED = "the frequency changes slowly enough to be followed"
 FEWEST_CYCLES = 8.0
 """Of a record, from which on a part of it is looked for in which a frequency can be followed."""
+
+UNRESOLVED = 0.5
+"""Of its growth rate, that the frequency of a tone is away from the oscillation's at least, to be told from it."""
+SUNK = 0.05
+"""Of the noise, down to which such a tone matters."""
+LEFT_OUT, MORE, CROWDED = (4.0, 8.0, 12.0), 2.0, 0.7
+"""Cycles at the start without which models are tried where none holds with them; those that are left out beyond; and of
+the mean distance of knots the first one there, as it is where the start is what takes them."""
+MOST_LEFT_OUT = 0.5
+"""Of the samples."""
+START_OVER = "what swells, falls or dies within a few cycles at the start is over"
+UNTOLD = (
+    "the amplitude swells or falls within a few cycles, which is not told from a mode that dies; give a --span after it"
+)
 
 
 def in_its_stretch(request: Request, samples: Samples) -> Request:
@@ -45,6 +68,61 @@ def along_what_is_followed(request: Request, samples: Samples) -> Request:
         further = part_of(request, samples, longer, FOLLOWED, search)
         return further if has_model(further) else part
     return request
+
+
+def after_its_start(request: Request, samples: Samples) -> Request:
+    """The request for what follows the first cycles, where those are not those of one smooth oscillation.
+
+    Parameters
+    ----------
+    request : Request
+        For one oscillation alone, with models of it.
+    samples : Samples
+        Of the whole record.
+    """
+    if request.known_models is None or request.signal.span_why == FOLLOWED:
+        return request
+    first, size = round((request.signal.start - samples.start) * samples.rate), request.signal.x.size
+    why = " and ".join(filter(None, (START_OVER, request.signal.span_why)))
+
+    def without(begin: int) -> Request:
+        return part_of(request, samples, slice(first + begin, first + size), why).separated()
+
+    for tried, begin in begins(request):
+        if begin <= MOST_LEFT_OUT * size and is_one(without(tried)) and is_one(found := without(begin)):
+            return found
+    doubt = request.signal.doubt or (UNTOLD if untold(request) else "")
+    return replace(request, signal=replace(request.signal, doubt=doubt))
+
+
+def begins(request: Request) -> Iterator[tuple[int, int]]:
+    """Samples at the start without which models are tried, and that are left out; none where nothing is wrong."""
+    models, rate = request.models, request.signal.rate
+    dying = untold(request)
+    if dying:
+        left = [math.log(tone.amplitude / (SUNK * models.best.noise)) / -tone.growth for tone in dying]
+        yield math.ceil(max(left) * rate), math.ceil(max(left) * rate)
+    turned = (models.best.phase - models.best.phase[0]) / (2 * np.pi)
+    knots = np.interp(models.best.breaks, models.best.time, turned)
+    if request.signal.doubt and knots[1] < CROWDED * knots[-1] / (knots.size - 1):
+        for cycles in LEFT_OUT:
+            yield int(np.searchsorted(turned, cycles)), int(np.searchsorted(turned, cycles + MORE))
+
+
+def is_one(request: Request) -> bool:
+    """Whether models of one oscillation hold for all of the samples."""
+    return request.known_models is not None and not request.signal.doubt and not untold(request)
+
+
+def untold(request: Request) -> tuple[Tone, ...]:
+    """The tones that die and are above the noise, of nearly the frequency of the oscillation."""
+    best = request.models.best
+    base = float(np.average(best.omega, weights=best.size**2))
+    return tuple(
+        tone
+        for tone in request.signal.tones
+        if abs(tone.omega - base) < -UNRESOLVED * tone.growth and tone.amplitude > SUNK * best.noise
+    )
 
 
 def has_model(request: Request) -> bool:

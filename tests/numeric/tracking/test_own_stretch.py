@@ -107,3 +107,27 @@ def test_a_guide_that_strays_before_its_end_is_taken_up_where_it_is_right() -> N
     guide, stretch = lengthened(x, 140.0, np.minimum(OMEGA, 15.0), slice(0, 600))
     assert stretch == slice(0, 700)
     assert np.abs(guide / OMEGA - 1.0)[-150:].max() < 0.05
+
+
+def test_the_steep_start_of_a_swell_is_left_out_since_it_may_be_a_mode_that_dies() -> None:
+    t, rng = np.arange(1200) / 20.0, np.random.default_rng(1)
+    size = (1.0 - 0.98 * np.exp(-0.6 * t)) * np.exp(-0.02 * t)
+    x = size * np.cos(2 * np.pi * t) + 0.01 * rng.normal(size=t.size)
+    found = estimate(x, 20.0)
+    assert found.used.span is not None
+    assert found.interval is not None
+    assert 8.0 < found.used.span[0] < 20.0  # 0.98 exp(-0.6 t) is below the noise from t = 7.6 on
+    assert "swells, falls or dies" in found.used.span_why
+    assert found.interval.holds(np.full(t.size, 2 * np.pi)[: found.omega.size]).mean() > 0.5
+    short = estimate(x[:400], 20.0)
+    assert short.interval is None
+    assert "not told from a mode that dies" in str(short.no_interval)
+
+
+def test_a_mode_that_dies_in_a_few_cycles_well_beside_the_oscillation_leaves_its_start_claimed() -> None:
+    t, rng = np.arange(1200) / 20.0, np.random.default_rng(1)
+    x = np.exp(-0.02 * t) * np.cos(6.0 * t) + 0.4 * np.exp(-1.5 * t) * np.cos(8.5 * t) + 1e-3 * rng.normal(size=t.size)
+    found = estimate(x, 20.0)
+    assert found.used.span is None
+    assert found.interval is not None
+    assert found.interval.holds(np.full(t.size, 6.0))[:60].mean() > 0.9
