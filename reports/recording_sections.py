@@ -48,13 +48,13 @@ def _made(report: Report) -> Section | None:
     found = report.identification
     if found is None:
         return None
-    parts = [
-        Part("text", found.verdict),
+    classes = [
         Part("figure", candidates_figure(found)),
         Part("equations", [(c.title, class_mathml(c.equation), c.equation) for c in found.candidates[:EQUATIONS]]),
         Part("table", parameter_table(found.best)),
         fold("All classes, ranked", Part("table", ranking_table(found))),
     ]
+    parts = [Part("text", found.verdict), *(() if found.hum else classes)]
     if found.notes:
         parts.append(fold("Notes on the ranking", Part("lines", found.notes)))
     return Section("identification", "What made it", found.title, tuple(parts))
@@ -62,7 +62,7 @@ def _made(report: Report) -> Section | None:
 
 def _fit(report: Report) -> Section | None:
     made = report.identification
-    if made is None or made.fitted is None:
+    if made is None or made.fitted is None or made.hum:
         return None
     best = made.best
     share, named = per_cent(made.unexplained), f"The nearest, {best.title}," if made.unclaimed else best.title

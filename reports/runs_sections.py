@@ -78,6 +78,8 @@ def _class_row(named: Named) -> tuple[str, str, str, str]:
     made = named.made
     if made is None:
         return named.label, "", "", ""
+    if made.hum:
+        return named.label, f"none: {made.hum}", "", ""
     others = [c.title for c in made.candidates[1:] if c.name in made.indistinguishable]
     title = f"{made.best.title}, {made.best.damping_law} damping"
     return (

@@ -7,6 +7,7 @@ that is wrong by half a turn at the end would end in a false minimum.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,6 +32,9 @@ NEAR_STEPS, STEPS = 10, 30
 """Evaluations that the anchors and the samples may take, Jacobians not counted; the anchors need only come near."""
 COARSE, FINE = 1e-4, 1e-8
 """Relative change of the sum of squares at which a first fit stops, and one to full precision."""
+
+FLAT, LONG_STEP = 1e-6, 1e-3
+"""Derivatives below which a short step shows nothing, and a longer one over the range of a parameter or 1."""
 
 
 @dataclass(frozen=True)
@@ -255,7 +259,19 @@ def by_samples(model: Model, data: Data, theta: Array, tolerance: float) -> Fit:
         fine = least_squares(samples, begin, bounds=limits, x_scale="jac", max_nfev=STEPS, ftol=tolerance)
     except (InputError, ValueError, FloatingPointError, np.linalg.LinAlgError):
         return failed(model, data, theta)
-    return Fit(model, np.asarray(fine.x), np.asarray(fine.fun), spread_of(np.asarray(fine.jac)))
+    jacobian = seen(samples, np.asarray(fine.x), np.asarray(fine.jac), limits)
+    return Fit(model, np.asarray(fine.x), np.asarray(fine.fun), spread_of(jacobian))
+
+
+def seen(samples: Callable[[Array], Array], theta: Array, jacobian: Array, limits: tuple[Array, Array]) -> Array:
+    """The Jacobian with differences over longer steps where short ones show nothing, as at the least of all losses."""
+    found = jacobian.copy()
+    for i in np.flatnonzero(np.abs(jacobian).max(axis=0) < FLAT):
+        away = theta.copy()
+        step = LONG_STEP * min(float(limits[1][i] - limits[0][i]), 1.0)
+        away[i] += step if theta[i] + step <= limits[1][i] else -step
+        found[:, i] = (samples(away) - samples(theta)) / (away[i] - theta[i])
+    return found
 
 
 def spread_of(jacobian: Array) -> Array:

@@ -25,6 +25,7 @@ from ridgeback.compare.identification.sample_fit import (
     over_model,
     sample_fit,
 )
+from ridgeback.numeric.backbone.hum import hum_of
 from ridgeback.numeric.recording.recording import Recording
 
 FEWEST_CYCLES = 6
@@ -90,7 +91,8 @@ def identify(
     progress(0.0, "frequency track")
     ready = prepared(recording, span=span) if isinstance(recording, Recording) else recording
     found = attempted(ready, names, allowed, kind, progress)
-    refuse_another_quantity(found.ready, found.data, found.ranked, progress)
+    if hum_of(found.data.measured) is None:
+        refuse_another_quantity(found.ready, found.data, found.ranked, progress)
     ready, used = found.ready, found.ready.recording
     where = float(used.time[0]), float(used.time[-1])
     measured = () if ready.doubt else found.data.measured.notes
@@ -177,7 +179,7 @@ def assembled(attempt: Attempt, kind: str, notes: tuple[str, ...], prediction: P
         for f, score in zip(ranked.fits, ranked.scores, strict=True)
     )
     near = tuple(c.name for c in candidates if c.delta < CLEAR)
-    measured = data.measured
+    measured, hum = data.measured, hum_of(data.measured)
     found = Identification(
         source=recording.source,
         column=recording.name,
@@ -186,6 +188,7 @@ def assembled(attempt: Attempt, kind: str, notes: tuple[str, ...], prediction: P
         samples=int(data.kept.sum()),
         noise=np.nan if ready.noise is None else ready.noise,
         doubt=ready.doubt,
+        hum="" if hum is None else hum.said(),
         effective_samples=ranked.effective,
         criterion_name=kind,
         candidates=candidates,

@@ -19,7 +19,7 @@ from scipy import fft
 from ridgeback.compare.identification.candidates import BACKBONE
 from ridgeback.compare.identification.fitting import Data, Fit, bounds
 from ridgeback.compare.identification.results import NORMAL_95, Candidate, Parameter
-from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.arrays import Array, Mask
 
 CRITERIA = ("bic", "aicc")
 CLEAR = 6.0
@@ -77,13 +77,29 @@ def slopes(function: Callable[[Array], Array], theta: Array, deviation: Array, l
     return np.asarray(np.array(columns).T, dtype=np.float64)
 
 
-def spread_along(function: Callable[[Array], Array], fit: Fit, data: Data, matrix: Array) -> Array:
-    """One standard deviation of each value of a function of theta, by the delta method."""
+def undetermined(fit: Fit, data: Data, matrix: Array) -> Mask:
+    """Which of theta the samples do not determine within the whole of its range."""
     low, high = bounds(fit.model, data)
-    deviation = np.minimum(np.sqrt(np.diag(matrix)), np.where(np.isfinite(high - low), high - low, 1.0))
+    return np.asarray(np.sqrt(np.diag(matrix)) > high - low)
+
+
+def spread_along(
+    function: Callable[[Array], Array], fit: Fit, data: Data, matrix: Array, *, unknown: float = math.nan
+) -> Array:
+    """One standard deviation of each value of a function of theta, by the delta method.
+
+    ``unknown`` where most of it is of what the samples do not determine, which then lies anywhere in its range.
+    """
+    low, high = bounds(fit.model, data)
+    reach = np.where(np.isfinite(high - low), high - low, np.inf)
+    lost = undetermined(fit, data, matrix)
+    shrunk = np.where(lost, reach / np.sqrt(np.where(lost, np.diag(matrix), 1.0)), 1.0)
+    matrix = matrix * np.outer(shrunk, shrunk)
+    deviation = np.minimum(np.sqrt(np.diag(matrix)), np.where(np.isfinite(reach), reach, 1.0))
     derivative = slopes(function, fit.theta, deviation, low, high)
-    variance = np.einsum("ip,pq,iq->i", derivative, matrix, derivative)
-    return np.asarray(np.sqrt(np.maximum(variance, 0.0)), dtype=np.float64)
+    variance = np.maximum(np.einsum("ip,pq,iq->i", derivative, matrix, derivative), 0.0)
+    nowhere = np.sum((derivative * deviation * lost) ** 2, axis=1) > 0.5 * variance
+    return np.where(nowhere & (variance > 0.0), unknown, np.sqrt(variance))
 
 
 def parameters(fit: Fit, data: Data, matrix: Array, unit: str) -> tuple[Parameter, ...]:
@@ -100,7 +116,7 @@ def parameters(fit: Fit, data: Data, matrix: Array, unit: str) -> tuple[Paramete
         ("phase0", "rad", "phase at the start"),
         ("offset", "U", "zero of the sensor"),
     ]
-    found, spread = values(fit.theta), spread_along(values, fit, data, matrix)
+    found, spread = values(fit.theta), spread_along(values, fit, data, matrix, unknown=math.inf)
     return tuple(
         Parameter(name, float(value), float(sd), in_units(text, unit), meaning)
         for (name, text, meaning), value, sd in zip(described, found, spread, strict=True)

@@ -36,6 +36,8 @@ class Standing(Enum):
     """From others, which fit as well."""
     NEAREST = "nearest"
     """It leaves more than noise."""
+    HUM = "hum"
+    """The samples are those of no oscillator, but of a steady tone of the mains."""
     DOUBTED = "doubted"
     """The samples are not those of one oscillation."""
     NONE = "none"
@@ -225,6 +227,8 @@ class Identification(ShownIdentification, _Values):
         such model holds.
     doubt : str
         Why the samples are not those of one oscillation, if so.
+    hum : str
+        The steady tone of the mains that the oscillation is, if so.
     fitted : SampleFit, optional
         The best candidate over the samples, with the spectrum of what it leaves.
     misfit : Misfit
@@ -256,6 +260,7 @@ class Identification(ShownIdentification, _Values):
     prediction: Prediction | None = None
     noise: float = math.nan
     doubt: str = ""
+    hum: str = ""
     fitted: SampleFit | None = None
     misfit: Misfit = UNKNOWN
 
@@ -280,6 +285,8 @@ class Identification(ShownIdentification, _Values):
 
         One that leaves noise alone speaks for one oscillation where no model without an oscillator in mind does.
         """
+        if self.hum:
+            return Standing.HUM
         if not self.described:
             return Standing.NONE
         if self.doubt and not self.misfit.agrees:
@@ -294,6 +301,8 @@ class Identification(ShownIdentification, _Values):
         match self.standing:
             case Standing.NONE:
                 return f"the best candidate leaves {self.unexplained:.0%} of the signal's rms"
+            case Standing.HUM:
+                return f"the strongest component is no decay: {self.hum}"
             case Standing.DOUBTED:
                 return self.doubt
             case Standing.NEAREST:
@@ -316,6 +325,8 @@ class Identification(ShownIdentification, _Values):
         match self.standing:
             case Standing.NONE:
                 return "No class describes this recording"
+            case Standing.HUM:
+                return f"No class is claimed: {self.hum}, and no decay"
             case Standing.DOUBTED:
                 return "No class is claimed: no model of one oscillation holds"
             case Standing.NEAREST:
@@ -331,6 +342,8 @@ class Identification(ShownIdentification, _Values):
         best, left = self.best, f"What it leaves unexplained is {self.unexplained:.2g} of the signal's rms."
         named = f"{best.title}, damping {best.damping_law}"
         match self.standing:
+            case Standing.HUM:
+                return f"No class is claimed: {self.unclaimed}; give a --band round the oscillation that you mean."
             case Standing.NONE:
                 return f"No candidate describes this recording: {self.unclaimed}. The nearest is {named}."
             case Standing.DOUBTED:

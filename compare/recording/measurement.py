@@ -15,15 +15,14 @@ from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.backbone.damping import growth_columns
 from ridgeback.numeric.backbone.half_cycles import HalfCycles, half_cycles
-from ridgeback.numeric.components.tones import Tone, beside_notes
+from ridgeback.numeric.backbone.hum import hum_of
+from ridgeback.numeric.components.tones import beside_notes
 from ridgeback.numeric.estimators.amplitude import amplitude_of, estimate_amplitude
 from ridgeback.numeric.estimators.estimate import Estimation, estimation
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.signal.decimation import Samples, every, every_flag
 from ridgeback.numeric.tracking.track import NORMAL_95, AmplitudeTrack, Track
 
-STEADY = 0.05
-"""Relative change of the amplitude over a record of a tone that is called steady."""
 Row = dict[str, float | bool]
 
 
@@ -213,12 +212,9 @@ def measured(recording: Recording, found: Estimation, harmonic: int, band: objec
 
 def hum_notes(curve: Backbone) -> tuple[str, ...]:
     """That the oscillation is no decay but mains hum: of constant amplitude, at a multiple of 50 or 60 Hz."""
-    a = curve.amplitude
-    steady = float(np.ptp(a)) < STEADY * float(a.max())
-    tone = Tone(float(np.median(curve.omega)), 0.0, complex(float(a.max())))
-    if not (steady and tone.mains):
-        return ()
-    return (f"The strongest component is no decay: {tone.said()}; give a --band round the oscillation that you mean.",)
+    tone = hum_of(curve)
+    said = "" if tone is None else f"The strongest component is no decay: {tone.said()}"
+    return (f"{said}; give a --band round the oscillation that you mean.",) if said else ()
 
 
 def samples_behind(track: Track, recording: Recording) -> Samples:

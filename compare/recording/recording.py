@@ -21,6 +21,7 @@ from ridgeback.compare.recording.measurement import estimated, marked, measured
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.recording.theory import over_measured, theory_curve
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
+from ridgeback.numeric.backbone.hum import hum_of
 from ridgeback.numeric.components.tones import beside_notes
 from ridgeback.numeric.estimators.estimate import Estimation
 from ridgeback.numeric.recording.reading import read_recording
@@ -127,7 +128,7 @@ def _assembled(
     oscillator: Oscillator | None,
     doubt: str,
 ) -> RecordingComparison:
-    chosen = tracks[0]
+    chosen, hum = tracks[0], hum_of(curve)
     curves = tuple(curve_of(track, track.method, _LABELS.get(track.method, track.method)) for track in tracks)
     fit = None if doubt else fit_backbone(curve.curve_amplitude, curve.curve_omega, curve.curve_omega_sd)
     known = np.nan if doubt else 1.0
@@ -165,6 +166,7 @@ def _assembled(
         over=None if oscillator is None else over_measured(oscillator, curve, known=not doubt),
         remarks=tuple(remarks(chosen, recording)),
         doubt=doubt,
+        hum="" if hum is None else hum.said(),
     )
 
 

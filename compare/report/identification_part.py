@@ -47,7 +47,9 @@ def identification_part(
     used = SHARE * cycles_of(compared) if cycles is None else cycles
     try:
         ready = prepared(recording)
-        ahead, why = _ahead(ready, used, lambda share, step: progress(0.5 * share, step))
+        ahead, why = None, "Nothing was predicted: a steady tone is no decay." if compared.hum else ""
+        if not compared.hum:
+            ahead, why = _ahead(ready, used, lambda share, step: progress(0.5 * share, step))
         notes = (why,) if why else ()
         later: Progress = lambda share, step: progress(0.5 + 0.5 * share, step)  # noqa: E731
         return IdentificationPart(identify(ready, prediction=ahead, notes=notes, progress=later))

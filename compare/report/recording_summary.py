@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from ridgeback.common.numbers import number, per_cent, uncertain
+from ridgeback.common.numbers import NONE, number, per_cent, uncertain
 from ridgeback.common.quantities import frequency
 from ridgeback.compare.identification.results import Identification, Standing
 from ridgeback.compare.recording.results import RecordingComparison
@@ -51,6 +51,8 @@ def trend(found: RecordingComparison) -> Trend:
 def recording_title(found: RecordingComparison) -> str:
     """State the frequency at the largest and the smallest amplitude."""
     low, high = ends(found)
+    if found.hum:
+        return f"No decay: {found.hum}"
     text = (
         f"{_hertz(found.backbone_omega[high])} at amplitude {found.backbone_amplitude[high]:.3g}, "
         f"{_hertz(found.backbone_omega[low])} at {found.backbone_amplitude[low]:.3g}"
@@ -67,6 +69,8 @@ def recording_sentences(found: RecordingComparison, made: Identification | None)
 
 
 def _sentences(found: RecordingComparison, made: Identification | None) -> Iterator[str]:
+    if found.hum:
+        yield f"The strongest component is no decay: {found.hum}."
     if found.doubt:
         yield f"{found.doubt}."
     if found.over is not None:
@@ -84,6 +88,8 @@ def _what_made_it(made: Identification) -> str:
     match made.standing:
         case Standing.NONE:
             return f"What made it: no candidate describes this recording; the nearest is {made.best.title}."
+        case Standing.HUM:
+            return "What made it: no class is claimed, since it is no decay."
         case Standing.DOUBTED:
             return "What made it: no class is claimed, since no model of one oscillation holds."
         case Standing.NEAREST:
@@ -138,7 +144,9 @@ def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
             "median" if found.doubt else f"median; {trend(found).value}",
             tuple((size, f"{value} Hz") for size, value in zip(sizes, omega, strict=True)),
         ),
-        Card(
+        Card("Damping ratio", NONE, "a steady tone is no decay", ())
+        if found.hum
+        else Card(
             "Damping ratio",
             per_cent(middle, signed=middle < 0),
             "median of −a′/(aω₀)",

@@ -31,7 +31,8 @@ MOST_STEP, STEP_OF_GROWTH = 0.5, 0.3
 FAINT = 1e-3
 """Share of the largest amplitude as which a smaller one counts where a polynomial is laid through phases."""
 MAINS = (50.0, 60.0)
-MAINS_WITHIN = 2e-3
+MAINS_WITHIN, MAINS_HIGHEST = 2e-3, 40
+"""Relative distance from a multiple of the mains within which a steady tone is hum, and the highest such multiple."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +84,7 @@ class Tone:
     def mains(self) -> bool:
         """Whether it is steady and at a multiple of 50 or 60 cycles per unit."""
         f = self.omega / TWO_PI
-        near = [abs(f / base - round(f / base)) * base for base in MAINS if round(f / base) >= 1]
+        near = [abs(f / base - round(f / base)) * base for base in MAINS if 1 <= round(f / base) <= MAINS_HIGHEST]
         return self.growth == 0.0 and bool(near) and min(near) < MAINS_WITHIN * f
 
     def row(self) -> dict[str, float]:

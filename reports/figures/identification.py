@@ -195,6 +195,8 @@ def _with_interval(parameter: Parameter) -> tuple[str, str]:
     half = 0.5 * (high - low)
     if np.isnan(half):
         return number(parameter.value, 4), "not claimed"
+    if np.isinf(half):
+        return number(parameter.value, 2), "undetermined"
     if not half > 0:
         return number(parameter.value, 6), "exact"
     places = int(np.clip(1 - np.floor(np.log10(half)), 0, 12))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isnan
+from math import isinf, isnan
 from typing import TYPE_CHECKING
 
 import click
@@ -137,6 +137,10 @@ def prose(found: Identification) -> str:
         f"of which {found.effective_samples:.0f} are independent",
         found.verdict,
         *found.notes,
+    ]
+    if found.hum:
+        return "\n\n".join(parts) + "\n"
+    parts += [
         aligned(["candidate", "damping", "parameters", "delta", "weight", "residual"], ranking(found)),
         best_of(found),
     ]
@@ -167,13 +171,22 @@ def best_of(found: Identification) -> str:
         {
             "parameter": p.name,
             "value": readable(p.value),
-            "±": "-" if isnan(p.standard_deviation) else f"{p.standard_deviation:.2g}",
+            "±": deviation(p.standard_deviation),
             "unit": p.unit,
             "meaning": p.meaning,
         }
         for p in found.best.parameters
     ]
     return found.best.equation + "\n" + aligned(["parameter", "value", "±", "unit", "meaning"], rows)
+
+
+def deviation(value: float) -> str:
+    """One standard deviation as text.
+
+    >>> deviation(0.0123), deviation(float("nan")), deviation(float("inf"))
+    ('0.012', '-', 'undetermined')
+    """
+    return "undetermined" if isinf(value) else "-" if isnan(value) else f"{value:.2g}"
 
 
 def prediction_of(ahead: Prediction) -> str:

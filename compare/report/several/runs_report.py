@@ -222,6 +222,8 @@ def _sentences(runs: Runs) -> Iterator[str]:
 
 def _class_of(made: Identification) -> str:
     """The class, as far as one is claimed."""
+    if made.hum:
+        return f"none, {made.hum}"
     return f"none claimed, {made.best.title} leaves least" if made.unclaimed else made.best.title
 
 
