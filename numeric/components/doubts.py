@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 from scipy.fft import irfft, rfft, rfftfreq
+from scipy.optimize import isotonic_regression
 from scipy.special import chdtri
 
 from ridgeback.common.errors import InputError
@@ -22,6 +23,8 @@ FEWEST, THREE_SIGMA = 16, 3.0
 """Ordinates of a spectrum that tell a level of noise, and deviations by which two levels differ."""
 STEADY = 0.05
 """Of the logarithm of an amplitude, that it may swing by in a model of many knots."""
+ABOVE = 3.0
+"""Times the noise, of the amplitudes whose swing is told."""
 EXACT = 2e-3
 """Noise over amplitude below which knots follow what is there: what a model of the whole still misses is in view."""
 MANY, CLOSE = 8, 5.0
@@ -177,9 +180,16 @@ def unfinished(models: SignalModels, left: Array) -> str:
 
 
 def swing(model: SplineModel) -> float:
-    """How far the logarithm of a model's amplitude goes from a parabola in its phase, rms."""
+    """How far the logarithm of a model's amplitude goes from a parabola in its phase, or from falling or rising, rms.
+
+    The amplitude of a decay under drag is far from a parabola, and that of beats from both.  Falling or rising is asked
+    of what stands ABOVE the noise.
+    """
     log, turned = np.log(model.size), model.phase / float(model.phase[-1])
-    return float(np.std(log - np.polyval(np.polyfit(turned, log, 2), turned)))
+    bent = float(np.std(log - np.polyval(np.polyfit(turned, log, 2), turned)))
+    there = log[model.size > ABOVE * model.noise]
+    one_way = (float(np.std(there - isotonic_regression(there, increasing=up).x)) for up in (True, False))
+    return min(bent, *one_way) if there.size else bent
 
 
 # Means of n ordinates of the periodogram of white noise scatter by 1/sqrt(n) of their expectation.
