@@ -18,25 +18,20 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.components.bends import GAIN, STRICTER, with_bends
 from ridgeback.numeric.components.doubts import doubt
 from ridgeback.numeric.components.lines import LEAST, clearest_line, colour
 from ridgeback.numeric.components.spikes import spikes
-from ridgeback.numeric.components.tones import Tone, bent_start, bent_tone, fitted_tone
+from ridgeback.numeric.components.tones import Tone, fitted_tone, total
 from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
-from ridgeback.numeric.harmonics.spline_fit import Known, akaike, corrected_phase, fit_on
+from ridgeback.numeric.harmonics.spline_fit import Known, akaike, fit_on
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import strongest_frequency
 
-GAIN, STRICTER = 12.0, 3.0
-"""Fall of the criterion that is wanted, and what a parameter counts beyond Akaike's 2."""
 MOST_TONES = 6
 TURNS, RESTED = 30, 0.02
 """Of fitting in turns: most of them, and the fall of the criterion in one with which it ends."""
-DEGREES, AROUND = (2, 3, 5), (0.6, 1.4)
-"""Of the exponent of a tone with bends, and the band about its frequency in which it is judged."""
-TAKEN_OFF = 0.7
-"""Of the power of samples, that a tone may leave which is to be one of them."""
 SAME = 0.1
 """Of the noise, by which tones may differ between two models."""
 ROUNDS = 3
@@ -72,6 +67,7 @@ def separated(
     excluded: Mask | None = None,
     most: int = MOST_TONES,
     band: tuple[float, float] | None = None,
+    beyond: tuple[Tone, ...] = (),
 ) -> Separated:
     """Model one oscillation and what is beside it.
 
@@ -92,7 +88,9 @@ def separated(
     most : int
         Tones that are looked for at most.
     band : (float, float), optional
-        Where the oscillation is, rad per time unit: what is stronger beyond is taken for tones first.
+        Where the oscillation is, rad per time unit.
+    beyond : tuple of Tone
+        Tones in the samples that are known to be there, about; they do not count among ``most``.
 
     Raises
     ------
@@ -111,12 +109,12 @@ def separated(
     sound = np.ones(x.size, dtype=np.bool_) if excluded is None else ~excluded
     filled = x
     if not sound.all():
-        bare = signal_models(x, rate, guide, half=half, multiples=(), known=Known(sound.astype(float)))
-        filled = np.where(sound, x, bare.best.samples())
+        apart = total(beyond, np.arange(x.size) / rate)
+        bare = signal_models(x - apart, rate, guide, half=half, multiples=(), known=Known(sound.astype(float)))
+        filled = np.where(sound, x, bare.best.samples() + apart)
     given = Given(filled, rate, guide, half, multiples, sound)
-    stronger = () if band is None else stronger_beyond(given, band)
-    most += len(stronger)
-    models, tones = with_tones(given, stronger, most)
+    most += len(beyond)
+    models, tones = with_tones(given, beyond, most)
     count = 0
     for _ in range(ROUNDS):
         left, cycle = residual(given.x, models.best, tones), TWO_PI * rate / float(np.median(guide))
@@ -145,6 +143,7 @@ def separated_once(
     excluded: bytes | None,
     most: int,
     band: tuple[float, float] | None,
+    beyond: tuple[Tone, ...],
 ) -> Separated:
     """``separated`` of arrays as their bytes, kept for the next method that asks for the same of the same samples."""
     return separated(
@@ -156,12 +155,8 @@ def separated_once(
         excluded=None if excluded is None else np.frombuffer(excluded, dtype=np.bool_),
         most=most,
         band=band,
+        beyond=beyond,
     )
-
-
-def total(tones: tuple[Tone, ...], time: Array) -> Array:
-    """The sum of tones."""
-    return np.sum([tone.samples(time) for tone in tones], axis=0) if tones else np.zeros(time.size)
 
 
 def residual(x: Array, model: SplineModel, tones: tuple[Tone, ...]) -> Array:
@@ -199,25 +194,6 @@ class Given:
         return signal_models(left, self.rate, self.guide, half=self.half, multiples=self.multiples, known=known)
 
 
-def stronger_beyond(given: Given, band: tuple[float, float]) -> tuple[Tone, ...]:
-    """Tones beyond a band that are stronger than what is in it, so that a model does not follow them instead."""
-    found: tuple[Tone, ...] = ()
-    sound = given.known.sound_of(given.x.size)
-    while len(found) < MOST_TONES:
-        left = given.x - total(found, given.time)
-        try:
-            omega = strongest_frequency(left, given.rate)
-        except InputError:
-            break
-        if band[0] <= omega <= band[1]:
-            break
-        tone = fitted_tone(left, given.time, omega, sound)
-        if float(np.var(left - tone.samples(given.time))) > TAKEN_OFF * float(np.var(left)):
-            break
-        found = (*found, tone)
-    return found
-
-
 def off_the_band(model: SplineModel, band: tuple[float, float] | None) -> str:
     """Why a model cannot be trusted that left the band it was to be in; empty where it did not, or there is none."""
     omega = float(np.average(model.omega, weights=model.size**2))
@@ -231,7 +207,7 @@ def off_the_band(model: SplineModel, band: tuple[float, float] | None) -> str:
 
 def with_tones(given: Given, here: tuple[Tone, ...], most: int) -> tuple[SignalModels, tuple[Tone, ...]]:
     """Models of the oscillation, and the tones beside it: those that are here, and more as long as they gain."""
-    models = given.beside(here)
+    models, here = settled(given, here) if here else (given.beside(here), here)
     while len(here) < most:
         found = one_more(given, models, here)
         if found is None:
@@ -247,7 +223,7 @@ def settled(given: Given, tones: tuple[Tone, ...]) -> tuple[SignalModels, tuple[
     """Models beside tones, and the tones beside those models."""
     models = given.beside(tones)
     new = in_turns(given.x, models.best, tones, given.known)[1]
-    bent = tuple(with_bends(given, models.best, new, i) for i in range(len(new)))
+    bent = all_with_bends(given, models.best, new)
     if bent != new:
         models, tones = given.beside(bent), bent
         new = in_turns(given.x, models.best, bent, given.known)[1]
@@ -255,34 +231,15 @@ def settled(given: Given, tones: tuple[Tone, ...]) -> tuple[SignalModels, tuple[
     return (given.beside(new), new) if moved > SAME * models.best.noise else (models, tones)
 
 
-def with_bends(given: Given, model: SplineModel, tones: tuple[Tone, ...], i: int) -> Tone:
-    """One of the tones, with bends where they gain: a mode that is not linear changes its frequency as it decays."""
-    tone, time, sound = tones[i], given.time, given.known.sound_of(given.x.size)
-    if tone.growth == 0.0 or tone.bends:
-        return tone
-    left, floor = residual(given.x, model, (*tones[:i], *tones[i + 1 :])), 1e-14 * float(model.size.max())
-    band = AROUND[0] * tone.omega / given.rate, AROUND[1] * tone.omega / given.rate
+def all_with_bends(given: Given, model: SplineModel, tones: tuple[Tone, ...]) -> tuple[Tone, ...]:
+    """Tones with bends where these gain, each judged by what the model and the others leave."""
+    sound, floor = given.known.sound_of(given.x.size), 1e-14 * float(model.size.max())
 
-    def judged(one: Tone) -> float:
-        parameters = one.tangent(time[:2]).shape[1]
-        off = (left - one.samples(time)) * sound
-        score = akaike(off, band, count=int(sound.sum()), parameters=parameters, floor=floor)
-        return float(score + STRICTER * parameters)
+    def bent(i: int) -> Tone:
+        left = residual(given.x, model, (*tones[:i], *tones[i + 1 :]))
+        return with_bends(left, given.rate, tones[i], sound, floor=floor)
 
-    phase, size = corrected_phase(left, given.rate, np.full(time.size, tone.omega))
-    starts = (bent_start(time, phase, size, degree) for degree in DEGREES)
-    tried = [bent for start in starts if (bent := bent_or_none(left, time, start, sound)) is not None]
-    best = min(tried, key=judged, default=tone)
-    return best if judged(best) < judged(tone) - GAIN else tone
-
-
-def bent_or_none(left: Array, time: Array, start: Tone, sound: Array) -> Tone | None:
-    """The tone with bends that fits from a start; None where its exponent leaves the range of numbers."""
-    try:
-        with np.errstate(over="raise", invalid="raise"):
-            return bent_tone(left, time, start, sound)
-    except (FloatingPointError, np.linalg.LinAlgError):
-        return None
+    return tuple(bent(i) for i in range(len(tones)))
 
 
 def one_more(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> tuple[Tone, ...] | None:

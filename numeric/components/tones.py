@@ -203,6 +203,11 @@ def bent_start(time: Array, phase: Array, size: Array, degree: int) -> Tone:
     return Tone(float(turn[1]) / span, float(fall[1]) / span, complex(np.exp(fall[0] + 1j * turn[0])), bends, span)
 
 
+def total(tones: tuple[Tone, ...], time: Array) -> Array:
+    """The sum of tones."""
+    return np.sum([tone.samples(time) for tone in tones], axis=0) if tones else np.zeros(time.size)
+
+
 def beside_notes(tones: tuple[Tone, ...], spikes: int) -> tuple[str, ...]:
     """What was found beside an oscillation, in words.
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ridgeback.common.errors import InputError
@@ -271,6 +272,7 @@ def estimation(
     request = in_its_stretch(request, samples) if noise.found else without_bias_of(request)
     if request.options.bias:
         request = after_its_start(request.separated(), samples)
+    if request.options.bias or request.signal.tones:
         samples = with_motion_of(request, samples)
     progress(0.1, "choosing an estimator" if method == "auto" else method)
     name, request = for_auto(request) if method == "auto" else (method, request)
@@ -282,6 +284,7 @@ def estimation(
     except InputError as error:
         raise (error if noise.found else InputError(f"{noise.reason}; {name}: {error}")) from None
     progress(0.5, f"bias and interval of {name}")
+    found = in_its_band(found, options.band)
     track = known_well(without_bias(with_bias(found, ESTIMATORS[name], request), remove_bias))
     track = replace(track, used=replace(track.used, span=span_of(request, samples), span_why=request.signal.span_why))
     progress(1.0, "done")
@@ -336,6 +339,30 @@ def known_well(track: Track) -> Track:
     elif track.no_interval is not None and track.standard_deviation is not None:
         reach = NORMAL_95 * track.standard_deviation
     return track if reach is None else replace(track, valid=track.valid & (reach <= HARDLY_KNOWN * track.omega))
+
+
+def in_its_band(track: Track, band: tuple[float, float] | None) -> Track:
+    """The track, valid only in the band that was asked for; refused where most of it is beyond.
+
+    >>> import numpy as np
+    >>> track = Track(np.arange(3.0), np.array([5.0, 6.0, 9.0]), np.ones(3, bool), "example")
+    >>> in_its_band(track, (4.0, 8.0)).valid.tolist()
+    [True, True, False]
+    >>> in_its_band(track, (8.0, 12.0))
+    Traceback (most recent call last):
+        ...
+    ridgeback.common.errors.InputError: example: the band 8 to 12 rad per time unit holds no ...
+    """
+    if band is None:
+        return track
+    inside = (track.omega >= band[0]) & (track.omega <= band[1])
+    if 2 * np.count_nonzero(track.valid & inside) < np.count_nonzero(track.valid):
+        beyond = float(np.median(track.omega[track.valid & ~inside]))
+        raise InputError(
+            f"{track.method}: the band {band[0]:.4g} to {band[1]:.4g} rad per time unit holds no oscillation that "
+            f"stands out beside one near {beyond:.4g} beyond it; give another band"
+        )
+    return replace(track, valid=track.valid & inside)
 
 
 def of_model(samples: Samples, options: Options, method: str, family: Family | None, harmonic: int) -> Track:

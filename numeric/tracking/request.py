@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
@@ -10,8 +11,9 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, ComplexArray, Mask
+from ridgeback.numeric.components.beyond import tones_beyond
 from ridgeback.numeric.components.separation import MOST_TONES, separated_once
-from ridgeback.numeric.components.tones import Tone
+from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.harmonics.noise import Level, measure_level
 from ridgeback.numeric.harmonics.signal_model import SignalModels, models_once
 from ridgeback.numeric.signal.analytic import analytic_of
@@ -19,7 +21,7 @@ from ridgeback.numeric.signal.band_limit import ringing
 from ridgeback.numeric.signal.decimation import Samples
 from ridgeback.numeric.signal.presence import Presence, presence
 from ridgeback.numeric.signal.samples import TWO_PI
-from ridgeback.numeric.signal.search_band import SearchBand, find_search_band, strongest_frequency
+from ridgeback.numeric.signal.search_band import SearchBand, checked_band, find_search_band, strongest_frequency
 from ridgeback.numeric.signal.windows import half_width
 from ridgeback.numeric.tracking.choices import Choices, Scope
 from ridgeback.numeric.tracking.curvature_bias import hold_nearest
@@ -182,7 +184,7 @@ class Request:
         signal = self.signal
         try:
             found = separated_once(
-                signal.x.tobytes(),
+                (signal.x + total(signal.tones, signal.time - signal.start)).tobytes(),
                 signal.rate,
                 signal.search.guide.tobytes(),
                 self.half,
@@ -190,6 +192,7 @@ class Request:
                 None if signal.wrong is None else signal.wrong.tobytes(),
                 self.options.most_tones,
                 self.options.band,
+                signal.tones,
             )
         except InputError:
             return self
@@ -252,12 +255,19 @@ class Request:
 
 
 def prepared(samples: Samples, options: Options, *, search: SearchBand | None = None) -> Request:
-    """Take the mean off checked samples, find their search band (unless it is known) and set the default windows."""
+    """Take the mean off checked samples, find their search band (unless it is known) and set the default windows.
+
+    Where a band is asked for, what is stronger beyond it is taken off first.
+    """
     if not np.ptp(samples.x) > 0.0:
         raise InputError(f"signal is constant at {samples.x[0]:g}; there is no oscillation to follow")
     offset = float(samples.x.mean())
     real = samples.x - offset
-    search = find_search_band(real, samples.rate, band=options.band) if search is None else search
+    beyond = beyond_band(real, samples, options.band)
+    if beyond:
+        real = real - total(beyond, np.arange(real.size) / samples.rate)
+    if search is None or (beyond and options.band is not None):
+        search = find_search_band(real, samples.rate, band=up_to_nyquist(options.band, samples))
     cycle, span = TWO_PI / search.centre, (real.size - 1) / samples.rate
     if options.lag_seconds is None and FEWEST_CYCLES * cycle > span:
         raise InputError(
@@ -266,11 +276,23 @@ def prepared(samples: Samples, options: Options, *, search: SearchBand | None = 
         )
     lag = min(LAG_CYCLES * cycle, max(SHORT_CYCLES * cycle, SHORT_SHARE * span))
     signal = Signal(real, analytic_of(real), samples.rate, samples.start, offset, search, samples.factor, samples.wrong)
+    signal = replace(signal, tones=beyond)
     plan = Plan(
         lag_seconds=lag if options.lag_seconds is None else options.lag_seconds,
         smoothing_seconds=cycle if options.smoothing_seconds is None else options.smoothing_seconds,
     )
     return Request(options, signal, plan)
+
+
+def up_to_nyquist(band: tuple[float, float] | None, samples: Samples) -> tuple[float, float] | None:
+    """A band of a record, for what decimation left of it."""
+    return band if band is None or samples.factor < 2 else (band[0], min(band[1], math.pi * samples.rate))
+
+
+def beyond_band(x: Array, samples: Samples, band: tuple[float, float] | None) -> tuple[Tone, ...]:
+    """Tones beyond a band that was asked for, which are to be taken off the samples."""
+    here, sound = up_to_nyquist(band, samples), None if samples.wrong is None else ~samples.wrong
+    return () if here is None else tones_beyond(x, samples.rate, checked_band(here, samples.rate), sound)
 
 
 def refuse_cross_term(request: Request, method: str) -> None:

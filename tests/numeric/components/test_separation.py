@@ -163,6 +163,43 @@ def test_a_band_isolates_the_weaker_of_two_modes_up_to_the_ends() -> None:
     assert any(abs(tone.omega / (2 * np.pi) - 20.0) < 0.1 for tone in track.used.tones)
 
 
+@pytest.mark.parametrize("method", ["auto", "pseudo-wigner", "zero-crossing"])
+def test_a_band_holds_what_is_in_it_beside_a_stronger_hum_just_beyond(method: str) -> None:
+    t = np.arange(1600) / RATE
+    hum = np.cos(2 * np.pi * 50.02 * t + 1.0) + 0.01 * np.random.default_rng(5).normal(size=t.size)
+    band = (200.0, 260.0)
+    x = 0.25 * np.exp(-1.86 * t) * np.cos(2 * np.pi * 37.0 * t) + hum
+    track = estimate(x, RATE, band=band, method=method).inside()
+    assert track.interval is not None
+    assert track.time.size > 4
+    assert ((track.omega > band[0]) & (track.omega < band[1])).all()
+    assert np.mean(track.interval.holds(np.full(track.time.size, 2 * np.pi * 37.0))) > 0.8
+    assert [tone.mains for tone in track.used.tones] == [True]
+
+
+def test_a_band_holds_a_weaker_mode_near_twice_one_that_softens() -> None:
+    t = np.arange(1200) / RATE
+    size = np.exp(-0.9 * t)
+    softening = size * np.cos(2 * np.pi * (20.0 * t - 0.2 * (1.0 - size**2) / 1.8))
+    x = (
+        softening
+        + 0.2 * np.exp(-0.6 * t) * np.cos(2 * np.pi * 40.5 * t)
+        + 0.01 * np.random.default_rng(6).normal(size=1200)
+    )
+    track = estimate(x, RATE, band=(220.0, 290.0)).inside()
+    assert track.interval is not None
+    assert np.mean(track.interval.holds(np.full(track.time.size, 2 * np.pi * 40.5))) > 0.8
+    (tone,) = track.used.tones
+    assert tone.bends
+    assert np.abs(tone.samples(t) - softening).max() < 0.03
+
+
+def test_what_a_band_cannot_hold_is_refused() -> None:
+    t = np.arange(1600) / RATE
+    x = np.cos(2 * np.pi * 50.0 * t) + 0.01 * np.random.default_rng(5).normal(size=t.size)
+    assert not estimate(x, RATE, band=(200.0, 260.0)).valid.any()
+
+
 def test_a_frequency_that_jumps_by_a_few_per_cent_gets_no_interval_and_one_that_swings_does() -> None:
     t = np.arange(800) / 40.0
     noise = 0.01 * np.random.default_rng(53).normal(size=800)

@@ -1,0 +1,145 @@
+"""What lies beyond a search band and would disturb what is in it: tones that are fitted together and taken off.
+
+Lines of the spectrum are taken from the highest down, each as a tone, and all of them are fitted again in turns (RELAX:
+J. Li and P. Stoica, IEEE Trans. Signal Process. 44 (1996) 281); those in the band stand in for the oscillation there
+and stay in the samples.  A filter would ring at the ends of the record; a model does not.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+
+from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.components.bends import with_bends
+from ridgeback.numeric.components.tones import Tone, fitted_tone, total
+from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.signal.search_band import half_tapers
+
+MOST = 8
+"""Tones that are fitted, those in the band included."""
+TURNS = 4
+"""Of fitting all of them again after each new one."""
+TAKEN_OFF = 0.5
+"""Of the height of a line, that a tone which is to be it may leave."""
+DISTURBING, UNDERSTOOD = 0.2, 0.1
+"""Of the height of the highest line in the band: what counts beyond, and what tones leave of a band that they explain;
+as long as they do not, what is weaker beyond may be the foot of what is in it."""
+HARMONIC = 0.1
+"""Distance from a multiple of the oscillation, in its frequency, within which a weaker line is its harmonic."""
+LOWEST_CYCLES, FLOOR = 3.0, 1e-12
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of a spectrum: its frequency, rad per time unit, and its height, the amplitude of a steady tone."""
+
+    omega: float
+    height: float
+
+
+def tones_beyond(x: Array, rate: float, band: tuple[float, float], sound: Mask | None = None) -> tuple[Tone, ...]:
+    """Tones beyond a band that are stronger than what is in it, or nearly so.
+
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        Samples without their mean.
+    rate : float
+        Samples per time unit.
+    band : (float, float)
+        Rad per time unit.
+    sound : array of bool, shape (N,), optional
+        The samples that count.
+
+    Returns
+    -------
+    tuple of Tone
+        In the order in which they were found; empty where the highest line is in the band and stands alone.
+
+    Examples
+    --------
+    >>> t = np.arange(2000) / 500.0
+    >>> noise = 0.01 * np.random.default_rng(1).normal(size=2000)
+    >>> x = 0.2 * np.exp(-1.9 * t) * np.cos(230.0 * t) + np.cos(314.0 * t) + noise
+    >>> [(round(tone.omega, 1), tone.growth) for tone in tones_beyond(x, 500.0, (200.0, 260.0))]
+    [(314.0, 0.0)]
+    """
+    time, counted = np.arange(x.size) / rate, np.ones(x.size) if sound is None else sound.astype(float)
+    found: tuple[Tone, ...] = ()
+    while len(found) < MOST:
+        line = next_line(x, time, rate, band, found)
+        if line is None:
+            break
+        left = x - total(found, time)
+        more = one_more(x, time, rate, (*found, fitted_tone(left, time, line.omega, counted)), counted)
+        after = highest(x - total(more, time), rate, (0.8 * line.omega, 1.25 * line.omega))
+        if after is not None and after.height > TAKEN_OFF * line.height:
+            break
+        found = more
+    return tuple(tone for tone in found if not within(tone.omega, band))
+
+
+def next_line(x: Array, time: Array, rate: float, band: tuple[float, float], found: tuple[Tone, ...]) -> Line | None:
+    """The next line to take: the highest beyond the band that disturbs, or one that stands in for what is in it."""
+    beyond, left = total(tuple(tone for tone in found if not within(tone.omega, band)), time), x - total(found, time)
+    inside, rest = highest(x - beyond, rate, band), highest(left, rate, band)
+    outside = highest(left, rate, band, beyond=True)
+    if outside is None or inside is None or rest is None:
+        return outside
+    if outside.height > inside.height:
+        return outside
+    disturbs = outside.height > DISTURBING * inside.height and not is_multiple(outside.omega, inside.omega)
+    if rest.height > UNDERSTOOD * inside.height and (disturbs or found):
+        return rest
+    return outside if disturbs else None
+
+
+def one_more(x: Array, time: Array, rate: float, tones: tuple[Tone, ...], sound: Array) -> tuple[Tone, ...]:
+    """Tones, each fitted to what the others leave, in turns; with bends where they gain."""
+    floor = FLOOR * float(np.abs(x).max())
+    for turn in range(TURNS):
+        for i, tone in enumerate(tones):
+            left = x - total((*tones[:i], *tones[i + 1 :]), time)
+            new = fitted_tone(left, time, tone.omega, sound, tone)
+            new = with_bends(left, rate, new, sound, floor=floor) if turn in (0, TURNS - 1) else new
+            tones = (*tones[:i], new, *tones[i + 1 :])
+    return tones
+
+
+def highest(x: Array, rate: float, band: tuple[float, float], *, beyond: bool = False) -> Line | None:
+    """The highest line in a band, or beyond it, of the Hann spectrum or of that of either half of a Hann window.
+
+    What turns less than LOWEST_CYCLES times is drift.
+
+    >>> t = np.arange(1000) / 100.0
+    >>> line = highest(0.3 * np.cos(20.0 * t) + np.cos(50.0 * t), 100.0, (40.0, 60.0), beyond=True)
+    >>> round(line.omega, 1), round(line.height, 1)
+    (20.1, 0.3)
+    """
+    omega = TWO_PI * rate * fft.rfftfreq(2 * x.size)
+    inside = (omega >= band[0]) & (omega <= band[1])
+    usable = (inside != beyond) & (omega > TWO_PI * rate * LOWEST_CYCLES / x.size)
+    if not usable.any():
+        return None
+    tapers = (np.hanning(x.size), *half_tapers(x.size))
+    heights = np.max([np.abs(fft.rfft(x * w, 2 * x.size)) * 2.0 / float(w.sum()) for w in tapers], axis=0)
+    at = int(np.where(usable, heights, 0.0).argmax())
+    return Line(float(omega[at]), float(heights[at]))
+
+
+def within(omega: float, band: tuple[float, float]) -> bool:
+    """Whether a frequency lies in a band."""
+    return band[0] <= omega <= band[1]
+
+
+def is_multiple(omega: float, base: float) -> bool:
+    """Whether a frequency lies at a multiple of a base, 2 or more times.
+
+    >>> is_multiple(20.3, 10.0), is_multiple(15.0, 10.0), is_multiple(10.2, 10.0)
+    (True, False, False)
+    """
+    h = round(omega / base)
+    return h > 1 and abs(omega - h * base) < HARMONIC * base
