@@ -21,10 +21,9 @@ DEGREES, AROUND = (2, 3, 5), (0.6, 1.4)
 
 
 def with_bends(left: Array, rate: float, tone: Tone, sound: Array, *, floor: float) -> Tone:
-    """A tone with bends where they gain, fitted to what all else leaves of samples; a steady one has none, one
-    with bends may get more.
+    """A tone with bends where they gain, fitted to what all else leaves of samples; a steady one has none.
 
-    ``floor`` is the size of what is left that counts as nothing.
+    One with bends may get more.  ``floor`` is the size of what is left that counts as nothing.
 
     >>> t = np.arange(600) / 20.0
     >>> noise = 0.001 * np.random.default_rng(1).normal(size=600)
