@@ -1,14 +1,18 @@
-"""Processor time and memory of recordings on the command line, and the spectrogram beside SciPy's.
+"""Processor time and memory of recordings on the command line, of every estimator, and the spectrogram beside SciPy's.
 
-``python benchmarks/recordings.py [--samples 100000 1000000] [--methods auto ...] [--report] [--spectrogram]`` prints
-tables for docs/results/speed.md: without options those of 1e5 and 1e6 samples by every method, 6e6 by auto, a report
-of 4643 samples, and the spectrogram.  Seconds are those of the processor, user and system together, on one thread.
+``python benchmarks/recordings.py [--samples 100000 1000000] [--methods auto ...] [--report] [--spectrogram]
+[--estimators]`` prints tables for docs/results/speed.md: without options those of 1e5 and 1e6 samples by every method,
+6e6 by auto, a report of 4643 samples, and the spectrogram.  Seconds are those of the processor, user and system
+together, on one thread.  With ``--estimators`` each method runs on samples in memory in a process of its own, and the
+peak of that, what of it is the estimate's, what was predicted, and how much of the truth its interval holds is told.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -20,10 +24,13 @@ import numpy as np
 from scipy.signal import spectrogram as scipys
 from scipy.signal.windows import hann
 
+from ridgeback.common.errors import InputError
 from ridgeback.numeric.distributions.spectrogram import spectrogram
-from ridgeback.numeric.estimators.estimate import METHODS
+from ridgeback.numeric.estimators.estimate import METHODS, estimate
+from ridgeback.numeric.estimators.memory import predicted_bytes
 
-RATE = 2000.0
+RATE, SLOW_RATE = 2000.0, 32.0
+"""Samples per second of records on the command line, of 100 samples a cycle; of those in memory, of 32."""
 SIZES, LONGEST, REPORTED = (100_000, 1_000_000), 6_000_000, 4643
 PLANES = ((100_000, 257, 16), (100_000, 513, 8), (1_000_000, 1025, 256))
 """Samples, window and hop of the spectrograms."""
@@ -35,6 +42,48 @@ def record(size: int, rate: float = RATE, cycle: float = 0.05) -> tuple[np.ndarr
     fall = 2.0 / t[-1]
     phase = 2 * np.pi / cycle * (t + 0.05 * (1.0 - np.exp(-2.0 * fall * t)) / (2.0 * fall))
     return t, np.exp(-fall * t) * np.cos(phase) + 0.01 * np.random.default_rng(1).normal(size=size)
+
+
+def frequency(size: int, rate: float = RATE, cycle: float = 0.05) -> np.ndarray:
+    """The angular frequency of the record at its samples."""
+    t = np.arange(size) / rate
+    return 2 * np.pi / cycle * (1.0 + 0.05 * np.exp(-4.0 * t / t[-1]))
+
+
+def peak() -> int:
+    """Bytes that this process has held at most; without /proc those of the process that started it count too."""
+    status = Path("/proc/self/status")
+    if status.exists():
+        return 1024 * int(re.search(r"VmHWM:\s*(\d+) kB", status.read_text())[1])
+    return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+
+def in_memory(method: str, size: int) -> str:
+    """The row of one estimate, in this process."""
+    _, x = record(size, SLOW_RATE, 1.0)
+    before, begin = peak(), time.process_time()
+    try:
+        track = estimate(x, SLOW_RATE, method=method)
+    except InputError as error:
+        return f"| {method}, {size:.0e} samples | | | | | {error} |"
+    spent, most, interval = time.process_time() - begin, peak(), track.interval
+    inside = str(track.no_interval)
+    if interval is not None:
+        true = np.interp(track.time, np.arange(size) / SLOW_RATE, frequency(size, SLOW_RATE, 1.0))
+        held = (interval.low <= true) & (true <= interval.high)
+        inside = f"{100.0 * float(held[track.valid].mean()):.1f} % inside"
+    predicted = predicted_bytes(method, size, bias=interval is not None)
+    numbers = " | ".join(f"{value / 1e6:.0f}" for value in (most, most - before, predicted))
+    return f"| {method}, {size:.0e} samples | {spent:.1f} | {numbers} | {inside} |"
+
+
+def estimators(sizes: list[int], methods: list[str]) -> None:
+    """Every method in a process of its own."""
+    print("| method | CPU, s | peak, MB | of the estimate | predicted | |\n|---|---|---|---|---|---|", flush=True)
+    for size in sizes:
+        for method in methods:
+            command = [sys.executable, __file__, "--here", "--samples", str(size), "--methods", method]
+            subprocess.run(command, check=True)  # noqa: S603 - our own arguments
 
 
 def cost(arguments: list[str]) -> tuple[float, float, int]:
@@ -107,7 +156,15 @@ def main() -> None:
     parser.add_argument("--methods", nargs="+", default=list(METHODS))
     parser.add_argument("--report", action="store_true")
     parser.add_argument("--spectrogram", action="store_true")
+    parser.add_argument("--estimators", action="store_true")
+    parser.add_argument("--here", action="store_true", help=argparse.SUPPRESS)
     given = parser.parse_args()
+    if given.here:
+        print(in_memory(given.methods[0], given.samples[0]), flush=True)
+        return
+    if given.estimators:
+        estimators(given.samples or list(SIZES), given.methods)
+        return
     everything = not (given.samples or given.report or given.spectrogram)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
