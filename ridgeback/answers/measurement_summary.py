@@ -22,7 +22,7 @@ MOST_ROWS = 30
 FEWEST, MOST = 6, 13
 """Digits of a value that is known ever so sharply."""
 SMALL, SHARP = 1e-4, 1e-6
-"""Values below which a power of ten is written; deviations over values below which one is written of the deviation."""
+"""Values below which a power of ten is written; deviations, over values above one, below which one is written of the deviation."""
 
 
 def summary(one: Measurement) -> list[str]:
@@ -110,9 +110,11 @@ def uncertain(value: float, deviation: float) -> str:
     ('3.142 +- 0.012', '(-5.7792 +- 0.0054)e-07', '1 +- nan')
     >>> uncertain(3.14159265, 2e-9)
     '3.1415926500 +- 2.0e-09'
+    >>> uncertain(0.00477464, 1.5e-8)
+    '0.004774640 +- 1.5e-08'
     """
     size = abs(value)
-    if 0.0 < deviation < SHARP * size:
+    if 0.0 < deviation < SHARP * (1.0 if SMALL < size < 1.0 else size):
         return f"{value:#.{digits_to(value, deviation)}g} +- {deviation:.1e}"
     if not (np.isfinite(deviation) and deviation > 0.0 and 0.0 < size < SMALL):
         return with_deviation(value, deviation)
