@@ -103,8 +103,8 @@ def signal_indices(
 ) -> tuple[int, ...]:
     """Indices of the signals: those asked for (a name, a number, several, or "all"), or the only one left.
 
-    ``taken`` are the columns of the time and the run.  A day beside a time is no signal, nor a column without a name
-    among some that have one, nor one that numbers the rows where there is no time.
+    ``taken`` are the columns of the time and the run.  No signal are a day beside a time, words, a column without a
+    name among some that have one, and one that numbers the rows where there is no time.
 
     Raises InputError for one that is not there or taken.
     """
@@ -112,6 +112,7 @@ def signal_indices(
     rows = None if clock is None else columns.sizes[clock]
     others = [i for i in range(len(columns.names)) if i not in taken and rows in (None, columns.sizes[i])]
     if wanted is None or (wanted == ALL and ALL not in columns.names):
+        others = [i for i in others if i not in columns.words] or others
         others = [i for i in others if is_signal(columns.names[i], i, beside=clock is not None)] or others
         if clock is None and len(others) > 1:
             others = [i for i in others if not counts(columns, i)] or others

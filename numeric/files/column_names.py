@@ -53,7 +53,7 @@ TAILS = tuple(unit for unit in SECONDS if unit.isascii())
 """Units that may end a time column's name after an underscore."""
 SPELLED = tuple(unit for unit in TAILS if len(unit) >= len("msec"))
 """Units that are the whole name of a time column."""
-HEADS = ("t", "time", "times", "zeit", "elapsed")
+HEADS = ("t", "time", "times", "timestamp", "zeit", "elapsed")
 BRACKETED = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]\s*")
 AFTER_A_SLASH = re.compile(r"(.*\S)\s+/\s*(\S+)\s*")
 AFTER_IN = re.compile(r"(.*\S)\s+in\s+(\S+)\s*")

@@ -44,7 +44,8 @@ class Columns:
     """Named columns of a file, ``sizes`` rows each; ``rate`` is what the file itself states, else None.
 
     ``values(i)`` gives the numbers of column i, missing ones as NaN; ``place(row)`` says where a row is.  ``hinted`` is
-    whether something stands above columns without names that may say what they are, and was not understood.
+    whether something stands above columns without names that may say what they are, and was not understood;
+    ``words`` are the columns that hold no numbers.
     """
 
     names: tuple[str, ...]
@@ -56,3 +57,4 @@ class Columns:
     units: str = ""
     note: str = ""
     hinted: bool = False
+    words: tuple[int, ...] = ()

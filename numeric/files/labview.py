@@ -95,6 +95,7 @@ def without_empty(table: Columns) -> Columns:
         names=tuple(table.names[i] for i in kept),
         sizes=tuple(table.sizes[i] for i in kept),
         values=lambda i: table.values(kept[i]),
+        words=tuple(at for at, i in enumerate(kept) if i in table.words),
     )
 
 

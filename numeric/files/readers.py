@@ -45,6 +45,7 @@ def of_table(text: str, source: str, decimal: str) -> Columns:
         source=source,
         note=table.note,
         hinted=table.hinted,
+        words=table.words,
     )
 
 

@@ -22,7 +22,7 @@ MOST_ROWS = 30
 FEWEST, MOST = 6, 13
 """Digits of a value that is known ever so sharply."""
 SMALL, SHARP = 1e-4, 1e-6
-"""Values below which a power of ten is written; deviations, over values above one, below which one is written of the deviation."""
+"""Values below which a power of ten is written; deviations, over values above one, below which they have one."""
 
 
 def summary(one: Measurement) -> list[str]:

@@ -1,4 +1,4 @@
-"""Delimited text: encodings, lines and cells, and the names of columns above them.
+"""Delimited text: encodings, lines and cells, numbers and dates as people write them, and the names of columns above.
 
-Knows nothing of what columns mean; every fault is named by its line.
+Of what columns mean it asks names alone; every fault is named by its line.
 """

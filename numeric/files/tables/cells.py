@@ -18,6 +18,8 @@ NEVER = "\x1f"
 """Separates the cells of a table with one column."""
 OPENING = frozenset("([/")
 BEFORE_A_UNIT = re.compile(r"\s+(?![(\[/])")
+BEGUN = re.compile(r"[,|;\t]|[+\-\u2212]?[.,]?\d")
+"""How a row of numbers begins."""
 LAST = 50
 """Lines at the end among which the last row of numbers is looked for."""
 
@@ -41,9 +43,23 @@ def cells_in(line: str, delimiter: str) -> list[str]:
         return [line]
 
 
+def column_cells(rows: list[str] | Lines, delimiter: str, place: int) -> Iterator[str]:
+    """One cell of each row; empty where a row is too short."""
+    return (row[place] if place < len(row) else "" for row in cells_of(rows, delimiter))
+
+
 def is_value(cell: str) -> bool:
     """Whether a cell is a number, a missing one or a stamp."""
     return is_number(cell) or is_stamp(cell)
+
+
+def is_word(cell: str) -> bool:
+    """Whether a cell holds something that is no number.
+
+    >>> is_word("run1"), is_word("1"), is_word("")
+    (True, False, False)
+    """
+    return bool(cell) and not is_value(cell)
 
 
 def is_there(cell: str) -> bool:
@@ -66,17 +82,20 @@ def stated_delimiter(text: str) -> str:
 
 
 def last_row(lines: Sequence[str] | Lines) -> str:
-    """The last line that begins with a number, or with cells that are empty; what follows it is no row of the table.
+    """The last whole line that begins with a number, or with cells that are empty: what follows it is no row.
 
-    >>> last_row(("t,u", "0,1", "1,2", "end of file"))
-    '1,2'
+    >>> last_row(("t,u", "0,1", "1,2", "end of file")), last_row(("t,u", "0,1", "1,2", "2"))
+    ('1,2', '1,2')
     """
     size = len(lines)
-    for at in range(size - 1, max(-1, size - 1 - LAST), -1):
-        begin = lines[at].strip().lstrip("\"'")
-        if begin[:1] in DELIMITERS or re.match(r"[+\-\u2212]?[.,]?\d", begin):
-            return lines[at]
-    return lines[size - 1]
+    rows = [lines[at] for at in range(size - 1, max(-1, size - 1 - LAST), -1)]
+    begun = [row for row in rows if BEGUN.match(row.strip().lstrip("\"'"))]
+    return max(begun, key=signs, default=rows[0])
+
+
+def signs(row: str) -> int:
+    """How many signs that separate cells stand in a row, or blanks where there are none."""
+    return max(row.count(delimiter) for delimiter in DELIMITERS) or len(row.split()) - 1
 
 
 def find_delimiter(row: str, head: str = "") -> str:

@@ -16,14 +16,12 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.files.tables.cells import (
     BLANKS,
-    NEVER,
     cells_in,
-    cells_of,
     check_quotes,
     check_widths,
+    column_cells,
     find_delimiter,
-    is_there,
-    is_value,
+    is_word,
     last_row,
     stated_delimiter,
 )
@@ -35,12 +33,20 @@ from ridgeback.numeric.files.tables.heading import (
     left_out,
     may_say_times,
 )
+from ridgeback.numeric.files.tables.layout import (
+    beside_remarks,
+    check_halves,
+    filled,
+    first_numbers,
+    otherwise,
+    spaced,
+    with_decimal_commas,
+)
 from ridgeback.numeric.files.tables.lines import Lines, lines_of, with_line_feeds
 from ridgeback.numeric.files.tables.numbers import AUTO, COMMA, POINT, fits, is_missing, mark_in, number
 from ridgeback.numeric.files.tables.stamps import BadCellError, is_stamp, stamp_seconds
 
-GAPS = re.compile(r"\s{2,}")
-"""What separates the names above a table of blanks where they hold single ones."""
+HOURS = re.compile(r"\d+:\d\d")
 BOM = "\ufeff"
 WORDS = {POINT: "point", COMMA: "comma"}
 
@@ -67,6 +73,8 @@ class TextTable:
         What of the text was left out.
     hinted : bool
         Whether lines above numbers without names may say what they are.
+    words : tuple of int
+        The columns that hold no numbers.
     """
 
     names: tuple[str, ...]
@@ -77,6 +85,7 @@ class TextTable:
     source: str
     note: str = ""
     hinted: bool = False
+    words: tuple[int, ...] = ()
 
     def holds(self, sign: str) -> bool:
         """Whether a sign stands in the rows."""
@@ -147,13 +156,9 @@ class TextTable:
         """The error for a cell, with the mark under which it would be a number."""
         other = next((m for m in WORDS if m != mark and fits(cell, m)), "") if mark else ""
         hint = f" with a decimal {WORDS[mark]} (--decimal {WORDS[other]})" if other else ""
+        hint = hint or ("; write times as hh:mm:ss" if HOURS.fullmatch(cell) else "")
         where = f"line {self.rows.number[at]}, column {self.names[index]}"
         return InputError(f"{self.source}, {where}: {cell!r} is not a number{hint or '; a cell holds one, or nothing'}")
-
-
-def column_cells(rows: list[str] | Lines, delimiter: str, place: int) -> Iterator[str]:
-    """One cell of each row; empty where a row is too short."""
-    return (row[place] if place < len(row) else "" for row in cells_of(rows, delimiter))
 
 
 def numbers_of(block: list[str], delimiter: str, place: int, mark: str, *, quoted: bool = False) -> Array | None:
@@ -223,19 +228,22 @@ def parse_table(text: str, *, source: str, decimal: str = AUTO) -> TextTable:
     delimiter = given or find_delimiter(row, lines[0])
     if decimal == COMMA and delimiter == ",":
         delimiter = with_decimal_commas(lines, row, source)
-    beside = beside_remarks(lines, delimiter, row)
-    first = 0 if beside else first_numbers(lines, delimiter, row)
+    typical = cells_in(row, delimiter)
+    beside = beside_remarks(lines, delimiter, typical)
+    first = 0 if beside else first_numbers(lines, delimiter, typical)
     if first == len(lines):
         raise InputError(f"{source} holds no row of numbers below its header")
     check_quotes(lines.after(max(0, first - MOST_HEADS)), delimiter, source)
     heads = [cells_in(lines[at], delimiter) for at in range(max(0, first - MOST_HEADS), first)]
     rows = lines.after(first)
     if decimal == AUTO and delimiter == ",":
-        check_halves(heads, cells_in(row, delimiter), source)
+        check_halves(heads, typical, source)
     width = max(len(cells_in(rows[0], delimiter)), len(heads[-1]) if heads else 0)
     places = beside or filled(rows, delimiter, width)
     if delimiter == BLANKS:
         heads, places = spaced(heads, lines[first - 1], len(cells_in(rows[0], delimiter)))
+    elif heads and len(heads[-1]) == 1:
+        heads = [otherwise(lines[first - 1], len(places)) or heads[-1]]
     names, used = heading(heads, places)
     names = names or (commented(comments, delimiter, len(places)) if first == 0 else ())
     check_widths(rows, max(max(places) + 1, len(heads[-1]) if names and heads else 0), delimiter, source)
@@ -249,18 +257,8 @@ def parse_table(text: str, *, source: str, decimal: str = AUTO) -> TextTable:
         source=source,
         note=" ".join(part for part in (left_out(first - used), empty_columns(gone)) if part),
         hinted=not names and (first > used or may_say_times(comments)),
+        words=tuple(i for i, place in enumerate(places) if place < len(typical) and is_word(typical[place])),
     )
-
-
-def spaced(heads: list[list[str]], above: str, width: int) -> tuple[list[list[str]], tuple[int, ...]]:
-    """The lines above a table of blanks, whose names may hold single ones, and its columns; no names that do not fit.
-
-    >>> spaced([["time", "since", "start", "u"]], "time since start   u", 2)
-    ([['time since start', 'u']], (0, 1))
-    """
-    wide = GAPS.split(above.strip())
-    fitting = heads if heads and len(heads[-1]) == width else [wide] if heads and len(wide) == width else []
-    return fitting, tuple(range(width))
 
 
 def numbered(names: Sequence[str]) -> tuple[str, ...]:
@@ -270,79 +268,3 @@ def numbered(names: Sequence[str]) -> tuple[str, ...]:
     ('1', 't', 'u')
     """
     return tuple(name or str(i) for i, name in enumerate(names, start=1))
-
-
-def with_decimal_commas(lines: Lines, row: str, source: str) -> str:
-    """The delimiter of a table without another than the comma, the mark of its decimals: of quoted cells, or of none.
-
-    Raises InputError where commas separate the cells, too.
-    """
-    if '"' in row:
-        return ","
-    if len(cells_in(lines[0], ",")) > 1 and not fits(lines[0].strip(), COMMA):
-        raise InputError(
-            f"{source}: commas separate its cells, and are its decimal marks; separate the cells by ;, or quote them"
-        )
-    return NEVER
-
-
-def check_halves(heads: Sequence[Sequence[str]], row: Sequence[str], source: str) -> None:
-    """Refuse rows with two whole numbers for each name above them: the comma is more likely the decimal mark."""
-    if not heads or any(map(is_value, heads[-1])) or len(row) != 2 * len(heads[-1]):
-        return
-    if all(cell.lstrip("+-").isdecimal() for cell in row):
-        remedy = "say --decimal comma, or point" if len(row) == 2 else "then separate the cells by ;"
-        raise InputError(
-            f"{source}: the header names {len(heads[-1])} column{'s' * (len(row) > 2)}, the rows have "
-            f"{len(row)} cells; is the comma the decimal mark (--decimal)? {remedy}"
-        )
-
-
-def beside_remarks(lines: Lines, delimiter: str, row: str) -> tuple[int, ...]:
-    """The cells that hold the samples where they begin in the first line, beside an instrument's remarks; else none.
-
-    As oscilloscopes write them: "Record Length,2500,,0.000,1.25", and further down ",,,0.040,1.31".
-    """
-    head, last = cells_in(lines[0], delimiter), cells_in(row, delimiter)
-    there = tuple(i for i, cell in enumerate(last) if cell)
-    if not there or len(head) != len(last) or not all(is_there(head[i]) for i in there):
-        return ()
-    others = [head[i] for i in range(len(head)) if i not in there]
-    return there if any(cell and not is_value(cell) for cell in others) else ()
-
-
-def filled(rows: Lines, delimiter: str, width: int) -> tuple[int, ...]:
-    """The columns in which something stands; all of them where it does in one at most."""
-    some = [cells_in(rows[at], delimiter) for at in (0, len(rows) // 2, -1)]
-    found = tuple(
-        i
-        for i in range(width)
-        if any(i < len(cells) and cells[i] for cells in some) or any(column_cells(rows, delimiter, i))
-    )
-    return found if len(found) > 1 else tuple(range(width))
-
-
-def first_numbers(lines: Sequence[str] | Lines, delimiter: str, row: str) -> int:
-    """The first line of numbers, several where the last row has several; the second line where there is none.
-
-    A line beside the first that holds a number, and as many cells, is a row of the table, however wrong.
-
-    >>> first_numbers(("made by X", "t,u", "0,1", "1,2"), ",", "1,2"), first_numbers(("t,u", "0,x", "1,2"), ",", "1,2")
-    (2, 1)
-    """
-    several = len(cells_in(row, delimiter)) > 1
-    for at, line in enumerate(lines):
-        cells = cells_in(line, delimiter)
-        if (len(cells) > 1) == several and all(map(is_value, cells)) and any(map(is_there, cells)):
-            return after_wrong_rows(lines, at, delimiter, cells)
-    return 1
-
-
-def after_wrong_rows(lines: Sequence[str] | Lines, at: int, delimiter: str, below: list[str]) -> int:
-    """The first of the rows up to ``at`` that hold a number where the row below has one, the first line left out."""
-    while at > 1:
-        cells = cells_in(lines[at - 1], delimiter)
-        if len(cells) != len(below) or not any(is_there(a) and is_there(b) for a, b in zip(cells, below, strict=True)):
-            return at
-        at, below = at - 1, cells
-    return at

@@ -78,6 +78,9 @@ PREAMBLE = "Manufacturer: X\nSerial;12\nSampling rate: 20 Hz\n\n"
         ("time_days,u [mm]\n" + rows(",", False, 0.05)).encode(),
         ("Zeit in ms;u in mm\n" + rows(";", True, 50.0)).encode(),
         ("Zeit\tu\nrig 7\trig 8\n(ms)\t(mm)\n" + rows("\t", True, 50.0)).encode(),
+        ("t,u [mm]\n" + rows(";", True)).encode(),
+        ("X\nt,run,u [mm]\n" + rows(",", False).replace(",", ",a,")).encode(),
+        ("timestamp_ms,u [mm]\n" + rows(",", False, 50.0)).encode(),
         ("Channel,u\nTime [s],[mm]\n" + rows(",", False)).encode(),
         (" time (s)   u (mm)\n" + rows("   ", False)).encode(),
         ("time since start [s]   u [mm]\n" + rows("   ", False)).encode(),
@@ -99,7 +102,8 @@ def test_tables_as_instruments_and_spreadsheets_write_them(tmp_path: Path, data:
     per_day = 86400.0 if b"days" in data else 1.0
     assert found.rate * per_day == pytest.approx(20.0)
     assert (found.name, found.units) == ("u", "mm")
-    assert any("before the table" in note for note in found.notes) == (b"Serial" in data or b"SampleRate" in data)
+    left_out = any(start in data for start in (b"Serial", b"SampleRate", b"X\n"))
+    assert any("before the table" in note for note in found.notes) == left_out
 
 
 def test_numbers_without_a_header_have_an_even_first_column_for_time_or_need_one(tmp_path: Path) -> None:
@@ -173,6 +177,14 @@ def test_a_column_that_numbers_the_rows_is_no_signal_beside_a_rate(tmp_path: Pat
     path.write_text("frame,u,v\n" + "".join(f"{i},{v},0\n" for i, v in enumerate(VALUES)))
     with pytest.raises(InputError, match="say which column holds the signal by --column; it has u, v"):
         read_recording(path, rate=20.0)
+
+
+def test_a_last_row_that_is_cut_off_hides_no_other(tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text("t,u\n" + rows(",", False) + "2")
+    found = read_recording(path)
+    assert np.array_equal(found.values, VALUES)
+    assert any("1 row has no value" in note for note in found.notes)
 
 
 def test_a_byte_order_mark_before_a_text_is_no_part_of_it() -> None:
