@@ -24,7 +24,10 @@ from ridgeback.numeric.signal.windows import half_width, window
 MARGIN = 1.45
 """Half width of a search band as a factor: below 1.5, so that a second harmonic 1.45 times off it stays out."""
 GUIDE_CYCLES = 6.0
-FEWEST_CYCLES = 3.0
+FEWEST_CYCLES, LEAST_CYCLES = 3.0, 2.5
+"""Cycles per record from which on a line is looked for, and from which on one of which the first shows a flank."""
+NO_DRIFT = 0.5
+"""Share of such a flank that is left when a straight line is taken off the samples, where it is that of a line."""
 CLEAR = 100.0
 """Of the median of the spectrum, that its highest line exceeds in white noise with hardly any probability."""
 CLEAR_AT_AN_END = 40.0
@@ -68,7 +71,8 @@ class SearchBand:
 def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | None = None) -> float:
     """Angular frequency of the highest line of the Hann-windowed spectrum within ``band``.
 
-    By default everything above FEWEST_CYCLES per record counts: the constant and slow drift are left out.  Where no
+    By default everything above FEWEST_CYCLES per record counts: the constant and slow drift are left out, and what has
+    a flank there is found to LEAST_CYCLES.  Where no
     line is CLEAR of that spectrum, as of a decay that is over long before the record, the halves of the window that
     begin or end at its middle are tried too, and the clearest line counts.
 
@@ -82,9 +86,14 @@ def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | No
     within = (omega >= low) & (omega <= high)
     best, clearest = 0.0, 0.0
     for taper in (np.hanning(x.size), *half_tapers(x.size)):
-        spectrum = np.where(within, np.abs(fft.rfft((x - x.mean()) * taper, padded)) ** 2, 0.0)
+        power = power_of(x - x.mean(), taper, padded)
+        spectrum = np.where(within, power, 0.0)
         at, typical = int(spectrum.argmax()), float(np.median(spectrum[within])) if within.any() else 0.0
         clear = float(spectrum[at]) / max(typical, np.finfo(float).tiny)
+        if band is None and power[at - 1] > power[at] > 0.0:
+            level = power_of(signal.detrend(x), taper, padded)
+            least = math.ceil(LEAST_CYCLES * padded / x.size)
+            at = peak_below(level, at, least) if level[at] > NO_DRIFT * power[at] else least
         if clear > max(clearest, CLEAR_AT_AN_END if clearest else 0.0):
             best, clearest = float(omega[at]), clear
         if clear > CLEAR:
@@ -95,6 +104,24 @@ def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | No
             f"give a longer record or another band"
         )
     return best
+
+
+def power_of(x: Array, taper: Array, padded: int) -> Array:
+    """The periodogram under a taper."""
+    return np.asarray(np.abs(fft.rfft(x * taper, padded)) ** 2)
+
+
+def peak_below(power: Array, at: int, least: int) -> int:
+    """The peak whose upper flank an ordinate stands on; ``least`` where that is lower, as on the flank of a drift.
+
+    >>> power = np.array([9.0, 2, 3, 5, 4, 1])
+    >>> peak_below(power, 4, 2), peak_below(power, 3, 2), peak_below(power[::-1].cumsum()[::-1], 4, 2)
+    (3, 3, 2)
+    """
+    peak = at
+    while peak > least and power[peak - 1] > power[peak]:
+        peak -= 1
+    return peak
 
 
 def half_tapers(size: int) -> Iterator[Array]:

@@ -34,7 +34,7 @@ NEAR_MULTIPLE = 0.05
 """Relative distance within which a frequency counts as a multiple of another."""
 LAG_CYCLES = 4.0
 """Default window, in cycles of the strongest component: 3 s for the paper's pendulum."""
-FEWEST_CYCLES = 3.0
+FEWEST_CYCLES = 2.6
 """That a record must hold, where no window is asked for: fewer are not told from drift, at the band's lower end."""
 SHORT_SHARE, SHORT_CYCLES = 0.6, 2.0
 """Of a short record the default window takes this share, but so many cycles."""
@@ -268,11 +268,13 @@ def prepared(samples: Samples, options: Options, *, search: SearchBand | None = 
         real = real - total(beyond, np.arange(real.size) / samples.rate)
     if search is None or (beyond and options.band is not None):
         search = find_search_band(real, samples.rate, band=up_to_nyquist(options.band, samples))
-    cycle, span = TWO_PI / search.centre, (real.size - 1) / samples.rate
+    cycle, span = TWO_PI / search.centre, real.size / samples.rate
     if options.lag_seconds is None and FEWEST_CYCLES * cycle > span:
+        slow = "another --band" if options.band else "a --band round a faster oscillation"
+        drift = "" if options.band else "take a drift off (--detrend linear), "
         raise InputError(
-            f"signal spans {span / cycle:.3g} cycles of its strongest component ({cycle:.4g} each); "
-            f"{FEWEST_CYCLES:g} are needed (give a longer record, a band, or lag_seconds)"
+            f"signal spans {span / cycle:.3g} cycles of its strongest component ({cycle:.4g} each); {FEWEST_CYCLES:g} "
+            f"are needed: give a longer record, {drift}or {slow}"
         )
     lag = min(LAG_CYCLES * cycle, max(SHORT_CYCLES * cycle, SHORT_SHARE * span))
     signal = Signal(real, analytic_of(real), samples.rate, samples.start, offset, search, samples.factor, samples.wrong)

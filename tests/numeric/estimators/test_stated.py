@@ -99,9 +99,15 @@ def test_a_request_takes_the_window_that_was_chosen() -> None:
         assert (taken.half, taken.plan.phase_degree) == (half, 5)
 
 
-def test_three_cycles_are_enough_and_a_step_less_is_not() -> None:
+def test_some_three_cycles_are_enough_and_a_step_less_is_not() -> None:
     search: Any = SimpleNamespace(centre=2 * np.pi)
-    whole, shorter = Samples(TONE[:61], 20.0, 0.0), Samples(TONE[:60], 20.0, 0.0)
+    whole, shorter = Samples(TONE[:52], 20.0, 0.0), Samples(TONE[:51], 20.0, 0.0)
     assert prepared(whole, Options(), search=search).plan.smoothing_seconds == 1.0
-    with pytest.raises(InputError, match=r"signal spans 2\.95 cycles .* \(1 each\); 3 are needed"):
+    with pytest.raises(InputError, match=r"signal spans 2\.55 cycles .* \(1 each\); 2\.6 are needed"):
         prepared(shorter, Options(), search=search)
+
+
+def test_a_straight_line_is_told_from_few_cycles() -> None:
+    line = Samples(3.0 * np.arange(400) / 100.0, 100.0, 0.0)
+    with pytest.raises(InputError, match=r"2\.6 are needed: .* \(--detrend linear\)"):
+        prepared(line, Options())

@@ -55,3 +55,15 @@ def test_any_positive_rate_is_one(rate: float) -> None:
     for wrong in (0.0, -rate):
         with pytest.raises(InputError, match="is not positive"):
             checked_rate(wrong)
+
+
+@pytest.mark.parametrize("ratio", [0.02, 0.15])
+def test_a_record_of_three_cycles_shows_them(ratio: float) -> None:
+    t, omega = np.arange(90) / 210.0, 14 * np.pi
+    x = np.exp(-ratio * omega * t) * np.cos(omega * t + 0.3)
+    assert strongest_frequency(x, 210.0) == pytest.approx(omega, rel=0.12)
+
+
+def test_a_straight_line_has_no_cycles() -> None:
+    t = np.arange(400) / 100.0
+    assert strongest_frequency(3.0 * t, 100.0) * 4.0 / (2 * np.pi) == pytest.approx(2.5)
