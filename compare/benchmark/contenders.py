@@ -1,7 +1,7 @@
 """What is known of each contender of a benchmark, where contenders cross, and which is best at what cost.
 
-Errors are relative to the reference omega0(t) and are taken over the support that is named; times are wall times of
-this machine in this run.
+Errors are relative to the reference omega0(t) and are taken over the support that is named; times are those of this
+machine's processor in this run.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass
 from typing import Literal
 
 from ridgeback.common.numbers import relative, rounded_down, scientific, two_digits, uncertain
-from ridgeback.common.quantities import about
+from ridgeback.common.quantities import measured_time
 from ridgeback.common.show.brief import Brief
 
 Kind = Literal[
@@ -92,6 +92,8 @@ class Row(Brief):
     ranked: bool = False
     time_ns_per_value: float | None = None
     time_s_per_track: float | None = None
+    time_scatter: float | None = None
+    """How such times scatter from run to run, as a share of them."""
     refused: str | None = None
 
     def to_dict(self) -> dict[str, object]:
@@ -231,7 +233,7 @@ def _capital(text: str) -> str:
 
 def _cost(row: Row) -> str:
     ns = row.time_ns_per_value
-    return "" if ns is None else f" at about {about(1e-9 * ns)} a value"
+    return "" if ns is None else f" at {measured_time(1e-9 * ns, row.time_scatter)} a value"
 
 
 def _error(row: Row) -> str:

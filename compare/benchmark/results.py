@@ -1,7 +1,7 @@
 """What a benchmark hands over: every contender on one motion.
 
-Errors are relative to the reference omega0(t) and are taken over the support that is named; times are wall times of
-this machine in this run.
+Errors are relative to the reference omega0(t) and are taken over the support that is named; times are those of
+this machine's processor in this run.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ from ridgeback.numeric.arrays import Array
 
 COLUMNS = (
     *("method", "kind", "order", "relative_rms_error", "largest", "mean", "coverage", "ranked"),
-    *("time_ns_per_value", "time_s_per_track"),
+    *("time_ns_per_value", "time_s_per_track", "time_scatter"),
 )
 
 

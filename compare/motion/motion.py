@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from time import perf_counter
+from time import process_time
 
 import numpy as np
 
@@ -150,7 +150,7 @@ class Motion:
     cycle: CycleFrequency
     averaged: AveragedDecay | None
     averaged_seconds: float
-    """What the averaged motion took; not a number where there is none."""
+    """Processor time that the averaged motion took; not a number where there is none."""
     energy_peak: Array
     """A(t) by eq. (20)-(21), or the envelope of the turning points for a limit cycle."""
 
@@ -268,10 +268,10 @@ def integrate_motion(chosen: Setting, *, digits: int | None = DIGITS) -> Motion:
         precise = integrate_taylor(
             dynamics, chosen.initial, duration=duration, rate=rate / CHECKED, digits=digits, events=False
         )
-    averaged, began = None, perf_counter()
+    averaged, began = None, process_time()
     if dynamics.restoring is not None:
         averaged = averaged_decay(dynamics, chosen.initial, trajectory.time)
-    averaged_seconds = math.nan if averaged is None else perf_counter() - began
+    averaged_seconds = math.nan if averaged is None else process_time() - began
     return Motion(
         setting=chosen,
         dynamics=dynamics,

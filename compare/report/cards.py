@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ridgeback.common.numbers import NONE, number, per_cent, rounded_down, threshold
-from ridgeback.common.quantities import about
+from ridgeback.common.quantities import measured_time
 from ridgeback.compare.benchmark.contenders import WAYS, Row, Way
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import closest
@@ -57,15 +57,15 @@ def refusal(found: Benchmark, way: Way) -> str:
 
 
 def cost(row: Row) -> str:
-    """What a value costs, or a track, to the digit that another run gives again."""
+    """What a value costs, or a track, and how that scatters from run to run."""
     value = row.time_ns_per_value
     if value is None:
         return "not timed"
     if WAYS[row.kind] == "estimates" or row.kind == "slow-flow":
-        track = f"about {about(row.time_s_per_track)} a track, " if row.time_s_per_track else ""
-        return f"{track}{about(1e-9 * value)} a value"
+        track = f"{measured_time(row.time_s_per_track, row.time_scatter)} a track, " if row.time_s_per_track else ""
+        return f"{track}{measured_time(1e-9 * value, row.time_scatter)} a value"
     language = LANGUAGES.get(row.language or "", "")
-    return f"about {about(1e-9 * value)} a value" + (f", {language}" if language else "")
+    return f"{measured_time(1e-9 * value, row.time_scatter)} a value" + (f", {language}" if language else "")
 
 
 def _refused(known: Known, way: Way) -> Card:

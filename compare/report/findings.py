@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ridgeback.common.numbers import number, offset, per_cent, scientific
-from ridgeback.common.quantities import about, amplitude, frequency
+from ridgeback.common.quantities import amplitude, frequency, measured_time
 from ridgeback.compare.benchmark.contenders import OrderCrossing, Reference, Row, Verdict
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.benchmark.verdict import closest
@@ -115,8 +115,9 @@ def _costs(found: Benchmark) -> str:
         return ""
     ratio = estimate.time_ns_per_value / formula.time_ns_per_value
     known = " once A is known" if formula.amplitude_from is not None else ""
+    cost = measured_time(1e-9 * formula.time_ns_per_value, formula.time_scatter)
     return (
-        f"A value of {spoken(formula)} costs about {about(1e-9 * formula.time_ns_per_value)}{known}, "
+        f"A value of {spoken(formula)} costs {cost}{known}, "
         f"some {_times(ratio)} times less than one of {spoken(estimate)}."
     )
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from ridgeback.common.numbers import NONE, listing, per_cent
-from ridgeback.common.quantities import about, symbol
+from ridgeback.common.quantities import measured_time, symbol
 from ridgeback.compare.benchmark.contenders import Reference, Row, Source
 from ridgeback.compare.motion.results import Case
 
@@ -112,12 +112,12 @@ def floor_words(errors: Iterable[float | None], reference: Reference | None) -> 
 
 
 def told(row: Row, reference: Reference, cost_s: float) -> str:
-    """A contender with its error and what a track costs, as a pointer reads them.
+    """A contender with its error and what a track costs and scatters by, as a pointer reads them.
 
     >>> told(Row("series-21", "", "series-model", order=21, relative_rms_error=1e-5), Reference("", 0.0, 1.8e-4), 3e-3)
     '21 terms of the paper’s series: ≤ 0.018 %, 3 ms a track'
     """
-    cost = f", {about(cost_s)} a track" if math.isfinite(cost_s) else ""
+    cost = f", {measured_time(cost_s, row.time_scatter)} a track" if math.isfinite(cost_s) else ""
     compiled = {"c": " in C", "python": " in Python"}.get(row.language or "", "") if row.kind == "expansion" else ""
     return f"{capital(spoken(row))}{compiled}: {at_most(row.relative_rms_error, reference, '≤ ')}{cost}"
 

@@ -148,7 +148,7 @@ def system_report(
         plan, derived = _plan(motion, order, orders, amplitudes, target, trials)
         accuracy = Accuracy() if derived is None else _accuracy(derived, plan)
     with watch.stage("contenders", 0.2, 0.5) as inner:
-        contenders = _contenders(motion, plan, derived, inner)
+        contenders = _contenders(motion, plan, derived, inner, timed=timed)
         found = assembled(motion, contenders) if timed else untimed(assembled(motion, contenders))
     with watch.stage("along the motion", 0.5, 0.7) as inner:
         decay = compare_motion(
@@ -204,7 +204,9 @@ def described(case: Setting) -> Described:
     return Described(name, o.equation_latex, parameters_line(case.case()), o.reference)
 
 
-def _contenders(motion: Motion, plan: Plan, derived: Derived | None, progress: Progress) -> list[Contender]:
+def _contenders(
+    motion: Motion, plan: Plan, derived: Derived | None, progress: Progress, *, timed: bool
+) -> list[Contender]:
     steps = iter(range(1, 100))
 
     def step(label: str) -> None:
@@ -212,7 +214,7 @@ def _contenders(motion: Motion, plan: Plan, derived: Derived | None, progress: P
 
     orders = [o for o in plan.orders if o in CONTENDING or len(plan.orders) < len(CONTENDING)]
     known = None if derived is None else derived.expansion
-    return [*theory(motion, orders, step, known=known), *estimates(motion, {}, step)]
+    return [*theory(motion, orders, step, known=known), *estimates(motion, {}, step, timed=timed)]
 
 
 def tracks_of(contenders: Sequence[Contender]) -> dict[str, Track]:
@@ -223,7 +225,7 @@ def tracks_of(contenders: Sequence[Contender]) -> dict[str, Track]:
 
 def untimed(found: Benchmark) -> Benchmark:
     """A benchmark without its measured times."""
-    rows = tuple(replace(r, time_ns_per_value=None, time_s_per_track=None) for r in found.contenders)
+    rows = tuple(replace(r, time_ns_per_value=None, time_s_per_track=None, time_scatter=None) for r in found.contenders)
     by_name = {row.method: row for row in rows}
     verdict = found.verdict
     rival = None if verdict.rival is None else by_name[verdict.rival.method]

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 
 from ridgeback.common.numbers import NONE, number, per_cent, rounded_down, threshold
-from ridgeback.common.quantities import about, symbol
+from ridgeback.common.quantities import measured_time, symbol
 from ridgeback.compare.benchmark.contenders import Reference
 from ridgeback.compare.benchmark.contenders import Row as Contender
 from ridgeback.compare.benchmark.results import Benchmark
@@ -80,8 +80,8 @@ def contender_table(found: Benchmark) -> Table:
     span = f"{low} to {high} {found.case.time_unit}".strip()
     caption = f"Relative error of ω₀(t), t = {span}; mean is signed, negative means low."
     caption += (
-        " Cost: in this run, to one digit, C where it was compiled; a value of an estimate is its track’s share."
-        * timed
+        " Cost: processor time in this run, C where it was compiled, ± its scatter over repeats, 1 % at least; "
+        "a value of an estimate is its track’s share." * timed
     )
     caption += " An error without A(t) stands in the first column." * both
     caption += floor_words((v for r in found.contenders for v in (r.relative_rms_error, r.mean)), found.reference)
@@ -120,15 +120,12 @@ def _contender(
     cost: tuple[str, ...] = ()
     if timed:
         value = None if cheapest is None else 1e-9 * float(cheapest.time_ns_per_value or 0.0)
-        cost = (_about(value), _about(None if cheapest is None else cheapest.time_s_per_track))
+        scatter, track = (None, None) if cheapest is None else (cheapest.time_scatter, cheapest.time_s_per_track)
+        cost = (measured_time(value, scatter), measured_time(track, scatter))
     remark = "" if best.ranked else f"Not ranked: covers {100 * best.coverage:.0f} % of the interior."
     texts = [at_most(None if e is None else e.relative_rms_error, reference, "≤ ", missing="") for e in errors]
     texts += [at_most(best.largest, reference, "≤ "), at_most(best.mean, reference, "≤ ", signed=True)]
     return Row((capital(name), *texts, *cost), remark)
-
-
-def _about(seconds: float | None) -> str:
-    return NONE if seconds is None else about(seconds)
 
 
 def budget_table(rows: Sequence[BudgetRow], reference: Reference | None = None) -> Table:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ridgeback.common.numbers import number, relative
-from ridgeback.common.quantities import duration
+from ridgeback.common.quantities import measured_time
 from ridgeback.console.output import json_text
 from ridgeback.console.tables import Row, aligned, csv_text
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 COLUMNS = (
     *("method", "kind", "order", "coefficients", "amplitude_from", "language", "corrected_by"),
     *("relative_rms_error", "largest", "mean", "support_start", "support_end", "coverage", "ranked"),
-    *("time_ns_per_value", "time_s_per_track", "refused"),
+    *("time_ns_per_value", "time_s_per_track", "time_scatter", "refused"),
 )
 OFF_SCALE = 10.0
 SHOWN = ("method", "A(t) from", "code", "rms error", "largest", "mean", "cost of a value")
@@ -150,8 +150,8 @@ def shown(rows: list[Contender]) -> Row:
 
 
 def cost(row: Contender) -> str:
-    """What a value costs, with its unit."""
-    return duration(None if row.time_ns_per_value is None else 1e-9 * row.time_ns_per_value)
+    """What a value costs, with its unit and its scatter from run to run."""
+    return measured_time(None if row.time_ns_per_value is None else 1e-9 * row.time_ns_per_value, row.time_scatter)
 
 
 def passed(found: Benchmark) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from ridgeback.common.numbers import NONE, number, two_digits
+from ridgeback.common.numbers import NONE, number
 
 # fmt: off
 _GREEK = {
@@ -17,6 +17,8 @@ _GREEK = {
 # fmt: on
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+LEAST_SCATTER = 1e-2
+"""What a measured time is uncertain by at least, as a share of it."""
 SLOW, LARGE, DAY = 0.05, 1000.0, 86_400.0
 """Frequencies below and above which four decimals are too few or too many; seconds of a day."""
 
@@ -73,15 +75,6 @@ def _rounded(value: float) -> str:
     )
 
 
-def nanoseconds(value: float) -> str:
-    """A time per value, three digits.
-
-    >>> nanoseconds(6.234), nanoseconds(1234.0)
-    ('6.23 ns', '1230 ns')
-    """
-    return f"{float(f'{value:.3g}'):g} ns"
-
-
 def symbol(name: str) -> str:
     r"""The name of a parameter or of an unknown as it is printed in text; LaTeX names lose their backslash.
 
@@ -102,18 +95,6 @@ def unit_text(unit: str) -> str:
     return re.sub(r"\^(-?\d+)", lambda power: power[1].translate(_SUPERSCRIPTS), unit)
 
 
-def duration(seconds: float | None) -> str:
-    """A time to two digits with the unit that suits it.
-
-    >>> duration(2e-9), duration(1.3e-4), duration(0.132), duration(12.0), duration(None)
-    ('2.0 ns', '130 µs', '0.13 s', '12 s', '–')
-    """
-    if seconds is None:
-        return NONE
-    size, unit = _unit_of(seconds)
-    return f"{two_digits(seconds / size)} {unit}"
-
-
 def about(seconds: float) -> str:
     """A measured time to one digit, as no two runs agree on a second one.
 
@@ -123,6 +104,25 @@ def about(seconds: float) -> str:
     rounded = float(f"{seconds:.1g}")
     size, unit = _unit_of(rounded)
     return f"{rounded / size:.1g} {unit}" if rounded < 10 * size else f"{rounded / size:.0f} {unit}"
+
+
+def measured_time(seconds: float | None, scatter: float | None) -> str:
+    """A measured time and its scatter from run to run, to one digit of that; to one digit where none is known.
+
+    >>> measured_time(1.234e-8, 0.03), measured_time(0.252, 0.099), measured_time(2e-6, 0.0), measured_time(5e-4, 0.3)
+    ('12.3 ± 0.4 ns', '0.25 ± 0.02 s', '2.00 ± 0.02 µs', '500 ± 200 µs')
+    >>> measured_time(0.252, None), measured_time(None, None)
+    ('0.3 s', '–')
+    """
+    if seconds is None:
+        return NONE
+    if scatter is None:
+        return about(seconds)
+    size, unit = _unit_of(seconds)
+    spread = float(f"{max(scatter, LEAST_SCATTER) * seconds / size:.1g}")
+    places = -math.floor(math.log10(spread))
+    value, digits = round(seconds / size, places), max(0, places)
+    return f"{value:.{digits}f} ± {spread:.{digits}f} {unit}"
 
 
 def _unit_of(seconds: float) -> tuple[float, str]:

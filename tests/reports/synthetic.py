@@ -341,7 +341,7 @@ def make_benchmark(decay: MotionComparison) -> Benchmark:
             row = Row(
                 name, f"expansion, order {order}", "expansion", order=order, amplitude_from="action", language=language
             )
-            add(row, size, time_ns_per_value=cost * (1 + order / 20), coverage=1.0)
+            add(row, size, time_ns_per_value=cost * (1 + order / 20), time_scatter=0.03, coverage=1.0)
         row = Row(f"lindstedt-{order}-energy", "", "expansion", order=order, amplitude_from="energy", language="python")
         add(row, float(np.hypot(size, 1.9e-3)), time_ns_per_value=4.0, coverage=1.0)
     for terms in (3, 21):
@@ -350,7 +350,14 @@ def make_benchmark(decay: MotionComparison) -> Benchmark:
     add(Row("closed-form", "exact omega0", "closed-form", amplitude_from="energy"), 1.9e-3, time_ns_per_value=900.0)
     add(Row("averaged-action", "", "averaged", amplitude_from="action"), 1.3e-4)
     for method, size in (("wigner", 9.4e-3), ("pseudo-wigner", 4.6e-4), ("harmonic-least-squares", 1.2e-5)):
-        add(Row(method, method, "estimate"), size, time_s_per_track=0.3, time_ns_per_value=2.5e5, coverage=1.0)
+        add(
+            Row(method, method, "estimate"),
+            size,
+            time_s_per_track=0.3,
+            time_ns_per_value=2.5e5,
+            time_scatter=0.2,
+            coverage=1.0,
+        )
     corrected = Row("wigner-corrected", "", "estimate", corrected_by="its own track")
     add(corrected, 1.8e-3, time_s_per_track=0.9, time_ns_per_value=7e5, coverage=1.0)
     made.append((Row("hilbert", "Hilbert phase", "estimate", refused=FAILURE), np.full(time.size, np.nan)))

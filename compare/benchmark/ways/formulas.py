@@ -18,7 +18,7 @@ from numpy.polynomial import chebyshev
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.contenders import Kind, Row, Source
 from ridgeback.compare.benchmark.ways.contender import Contender, refused
-from ridgeback.compare.benchmark.ways.timing import nanoseconds
+from ridgeback.compare.benchmark.ways.timing import Cost, per_value
 from ridgeback.compare.binding.compiled_code import NotCompiled, OfAmplitude, Vectorised, compiled_together
 from ridgeback.compare.binding.generated_code import as_module, omega0_of
 from ridgeback.compare.motion.motion import Motion, exact_omega
@@ -91,12 +91,12 @@ def evaluated(tried: Iterable[Tried], at: At) -> Iterator[Contender]:
 def _by_language(one: Generated, native: Vectorised | NotCompiled, at: At) -> Iterator[Contender]:
     ways = {"python": one.python} | ({} if isinstance(native, NotCompiled) else {"c": native})
     for language, function in ways.items():
-        cost = nanoseconds(function, next(iter(at.values())))
+        cost = per_value(function, next(iter(at.values())))
         for source, x in at.items():
             yield Contender(_row(one.named, source, language, cost), np.asarray(function(x), dtype=float))
 
 
-def _row(named: Named, source: Source | None, language: str, cost: float) -> Row:
+def _row(named: Named, source: Source | None, language: str, cost: Cost) -> Row:
     parts = (named.method, *((source,) if source else ()), *(() if language == "python" else (language,)))
     return Row(
         "-".join(parts),
@@ -106,7 +106,8 @@ def _row(named: Named, source: Source | None, language: str, cost: float) -> Row
         coefficients=named.coefficients,
         amplitude_from=source,
         language=language,
-        time_ns_per_value=cost,
+        time_ns_per_value=1e9 * cost.seconds,
+        time_scatter=cost.scatter,
     )
 
 

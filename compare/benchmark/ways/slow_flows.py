@@ -8,8 +8,8 @@ eps^n, each whole.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 import sympy
@@ -18,6 +18,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import number
 from ridgeback.compare.benchmark.contenders import Row
 from ridgeback.compare.benchmark.ways.contender import Contender, refused
+from ridgeback.compare.benchmark.ways.timing import repeated
 from ridgeback.compare.motion.model_curves import slow_flow_curve
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
@@ -37,9 +38,8 @@ def slow_flows(motion: Motion) -> Iterator[Contender]:
         label = f"multiple scales, order {order}" + ("" if small is None else f" in {small[0]}")
         try:
             flow = flow_of(motion.setting.oscillator, order)
-            began = time.perf_counter()
             curve = slow_flow_curve(motion, flow)
-            seconds = time.perf_counter() - began
+            cost = repeated(partial(slow_flow_curve, motion, flow))
         except (InputError, ValueError) as error:
             yield refused(f"multiple-scales-{order}", label, "slow-flow", str(error), order=order)
             continue
@@ -59,8 +59,9 @@ def slow_flows(motion: Motion) -> Iterator[Contender]:
             "slow-flow",
             order=order,
             coefficients=len(flow.frequency) + len(flow.growth_rate),
-            time_s_per_track=seconds,
-            time_ns_per_value=seconds / motion.time.size * 1e9,
+            time_s_per_track=cost.seconds,
+            time_ns_per_value=1e9 * cost.per(motion.time.size).seconds,
+            time_scatter=cost.scatter,
         )
         yield Contender(row, omega)
 

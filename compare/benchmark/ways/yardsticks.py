@@ -9,9 +9,10 @@ import numpy as np
 
 from ridgeback.compare.benchmark.contenders import Row, Source
 from ridgeback.compare.benchmark.ways.contender import Contender
-from ridgeback.compare.benchmark.ways.timing import nanoseconds
+from ridgeback.compare.benchmark.ways.timing import per_value, repeated
 from ridgeback.compare.motion.motion import Motion, exact_omega
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.orbits.averaging import averaged_decay
 from ridgeback.numeric.orbits.energy import is_linearly_damped
 from ridgeback.numeric.orbits.paper_model import series_frequency
 
@@ -36,6 +37,7 @@ def series_model(motion: Motion, source: Source, x: Array) -> Iterator[Contender
     """The paper's series, eq. (14), by its number of terms."""
     for terms in TERMS:
         function = partial(series_frequency, k=motion.dynamics.natural_frequency, terms=terms)
+        cost = per_value(function, x)
         row = Row(
             f"series-{terms}-{source}",
             f"paper's series, {terms} terms, A(t) from the {source}",
@@ -44,7 +46,8 @@ def series_model(motion: Motion, source: Source, x: Array) -> Iterator[Contender
             coefficients=terms,
             amplitude_from=source,
             language="numpy",
-            time_ns_per_value=nanoseconds(function, x),
+            time_ns_per_value=1e9 * cost.seconds,
+            time_scatter=cost.scatter,
         )
         yield Contender(row, np.asarray(function(x)))
 
@@ -54,12 +57,16 @@ def exact_at_energy(motion: Motion) -> Contender:
     closed = motion.dynamics.closed_form
     x = motion.energy_peak
     cost = (
-        nanoseconds(partial(exact_omega, motion.dynamics), x, values=x.size, repeats=1)
-        if closed is None
-        else nanoseconds(closed, x)
+        per_value(partial(exact_omega, motion.dynamics), x, values=x.size) if closed is None else per_value(closed, x)
     )
-    label = "exact omega0 at A(t) from the energy"
-    row = Row("closed-form", label, "closed-form", amplitude_from="energy", time_ns_per_value=cost)
+    row = Row(
+        "closed-form",
+        "exact omega0 at A(t) from the energy",
+        "closed-form",
+        amplitude_from="energy",
+        time_ns_per_value=1e9 * cost.seconds,
+        time_scatter=cost.scatter,
+    )
     return Contender(row, motion.exact_at_energy)
 
 
@@ -68,7 +75,8 @@ def averaged(motion: Motion) -> Iterator[Contender]:
     """The exact omega0 of the averaged action, which needs no trajectory, and the same under linear damping."""
     if motion.averaged is None:
         return
-    seconds = motion.averaged_seconds
+    again = partial(averaged_decay, motion.dynamics, motion.setting.initial, motion.time)
+    cost = repeated(again, laps=(motion.averaged_seconds,))
     ways = {"averaged-action": ("exact omega0 of the averaged action", motion.averaged.omega)}
     mu = motion.dynamics.damping
     if mu and is_linearly_damped(motion.dynamics, float(motion.averaged.peak[0])):
@@ -80,7 +88,8 @@ def averaged(motion: Motion) -> Iterator[Contender]:
             label,
             "averaged",
             amplitude_from="action",
-            time_s_per_track=seconds,
-            time_ns_per_value=seconds / motion.time.size * 1e9,
+            time_s_per_track=cost.seconds,
+            time_ns_per_value=1e9 * cost.per(motion.time.size).seconds,
+            time_scatter=cost.scatter,
         )
         yield Contender(row, omega)

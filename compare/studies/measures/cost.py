@@ -1,6 +1,6 @@
 """Cells of work against precision: what a value costs as generated code, and how far it errs over the amplitudes.
 
-Wall times are of the machine and of the run that the cell was computed in; processes beside it disturb them.
+Times are those of the processor of the machine and in the run that the cell was computed in.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.ways.formulas import fitted
-from ridgeback.compare.benchmark.ways.timing import nanoseconds
+from ridgeback.compare.benchmark.ways.timing import per_value
 from ridgeback.compare.binding.compiled_code import NotCompiled, OfAmplitude, compiled
 from ridgeback.compare.binding.generated_code import python_module
 from ridgeback.compare.motion.motion import setting
@@ -112,7 +112,7 @@ def measured(function: Callable[[Array], object], x: Array, exact: Reference, co
     if not np.isfinite(error).all():
         return "the formula has no finite value at some of the amplitudes"
     error = np.maximum(error, exact.relative_error)
-    return nanoseconds(function, x), float(error.max()), float(np.sqrt(np.mean(error**2))), count
+    return 1e9 * per_value(function, x).seconds, float(error.max()), float(np.sqrt(np.mean(error**2))), count
 
 
 def tasks(plan: Plan) -> Iterator[Task]:
@@ -129,7 +129,7 @@ MEASURE = Measure(
         Column("order", "1", "highest power kept, or number of terms of the paper's series"),
     ),
     values=(
-        Column("time_ns_per_value", "ns", "wall time of one value in an array, median of repeats"),
+        Column("time_ns_per_value", "ns", "processor time of one value in an array, median of repeats"),
         Column("largest", "1", "largest magnitude of the relative error over the amplitudes"),
         Column("rms", "1", "root mean square of the relative error over the amplitudes"),
         Column("coefficients", "1", "coefficients that are not zero"),

@@ -17,7 +17,7 @@ from ridgeback.compare.studies.tasks import Column, Finished
 COLUMNS = (
     *WHO,
     Column("order", "1", "highest power kept, or number of terms of the paper's series"),
-    Column("time_ns_per_value", "ns", "wall time of one value in an array"),
+    Column("time_ns_per_value", "ns", "processor time of one value in an array"),
     Column("largest", "1", "largest magnitude of the relative error over the amplitudes"),
     Column("coefficients", "1", "coefficients that are not zero"),
     Column("efficient", "", "whether nothing that costs less errs less"),

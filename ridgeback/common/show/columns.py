@@ -84,6 +84,7 @@ QUANTITIES: Final[Mapping[str, Quantity]] = MappingProxyType(
         "ranked": Quantity("", "whether it covers enough to be ranked"),
         "time_ns_per_value": Quantity("ns", "time for one value"),
         "time_s_per_track": Quantity("s", "time for the whole track"),
+        "time_scatter": Quantity("1", "scatter of such times from run to run, as a share of them"),
         "power": Quantity("1", "power of the variable"),
         "relation": Quantity("", "which of the two equations of the slow flow"),
         "coefficient": Quantity("exact", "exact coefficient"),

@@ -70,6 +70,7 @@ def test_expansions_converge_to_the_averaged_action_and_the_series_model_follows
 def test_generated_c_agrees_with_generated_python_and_both_have_a_cost(pendulum: Benchmark) -> None:
     rows = {row.method: row for row in pendulum.contenders}
     assert rows["lindstedt-8-action"].time_ns_per_value > 0
+    assert all(r.time_scatter is not None for r in rows.values() if r.time_ns_per_value is not None)
     if "lindstedt-8-action-c" in rows:
         error = rows["lindstedt-8-action-c"].relative_rms_error
         assert error == pytest.approx(rows["lindstedt-8-action"].relative_rms_error, rel=1e-9)
@@ -148,7 +149,7 @@ def test_json_csv_and_text_say_the_same(pendulum: Benchmark) -> None:
     record = json.loads(benchmark_text(pendulum, "json"))
     assert {"reference", "support", "rows", "crossings", "verdict"} <= set(record)
     wanted = {"method", "kind", "order", "amplitude_from", "language", "relative_rms_error", "largest", "mean"}
-    wanted |= {"support", "time_ns_per_value", "time_s_per_track", "refused"}
+    wanted |= {"support", "time_ns_per_value", "time_s_per_track", "time_scatter", "refused"}
     assert all(wanted <= set(row) for row in record["rows"])
     lines = benchmark_text(pendulum, "csv").splitlines()
     assert lines[0] == ",".join(COLUMNS)

@@ -11,7 +11,7 @@ import pytest
 from ridgeback.compare.benchmark.contenders import EqualCoefficients, Row
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.harmonics.folding import folding
-from ridgeback.compare.report.cards import Known, _needs, cards, in_noise, within
+from ridgeback.compare.report.cards import Known, _needs, cards, cost, in_noise, within
 from ridgeback.compare.report.findings import _cured, findings, lead_of
 from ridgeback.numeric.orbits.paper_model import series_frequency
 from tests.reports import synthetic
@@ -80,6 +80,10 @@ def test_findings_name_folding_and_equal_numbers_of_coefficients() -> None:
 
 def test_costs_are_said_where_both_ways_are_timed() -> None:
     assert "times less than one of" in lead_of(BENCHMARK, timed=True)
+    assert " ± " in lead_of(BENCHMARK, timed=True)
+    once = Row("", "", "estimate", time_ns_per_value=2e5, time_s_per_track=0.25)
+    assert cost(replace(once, time_scatter=0.1)) == "0.25 ± 0.03 s a track, 200 ± 20 µs a value"
+    assert cost(once) == "0.2 s a track, 200 µs a value"
     rows = tuple(replace(row, time_ns_per_value=None) for row in BENCHMARK.contenders)
     assert "costs" not in lead_of(replace(BENCHMARK, contenders=rows), timed=True)
 
