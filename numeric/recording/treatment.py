@@ -1,7 +1,7 @@
 """What is done to samples before they are a signal: gaps, uneven times, clipping, drift: found, reported and treated.
 
 The rules, in this order:
-0. Of the samples those within ``span`` count, if one is given.
+0. Of the samples those within ``span`` count, if one is given.  Stamps that are uneven by rounding alone are even.
 1. A value or time that is missing, or a step over GAP_STEPS usual ones, is a gap and cuts the signal.  ``fill`` lets
    neighbours up to that far apart stay together and interpolates between them; with ``resample`` the default for it
    is RESAMPLED_STEPS steps, usual ones or those of the new rate, whichever are longer.
@@ -24,6 +24,7 @@ from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.files.columns import Columns
 from ridgeback.numeric.recording.clipping import clipped, runs
 from ridgeback.numeric.recording.drift import DETRENDS, detrended, wandering
+from ridgeback.numeric.recording.rounded_stamps import unrounded
 from ridgeback.numeric.recording.stretches import GAP_STEPS, Gap, Stamped, split
 from ridgeback.numeric.recording.uniform import (
     EASY,
@@ -100,6 +101,7 @@ def treated(
 
     Raises InputError when no stretch is long enough, or times are uneven and no rate to resample to is given.
     """
+    samples, rounded = unrounded(samples) if treatment.fill is None else (samples, "")
     longest = treatment.longest(samples.usual)
     if treatment.resample is None:
         check_not_scattered(samples, columns, treatment)
@@ -116,11 +118,12 @@ def treated(
     if not kept:
         raise InputError(
             f"{columns.source}, column {header}: no stretch between its {len(gaps)} gaps has {FEWEST_SAMPLES} samples "
-            f"that vary (the first gap: {gap_text(gaps[0])}); fill short gaps, or record longer"
+            f"that vary (the first gap: {gap_text(gaps[0])}); interpolate across short gaps (--fill), give the rate of "
+            "even samples whose stamps are at fault (--rate), or record longer"
         )
     facts = {"missing": samples.absent, "gaps": [[gap.begin, gap.end] for gap in gaps], "left_out": len(lost)}
     kept = [Piece(p.samples, p.values, p.notes, {**facts, **p.facts}) for p in kept]
-    return kept, tuple(signal_notes(samples, header, gaps, lost, flat))
+    return kept, (*((rounded,) if rounded else ()), *signal_notes(samples, header, gaps, lost, flat))
 
 
 @dataclass(frozen=True)
@@ -184,8 +187,8 @@ def check_not_scattered(samples: Stamped, columns: Columns, treatment: Treatment
     if np.count_nonzero((steps > GAP_STEPS) & off) > SCATTERED * steps.size:
         raise InputError(
             f"{columns.source}: {np.count_nonzero(off)} of {steps.size} steps of the time differ from the usual one, "
-            f"{samples.usual:.6g}, by more than {EASY:.0%}; resample the recording, for instance to "
-            f"{advised_rate(samples, treatment):.4g} per time unit"
+            f"{samples.usual:.6g}, by more than {EASY:.0%}; interpolate, for instance by --resample "
+            f"{advised_rate(samples, treatment):.4g}, or give the rate of even samples by --rate"
         )
 
 
@@ -193,7 +196,7 @@ def sound(samples: Uniform, columns: Columns) -> Uniform:
     """The samples, or InputError where their interpolation would be a guess."""
     if samples.error > GUESS:
         raise InputError(
-            f"{columns.source}: interpolation would err by about {samples.error:.0%} of the rms; fill shorter gaps "
+            f"{columns.source}: interpolation would err by about {samples.error:.0%} of the rms; --fill shorter gaps "
             "only, or leave them as cuts"
         )
     return samples
@@ -204,7 +207,7 @@ def check_not_slower(rate: float, part: Stamped, whole: Whole) -> None:
     if rate < 0.9 / part.mean:
         raise InputError(
             f"{whole.columns.source}: resampling uneven times to {rate:g} per time unit, below their own mean rate of "
-            f"{1.0 / part.mean:.6g} in one stretch, would alias; use for instance {whole.advised():.4g}"
+            f"{1.0 / part.mean:.6g} in one stretch, would alias; use for instance --resample {whole.advised():.4g}"
         )
 
 
@@ -218,8 +221,8 @@ def refuse_uneven(part: Stamped, whole: Whole, more: str = "") -> None:
     at = int(odd[0]) + 1 if odd.size else int(off[0])
     raise InputError(
         f"{columns.source}, {columns.place(int(part.row[at]))}: time {part.time[at]:.9g} comes {steps[at - 1]:.6g} "
-        f"after the one above, the usual step is {part.usual:.6g}; steps must agree to {2 * JITTER:.0%} (resample the "
-        f"recording to about {whole.advised():.4g} per time unit, or give its rate if the stamps are at fault){more}"
+        f"after the one above, the usual step is {part.usual:.6g}; steps must agree to {2 * JITTER:.0%} (interpolate "
+        f"by --resample {whole.advised():.4g}, or give the rate by --rate if the stamps are at fault){more}"
     )
 
 

@@ -17,7 +17,7 @@ CASES: tuple[Case, ...] = (
     refused("estimate header.csv", "header.csv"),
     refused("estimate one.csv", "one.csv, column u has 1", "at least 16"),
     refused("estimate short.csv", "short.csv, column u has 3", "at least 16"),
-    refused("estimate nan.csv", "nan.csv, column u: no stretch", "fill short gaps"),
+    refused("estimate nan.csv", "nan.csv, column u: no stretch", "interpolate across short gaps (--fill)"),
     refused("estimate all_nan.csv", "all_nan.csv, column u has 99", "at least 16"),
     refused("estimate infinite.csv", "infinite.csv, line 3, column u", "leave the cell"),
     refused("estimate huge.csv --method hilbert", "huge.csv, column u swings by", "scale it to"),

@@ -96,7 +96,7 @@ def test_filling_is_done_when_asked_and_only_as_far_as_asked(tmp_path: Path) -> 
     off = np.abs(whole.values - X)[whole.filled]
     assert np.sqrt(np.mean(off**2)) < 2 * whole.facts["interpolation_error"] * np.std(X)
     x[100:130] = np.nan  # more than a whole cycle
-    with pytest.raises(InputError, match=r"interpolation would err by about \d+% of the rms; fill shorter gaps"):
+    with pytest.raises(InputError, match=r"interpolation would err by about \d+% of the rms; --fill shorter gaps"):
         read_recordings([written(tmp_path / "b.csv", T, x)], fill=5.0)
 
 
@@ -125,7 +125,7 @@ def test_uneven_times_are_refused_until_a_rate_is_given(tmp_path: Path) -> None:
     rng = np.random.default_rng(5)
     t = np.cumsum(rng.uniform(0.5, 1.5, 800)) / 40.0
     path = written(tmp_path / "a.csv", t, wave(t))
-    with pytest.raises(InputError, match=r"\d+ of 799 steps .*resample the recording, for instance to 40\.\d+ per"):
+    with pytest.raises(InputError, match=r"\d+ of 799 steps .*for instance by --resample 40\.\d+, or"):
         read_recording(path)
     found = read_recording(path, resample=40.0)
     inside = slice(20, -20)
@@ -296,11 +296,11 @@ def test_the_guide_of_a_thinned_record_is_that_of_the_whole() -> None:
 def test_the_rate_that_is_suggested_for_scattered_times_passes(tmp_path: Path, seed: int) -> None:
     t = np.sort(np.random.default_rng(seed).uniform(0.0, 20.0, 801))
     path = written(tmp_path / "a.csv", t, wave(t))
-    with pytest.raises(InputError, match="for instance to") as refused:
+    with pytest.raises(InputError, match="for instance by --resample") as refused:
         read_recordings([path])
-    rate = float(str(refused.value).split("for instance to ")[1].split()[0])
+    rate = float(str(refused.value).split("by --resample ")[1].split(",")[0])
     assert {found.rate for found in read_recordings([path], resample=rate)} == {rate}
-    with pytest.raises(InputError, match=rf"would alias; use for instance {rate:.4g}"):
+    with pytest.raises(InputError, match=rf"would alias; use for instance --resample {rate:.4g}"):
         read_recordings([path], resample=0.5 * rate)
 
 
