@@ -110,15 +110,16 @@ def uncertain(value: float, deviation: float) -> str:
     ('3.142 +- 0.012', '(-5.7792 +- 0.0054)e-07', '1 +- nan')
     >>> uncertain(3.14159265, 2e-9)
     '3.1415926500 +- 2.0e-09'
-    >>> uncertain(0.00477464, 1.5e-8)
-    '0.004774640 +- 1.5e-08'
+    >>> uncertain(0.00477464, 1.5e-8), uncertain(3e-5, 4.8e-4), uncertain(-2e-6, 3.4e-5)
+    ('0.004774640 +- 1.5e-08', '0.00003 +- 0.00048', '(-0.2 +- 3.4)e-05')
     """
     size = abs(value)
     if 0.0 < deviation < SHARP * (1.0 if SMALL < size < 1.0 else size):
         return f"{value:#.{digits_to(value, deviation)}g} +- {deviation:.1e}"
-    if not (np.isfinite(deviation) and deviation > 0.0 and 0.0 < size < SMALL):
+    larger = max(size, deviation)
+    if not (np.isfinite(deviation) and deviation > 0.0 and 0.0 < larger < SMALL):
         return with_deviation(value, deviation)
-    power = int(np.floor(np.log10(size)))
+    power = int(np.floor(np.log10(larger)))
     return f"({with_deviation(value / 10.0**power, deviation / 10.0**power)})e{power:+03d}"
 
 
