@@ -11,10 +11,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from ridgeback.common.numbers import number, power_of_ten
+from ridgeback.common.numbers import power_of_ten
 from ridgeback.numeric.arrays import Array
+from ridgeback.reports.drawing.scale import round_values, shared_power, tick_labels
 from ridgeback.reports.drawing.theme import Variant, colour_of
 
 TOP, BOTTOM, LEFT, RIGHT, GAP = 26.0, 34.0, 46.0, 18.0, 34.0
@@ -89,15 +90,18 @@ def titles(axes: Axes, *, x: str, y: str) -> None:
 
 
 def linear(axes: Axes, axis: str, low: float, high: float, *, ticks: int = 6) -> None:
-    """Set a linear axis with about so many round ticks."""
+    """Set a linear axis with at most so many round ticks, a power of ten that they share beside them."""
     (axes.set_xlim if axis == "x" else axes.set_ylim)(low, high)
-    chosen = axes.xaxis if axis == "x" else axes.yaxis
-    chosen.set_major_locator(MaxNLocator(nbins=ticks, steps=[1, 2, 2.5, 5, 10]))
-    chosen.set_major_formatter(FuncFormatter(lambda value, _: number(_clean(value, high - low))))
-
-
-def _clean(value: float, span: float) -> float:
-    return 0.0 if abs(value) < 1e-9 * span else float(f"{value:.8g}")
+    values = round_values(low, high, ticks)
+    power = shared_power(values)
+    names = tick_labels(value / 10.0**power for value in values)
+    (axes.set_xticks if axis == "x" else axes.set_yticks)(values, names)
+    if power:
+        corner, offset = ((1.0, 0.0), (0.0, -28.0)) if axis == "x" else ((0.0, 0.0), (-13.0, -14.0))
+        beside = axes.annotate(
+            f"× {power_of_ten(power)}", corner, offset, xycoords="axes fraction", textcoords="offset points", ha="right"
+        )
+        beside.set_color(colour_of("fg"))
 
 
 def decades(axes: Axes, axis: str, low: float, high: float, *, ticks: int = 6) -> None:

@@ -17,6 +17,7 @@ from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.picture import picture
 from ridgeback.reports.drawing.theme import SERIES, Variant, colour_of
 from ridgeback.reports.figures.clock import Clock
+from ridgeback.reports.figures.recording import amplitudes
 
 CLOCK = Clock("s")
 PAGE = Variant("wide", 9.6, 6.4)
@@ -157,8 +158,7 @@ def curve_panel(axes: Axes, found: Measurements, what: str) -> None:
         label = "combined" if len(found.combined) == 1 else f"combined, {common.channel}"
         line = Line(common.curve.amplitude, mean * factor, label, "fg", width=2.4)
         bands.append(band_of(line, deviation * factor))
-    top = max((float(band.line.x[-1]) for band in bands), default=1.0)
-    linear(axes, "x", 0.0, 1.03 * top, ticks=6)
+    linear(axes, "x", *amplitudes(np.concatenate([band.line.x for band in bands] or [np.array([])])), ticks=6)
     title = CLOCK.title() if what == "omega" else "a′/a / (1/s)"
     draw_bands(axes, bands, titled=(f"amplitude of {channels(shown)}", f"{title}, 95 % band"))
 

@@ -7,9 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ridgeback.reports.drawing.canvas import Canvas, linear
 from ridgeback.reports.drawing.cells import edges
 from ridgeback.reports.drawing.marks import area
 from ridgeback.reports.drawing.scale import padded, round_values, tick_labels
+from ridgeback.reports.drawing.theme import Variant
 
 SIZES = st.floats(-12.0, 12.0).map(lambda power: 10.0**power)
 
@@ -60,3 +62,14 @@ def test_an_area_is_drawn_in_the_pieces_that_have_a_width() -> None:
     x = np.arange(6.0)
     low = np.array([0.0, 0.0, np.nan, 0.0, np.nan, np.nan])
     assert area(x, low, low + 1.0, "b").count("M") == area(x[:2], low[:2], low[:2] + 1.0, "b").count("M") == 1
+
+
+def test_ticks_of_a_narrow_range_are_told_apart() -> None:
+    """Far from zero each label has the digits that differ; a power of ten that all share stands beside the axis."""
+    axes = Canvas(Variant("wide", 4.0, 3.0)).stack()[0]
+    linear(axes, "y", 0.949975, 0.950032)
+    names = [label.get_text() for label in axes.get_yticklabels()]
+    assert len(set(names)) == len(names) >= 4
+    linear(axes, "y", 1.73607e-5, 1.73614e-5)
+    assert all(label.get_text().startswith("1.736") for label in axes.get_yticklabels())
+    assert [text.get_text() for text in axes.texts] == ["× 10⁻⁵"]
