@@ -582,7 +582,7 @@ def poisoned(value: Any, text: str, key: str = "") -> Any:
     if key == "grid":
         return value
     if isinstance(value, str):
-        return value if key in FIXED else value + text
+        return value if key in FIXED or not value else value + text
     if is_dataclass(value) and not isinstance(value, type):
         return replace(
             value, **{f.name: poisoned(getattr(value, f.name), text, _key(value, f.name)) for f in fields(value)}
