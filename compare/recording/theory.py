@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 
 import numpy as np
+from scipy.special import chdtrc
 
 from ridgeback.common.numbers import number, offset, per_cent
 from ridgeback.compare.binding.bind import bind
@@ -19,10 +20,14 @@ from ridgeback.symbolic.systems.oscillator import Oscillator
 
 POINTS = 200
 """Orbits between which omega0 is interpolated."""
+LEAST = 0.01
+"""Per cent of records below which their share is not told."""
 MANY = 100.0
 """Standard deviations beyond which their number says no more."""
-APART = 2.0
-"""Standard deviations from which on two backbones are said to differ."""
+APART = 0.05
+"""Chance below which two backbones are said to differ."""
+LOSSES = 0.5
+"""Of (a'/a)^2 / omega0, by which linear damping lowers the frequency of a linear oscillator; other losses may not."""
 NEARER = 5.0
 """How many times nearer a pendulum comes for which amplitudes are taken for degrees, where that is said."""
 
@@ -42,8 +47,10 @@ class Agreement(Enum):
 class TheoryBackbone:
     """The exact backbone of a named oscillator at the amplitudes of a measured one.
 
-    The points of a measured backbone share noise, so their number does not make a distance more significant: it is
-    counted in deviations point by point, root mean square, about 1 for the oscillator that made the recording.
+    Losses change the frequency of a decay in second order, by -1.5 to +1 times (a'/a)^2 / omega0 as they go with the
+    velocity: half of it is taken off, as for linear damping, and as much counts as a deviation.  The distance is
+    counted in deviations point by point, root mean square, about 1 for the oscillator that made the recording; the
+    points share noise, and so n times its square is as chi-square of as many degrees as n independent ones are.
     """
 
     title: str
@@ -51,12 +58,14 @@ class TheoryBackbone:
     amplitude: Array
     """Fundamental amplitudes, those of the measured backbone, shape (n,)."""
     omega: Array
-    """rad per time unit; NaN where the theory does not oscillate."""
+    """phi' with the measured a'/a, rad per time unit; NaN where the theory does not oscillate."""
     mean: float
     """Mean of measured / theory - 1."""
     rms: float
     deviations: float
     """Rms of measured less theory in standard deviations of each point; NaN where none are known."""
+    chance: float
+    """How often noise alone would take the theory's own recording so far from it, or farther."""
     covered: float
     """Share of the points at which the theory oscillates."""
     degrees: bool = False
@@ -72,7 +81,7 @@ class TheoryBackbone:
             return Agreement.UNCOVERED
         if np.isnan(self.deviations):
             return Agreement.UNTOLD
-        return Agreement.DIFFERS if self.deviations > APART else Agreement.AGREES
+        return Agreement.DIFFERS if self.chance < APART else Agreement.AGREES
 
     def sentence(self) -> str:
         """The judgement in words."""
@@ -85,15 +94,20 @@ class TheoryBackbone:
         if self.agreement is Agreement.DIFFERS:
             many = number(self.deviations, 2) if self.deviations < MANY else f"over {MANY:g}"
             return (
-                f"Against {self.title} the measured backbone lies {size}; that is {many} of its standard deviations: "
-                f"they differ{degrees}."
+                f"Against {self.title} the measured backbone lies {size}; that is {many} of its standard deviations, "
+                f"and noise alone takes it so far in {self._often()}: they differ{degrees}."
             )
         if self.agreement is Agreement.UNTOLD:
             return f"Against {self.title} the measured backbone, whose uncertainty is not known, lies {size}{degrees}."
         return (
-            f"Against {self.title} the measured backbone lies {size}, within {APART:g} of its standard deviations: "
-            "they agree."
+            f"Against {self.title} the measured backbone lies {size}, {number(self.deviations, 2)} of its standard "
+            f"deviations; noise alone takes it so far in {self._often()}: they agree."
         )
+
+    def _often(self) -> str:
+        """The chance in words."""
+        share = 100.0 * self.chance
+        return "next to no records" if share < LEAST else f"{number(share, 1 if share < 10.0 else 2)} % of records"
 
 
 def over_measured(oscillator: Oscillator, measured: Backbone, *, known: bool = True) -> TheoryBackbone:
@@ -111,7 +125,7 @@ def over_measured(oscillator: Oscillator, measured: Backbone, *, known: bool = T
         Whether its deviations can be trusted.
     """
     deviation = measured.curve_omega_sd if known else np.full_like(measured.curve_omega_sd, np.nan)
-    found = over_curve(oscillator, measured.curve_amplitude, measured.curve_omega, deviation)
+    found = over_curve(oscillator, curve_of(measured, deviation))
     return replace(found, degrees=found.agreement is not Agreement.AGREES and in_degrees(oscillator, measured, found))
 
 
@@ -119,19 +133,42 @@ def in_degrees(oscillator: Oscillator, measured: Backbone, found: TheoryBackbone
     """Whether a pendulum's theory would come NEARER times nearer, or oscillate at all, for amplitudes in degrees."""
     if "sin(" not in oscillator.equation or measured.units in ("rad", "radians"):
         return False
-    turned = over_curve(oscillator, np.radians(found.amplitude), measured.curve_omega, measured.curve_omega_sd)
+    turned = over_curve(oscillator, replace(curve_of(measured), amplitude=np.radians(found.amplitude)))
     return turned.covered > 0.0 and (not found.covered or NEARER * turned.rms < found.rms)
 
 
-def over_curve(oscillator: Oscillator, amplitude: Array, omega: Array, omega_sd: Array) -> TheoryBackbone:
-    """The same over a curve of fundamental amplitudes, frequencies and their deviations, each of shape (n,)."""
-    expected, inside = exact_at(oscillator, amplitude)
-    expected = np.where(inside, expected, np.nan)
+@dataclass(frozen=True)
+class MeasuredCurve:
+    """Fundamental amplitudes, frequencies with their deviations and a'/a, each of shape (n,)."""
+
+    amplitude: Array
+    omega: Array
+    omega_sd: Array
+    growth: Array
+    independent: float = 1.0
+    """How many independent values the errors of ``omega`` are as good as."""
+
+
+def curve_of(measured: Backbone, omega_sd: Array | None = None) -> MeasuredCurve:
+    """That of a backbone, with other deviations if they are given."""
+    known = measured.curve_omega_sd if omega_sd is None else omega_sd
+    independent = measured.independent if measured.independent >= 1.0 else 1.0
+    growth = measured.curve_growth_rate
+    return MeasuredCurve(measured.curve_amplitude, measured.curve_omega, known, growth, independent)
+
+
+def over_curve(oscillator: Oscillator, curve: MeasuredCurve) -> TheoryBackbone:
+    """The same over a curve."""
+    amplitude, nothing = curve.amplitude, float("nan")
+    exact, inside = exact_at(oscillator, amplitude)
+    lost = LOSSES * curve.growth**2 / exact
+    expected = np.where(inside, exact - lost, np.nan)
     if not inside.any():
-        return TheoryBackbone(oscillator.title, oscillator.equation, amplitude, expected, *(float("nan"),) * 3, 0.0)
-    error = omega[inside] / expected[inside] - 1
+        return TheoryBackbone(oscillator.title, oscillator.equation, amplitude, expected, *(nothing,) * 4, 0.0)
+    error = curve.omega[inside] / expected[inside] - 1
     with np.errstate(divide="ignore", invalid="ignore"):
-        apart = np.abs(omega[inside] - expected[inside]) / omega_sd[inside]
+        apart = (curve.omega - expected)[inside] / np.hypot(curve.omega_sd, lost)[inside]
+    square = float(np.mean(apart**2))
     return TheoryBackbone(
         title=oscillator.title,
         equation=oscillator.equation,
@@ -139,7 +176,8 @@ def over_curve(oscillator: Oscillator, amplitude: Array, omega: Array, omega_sd:
         omega=expected,
         mean=float(np.mean(error)),
         rms=float(np.sqrt(np.mean(error**2))),
-        deviations=float(np.sqrt(np.mean(apart**2))),
+        deviations=float(np.sqrt(square)),
+        chance=float(chdtrc(curve.independent, curve.independent * square)),
         covered=float(np.mean(inside)),
     )
 

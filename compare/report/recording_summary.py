@@ -73,12 +73,14 @@ def _sentences(found: RecordingComparison, made: Identification | None) -> Itera
         yield f"The strongest component is no decay: {found.hum}."
     if found.doubt:
         yield f"{found.doubt}."
+    told = made is not None and made.prediction is not None
+    if made is not None and told and not held(made):
+        yield forecast(made)
     if found.over is not None:
         yield found.over.sentence()
-    yield from found.remarks
     if made is not None:
         yield _what_made_it(made)
-        if made.prediction is not None:
+        if told and held(made):
             yield forecast(made)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from typing import NamedTuple, Protocol
@@ -50,6 +51,8 @@ class Backbone(ShownBackbone):
         Width of the fits whose amplitude this is; None where half cycles were counted.
     units : str
         Unit of the signal; may be empty.
+    independent : float
+        How many independent values the errors of ``curve_omega`` are as good as; NaN where that is not known.
 
     Examples
     --------
@@ -80,6 +83,7 @@ class Backbone(ShownBackbone):
     window_seconds: float | None = None
     """Of the fit whose amplitude this is; None where half cycles were counted."""
     units: str = ""
+    independent: float = math.nan
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -146,6 +150,9 @@ class Rates(Protocol):
     def mean_deviations(self, index: list[NDArray[np.intp]], share: list[Array]) -> list[MeanDeviation]:
         """Standard deviations of means over some of the points, each with its shares."""
 
+    def independent(self, index: list[NDArray[np.intp]], share: list[Array], /) -> float:
+        """How many independent values the errors of means of the frequency are as good as; NaN if not known."""
+
 
 def assemble(
     points: Points,
@@ -205,6 +212,7 @@ def assemble(
         settings=settings,
         notes=(*notes, damping_sentence(centre, growth_rate, growth_rate_sd, omega, omega_sd)),
         window_seconds=window_seconds,
+        independent=math.nan if local is None else local.independent(of, shares),
     )
 
 

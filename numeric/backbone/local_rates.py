@@ -69,6 +69,11 @@ class LocalRates:
         """Standard deviations of means over some of the points, each with its shares."""
         return [MeanDeviation(*self.mean_deviation(i, s)) for i, s in zip(index, share, strict=True)]
 
+    def independent(self, _: list[NDArray[np.intp]], share: list[Array]) -> float:
+        """As many as windows fit side by side between the first and the last, at most one for each mean."""
+        apart = float(np.ptp(self.centre)) / float(np.median(2.0 * self.half + 1.0)) + 1.0
+        return min(apart, float(len(share)))
+
     def mean_deviation(self, index: NDArray[np.intp], share: Array) -> tuple[float, float]:
         """Standard deviations of the mean amplitude and of the mean growth rate, in noise and with the bias left."""
         level, slope, apart = (np.zeros(self.size) for _ in range(3))

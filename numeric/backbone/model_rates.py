@@ -90,6 +90,20 @@ class ModelRates:
         apart = r @ coefficients(fine, family) - r_coarse @ coefficients(coarse, family)
         return self.with_bias(noise, noise_coarse, apart)
 
+    # of n standard normal values with correlations r the squares sum as chi-square with n^2 / sum of r^2 degrees of
+    # freedom, times a number (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110)
+    def independent(self, index: list[NDArray[np.intp]], share: list[Array]) -> float:
+        """How many independent values the errors of means of the frequency are as good as, by their correlations."""
+        fine = self.models.fine
+        rows = csr_array(mixing(index, share, self.index.size) @ self.rows(fine, slopes=True))
+        size = deviation_of(fine, rows, PHASE)
+        if not self.of_omega or not (size > 0.0).all():
+            return float("nan")
+        rows = csr_array(rows.multiply(1.0 / size[:, None]))
+        i, j = np.triu_indices(len(index), 1)
+        correlation = 0.5 * deviation_of(fine, csr_array(rows[i] + rows[j]), PHASE) ** 2 - 1.0
+        return float(len(index) ** 2 / (len(index) + 2.0 * float(correlation @ correlation)))
+
     def mean_deviations(self, index: list[NDArray[np.intp]], share: list[Array]) -> list[MeanDeviation]:
         """Standard deviations of means over some of the points, each with its shares."""
         a = self.models.fine.amplitude[self.index]

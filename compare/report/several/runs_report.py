@@ -17,7 +17,7 @@ from ridgeback.compare.identification.preparation import prepared
 from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.recording.measurement import Measurement
 from ridgeback.compare.recording.measurements import Measurements, measure_recordings
-from ridgeback.compare.recording.theory import TheoryBackbone, over_curve
+from ridgeback.compare.recording.theory import MeasuredCurve, TheoryBackbone, over_curve
 from ridgeback.compare.report.provenance import provenance
 from ridgeback.compare.report.results import Card, Report
 from ridgeback.compare.report.several.runs import Named, Runs
@@ -127,8 +127,8 @@ def labels_of(recordings: Sequence[Recording]) -> tuple[str, ...]:
 
 
 def _theory(found: Measurements, oscillator: Oscillator) -> TheoryBackbone | None:
-    curve = _leading(found)
-    return None if curve is None else over_curve(oscillator, *curve)
+    curve, growth = _leading(found), _growth(found)
+    return None if curve is None or growth is None else over_curve(oscillator, MeasuredCurve(*curve, growth[1]))
 
 
 def _leading(found: Measurements) -> tuple[Array, Array, Array] | None:
