@@ -115,17 +115,24 @@ def stamps(signal: Signal, size: int, rate: float | None) -> tuple[Array, str]:
 
 
 def check_agreement(signal: Signal, rate: float) -> None:
-    """Refuse a rate that an even time column contradicts, unless that counts the samples."""
+    """Refuse a rate that a rising time column contradicts, unless that counts the samples."""
     columns, clock = signal.columns, signal.clock
     if clock is None:
         return
     name = columns.names[clock]
-    steps = np.diff(columns.values(clock)[signal.rows]) * time_unit(name)[1]
-    steps = steps[np.isfinite(steps)]
+    times = columns.values(clock)[signal.rows] * time_unit(name)[1]
+    steps = np.diff(times[np.isfinite(times)])
     usual = float(np.median(steps)) if steps.size else 0.0
-    even = steps.size > 0 and bool(np.mean(np.abs(steps - usual) <= ALIKE * abs(usual)) > MOSTLY)
-    if even and usual > 0.0 and usual != 1.0 and abs(usual * rate - 1.0) > ALIKE:
+    if usual == 1.0 or not steps.size or np.any(steps < 0.0):
+        return
+    even = usual > 0.0 and bool(np.mean(np.abs(steps - usual) <= ALIKE * usual) > MOSTLY)
+    mean = float(steps.mean())
+    known = ALIKE + float(np.quantile(steps, MOSTLY)) / max(float(steps.sum()), usual)  # a clock's tick may be coarse
+    if even and abs(usual * rate - 1.0) > ALIKE:
         raise InputError(
             f"{columns.source}: the time column {name} has steps of {usual:.6g} s, {1.0 / usual:.6g} samples per "
             f"second, not {rate:g}; leave --rate out, or name another --time-column"
         )
+    if mean > 0.0 and abs(mean * rate - 1.0) > known:
+        why = "has gaps, which a rate would close" if even else f"has {1.0 / mean:.6g} samples per second, not {rate:g}"
+        raise InputError(f"{columns.source}: the time column {name} {why}; leave --rate out")

@@ -233,3 +233,25 @@ def test_what_is_no_text_is_called_so(tmp_path: Path, data: bytes) -> None:
     path.write_bytes(data)
     with pytest.raises(InputError, match="holds no text but binary data"):
         read_recording(path)
+
+
+@pytest.mark.parametrize(
+    ("time", "rate", "said"),
+    [
+        (0.05 * np.arange(40), 50.0, "steps of 0.05 s, 20 samples per second, not 50; leave --rate out"),
+        (np.round(0.05 * np.arange(40), 1), 50.0, "has 19.5 samples per second, not 50; leave --rate out"),
+        (0.05 * (np.arange(40) + 9 * (np.arange(40) > 20)), 20.0, "has gaps, which a rate would close; leave"),
+    ],
+)
+def test_a_rate_that_the_times_contradict_is_refused(tmp_path: Path, time: np.ndarray, rate: float, said: str) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text("t,u\n" + "".join(f"{t!s},{v}\n" for t, v in zip(time, VALUES, strict=True)))
+    with pytest.raises(InputError, match=said):
+        read_recording(path, rate=rate)
+
+
+@pytest.mark.parametrize("time", [np.arange(40), np.round(0.05 * np.arange(40), 1), np.arange(40) % 20 * 0.05])
+def test_a_rate_takes_the_place_of_times_that_count_are_coarse_or_begin_again(tmp_path: Path, time: np.ndarray) -> None:
+    path = tmp_path / "run.csv"
+    path.write_text("t,u\n" + "".join(f"{t!s},{v}\n" for t, v in zip(time, VALUES, strict=True)))
+    assert read_recording(path, rate=20.0).values.size == 40
