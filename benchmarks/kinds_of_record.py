@@ -413,6 +413,21 @@ def any_swell(rng: np.random.Generator) -> Record:
     return Record(x, f * per_cycle, Motion(a, np.full(t.size, TWO_PI * f), growth, t >= 0), noise)
 
 
+def any_hum_near_a_harmonic(rng: np.random.Generator) -> Kind:
+    """Mains hum of 1 to 8 % within 1 to 6 % of a harmonic of the mode, which is not in the motion."""
+    mains, multiple = rng.choice([50.0, 60.0]), rng.integers(2, 4)
+    f = mains / multiple * (1.0 + rng.choice([-1, 1]) * rng.uniform(0.01, 0.06))
+    size, noise = log_uniform(rng, 0.01, 0.08), log_uniform(rng, 0.005, 0.01)
+    return any_decay(rng, rng.uniform(0.003, 0.015), rng.uniform(40.0, 120.0), hum(size, mains), noise, f)
+
+
+def any_tone_out_of_the_band(rng: np.random.Generator) -> Kind:
+    """A steady tone, or a mode, of 2 to 10 % at 1.4 to 4.4 times the frequency."""
+    f, ratio, size = rng.uniform(5.0, 100.0), rng.uniform(1.4, 4.4), log_uniform(rng, 0.02, 0.1)
+    other = hum(size, f * ratio) if rng.uniform() < 0.5 else second_mode(size, f * ratio, rng.uniform(0.003, 0.01))
+    return any_decay(rng, rng.uniform(0.003, 0.015), rng.uniform(40.0, 120.0), other, log_uniform(rng, 0.003, 0.01), f)
+
+
 DRAWN: dict[str, Kind] = {
     "3 to 5 cycles, damping ratio 0.3 to 15 %": drawn(
         lambda rng: any_decay(rng, log_uniform(rng, 0.003, 0.15), rng.uniform(3.2, 5.0))
@@ -438,5 +453,7 @@ DRAWN: dict[str, Kind] = {
     "a chirp that runs away": any_chirp,
     "a mode beside that dies in a few cycles": drawn(any_dying_mode),
     "a swell from 2 % within 3 to 6 cycles": any_swell,
+    "hum near a harmonic": drawn(any_hum_near_a_harmonic),
+    "a tone out of the band": drawn(any_tone_out_of_the_band),
 }
 """Each trial draws its parameters, too."""

@@ -35,18 +35,19 @@ def with_bends(left: Array, rate: float, tone: Tone, sound: Array, *, floor: flo
     time = np.arange(left.size) / rate
     if tone.growth == 0.0:
         return tone
-    band = AROUND[0] * tone.omega / rate, AROUND[1] * tone.omega / rate
-
-    def judged(one: Tone) -> float:
-        parameters = one.tangent(time[:2]).shape[1]
-        off = (left - one.samples(time)) * sound
-        score = akaike(off, band, count=int(sound.sum()), parameters=parameters, floor=floor)
-        return float(score + STRICTER * parameters)
-
     starts = bent_starts(left, time, tone)
     tried = [bent for start in starts if (bent := bent_or_none(left, time, start, sound)) is not None]
-    best = min(tried, key=judged, default=tone)
-    return best if judged(best) < judged(tone) - GAIN else tone
+    scores = [score_beside(left, rate, one, sound, floor=floor, near=tone.omega) for one in (tone, *tried)]
+    return tried[int(np.argmin(scores[1:]))] if min(scores) < scores[0] - GAIN else tone
+
+
+def score_beside(left: Array, rate: float, tone: Tone | None, sound: Array, *, floor: float, near: float) -> float:
+    """The criterion of what is left of samples in the band about a frequency, less a tone if there is one."""
+    time, band = np.arange(left.size) / rate, (AROUND[0] * near / rate, AROUND[1] * near / rate)
+    parameters = 0 if tone is None else tone.tangent(time[:2]).shape[1]
+    off = (left if tone is None else left - tone.samples(time)) * sound
+    score = akaike(off, band, count=int(sound.sum()), parameters=parameters, floor=floor)
+    return float(score + STRICTER * parameters)
 
 
 def bent_starts(left: Array, time: Array, tone: Tone) -> Iterator[Tone]:

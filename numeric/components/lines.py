@@ -14,6 +14,7 @@ from scipy import fft
 from scipy.ndimage import median_filter
 
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.components.harmonic_zones import Zone, in_zones
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import half_tapers
 
@@ -35,15 +36,17 @@ SHRINK = 2.0
 """Times its variance over its square, by which a logarithm is shrunk to 0 like those of James and Stein."""
 
 
-def clearest_line(left: Array, rate: float, least: float = 0.0) -> float | None:
+def clearest_line(left: Array, rate: float, least: float = 0.0, taken: tuple[Zone, ...] = ()) -> float | None:
     """Angular frequency of the line that stands out most of a residual, of amplitude ``least`` at least; else None.
+
+    What is in the zones that are ``taken`` does not count.
 
     >>> t, noise = np.arange(600) / 20.0, np.random.default_rng(1).normal(size=600)
     >>> clearest_line(noise, 20.0) is None, round(clearest_line(noise + 0.4 * np.cos(14.0 * t), 20.0), 1)
     (True, 14.0)
     """
     omega = TWO_PI * rate * fft.rfftfreq(left.size)
-    usable = omega >= TWO_PI * rate * LOWEST_CYCLES / left.size
+    usable = (omega >= TWO_PI * rate * LOWEST_CYCLES / left.size) & ~in_zones(omega, taken)
     width = max(FEWEST_NEIGHBOURS, round(NEIGHBOURS * omega.size)) | 1
     best, beyond = None, 1.0
     for taper in (np.hanning(left.size), *half_tapers(left.size)):

@@ -222,3 +222,35 @@ def test_a_mode_that_is_not_linear_is_taken_off_as_it_changes() -> None:
     assert mode.omega == pytest.approx(2 * np.pi * 26.0 * 1.048, rel=3e-3)
     assert track.interval is not None
     assert np.mean(track.interval.holds(40 * np.pi)[track.valid]) > 0.8
+
+
+@pytest.mark.parametrize(
+    ("mode", "others"),
+    [(26.0, (50.0,)), (33.0, (50.0,)), (48.0, (50.0, 150.0)), (22.37, (100.0,)), (20.0, (40.6,)), (20.0, (61.0,))],
+    ids=["near twice", "just outside the search band", "two at once", "out of the band", "2.03 times", "3.05 times"],
+)
+def test_a_tone_anywhere_in_the_spectrum_is_found_and_intervals_hold_beside_it(
+    mode: float, others: tuple[float, ...]
+) -> None:
+    t = np.arange(1600) / 800.0
+    w, noise = 2 * np.pi * mode, 0.006 * np.random.default_rng(round(mode)).normal(size=t.size)
+    tones = sum(0.05 * np.cos(2 * np.pi * at * t + 1.0) for at in others)
+    track = estimate(np.exp(-0.008 * w * t) * np.cos(w * t + 0.3) + tones + noise, 800.0)
+    assert [
+        tone.omega / (2 * np.pi) for tone in sorted(track.used.tones, key=lambda tone: tone.omega)
+    ] == pytest.approx(others, abs=0.02)
+    assert all(tone.growth == 0.0 for tone in track.used.tones)
+    assert track.interval is not None
+    assert np.mean(track.interval.holds(np.full(track.time.size, w))[track.valid]) > 0.8
+    assert np.median(track.standard_deviation) < 0.05
+
+
+def test_harmonics_of_an_oscillation_are_no_tones_beside_it() -> None:
+    """Phase-locked to a frequency that falls with the amplitude by 2 %, the third one folded."""
+    t = np.arange(900) / 100.0
+    a = np.exp(-0.3 * t)
+    phase = 2 * np.pi * (20.0 * t - 0.4 * (1.0 - a**2) / 0.6)
+    x = a * np.cos(phase) + 0.05 * a**2 * np.cos(2 * phase + 1.0) + 0.05 * a**3 * np.cos(3 * phase)
+    track = estimate(x + 0.003 * np.random.default_rng(1).normal(size=t.size), 100.0)
+    assert track.used.tones == ()
+    assert track.interval is not None
