@@ -38,6 +38,7 @@ def identify(
     laws: Sequence[str] = LAWS,
     kind: str = "bic",
     span: tuple[float, float] | None = None,
+    band: tuple[float, float] | None = None,
     prediction: Prediction | None = None,
     notes: Sequence[str] = (),
     progress: Progress = silent,
@@ -56,6 +57,8 @@ def identify(
         Information criterion: ``bic`` or ``aicc``.
     span
         First and last time to use; all by default.
+    band
+        Lowest and highest frequency of the oscillation, rad per time unit; by default about the strongest component.
     prediction
         What :func:`predict` made of the same recording, to go into the result.
     notes
@@ -89,7 +92,7 @@ def identify(
     """
     names, allowed = checked(candidates, laws, kind)
     progress(0.0, "frequency track")
-    ready = prepared(recording, span=span) if isinstance(recording, Recording) else recording
+    ready = prepared(recording, span=span, band=band) if isinstance(recording, Recording) else recording
     found = attempted(ready, names, allowed, kind, progress)
     if hum_of(found.data.measured) is None:
         refuse_another_quantity(found.ready, found.data, found.ranked, progress)

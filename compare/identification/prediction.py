@@ -60,6 +60,7 @@ def predict(
     laws: Sequence[str] = LAWS,
     kind: str = "bic",
     span: tuple[float, float] | None = None,
+    band: tuple[float, float] | None = None,
     progress: Progress = silent,
 ) -> Prediction:
     """Fit the first cycles of a decay and predict amplitude, frequency and phase of the rest.
@@ -72,7 +73,7 @@ def predict(
         One signal, evenly sampled; or what :func:`prepared` made of it, to share that with :func:`identify`.
     cycles
         How many of the first cycles are fitted.
-    candidates, laws, kind, span
+    candidates, laws, kind, span, band
         As for :func:`identify`.
     progress
         Called with the share of the work that is done, 0 to 1, and the name of the step.
@@ -97,7 +98,7 @@ def predict(
     ('linear', True, True)
     """
     names, allowed = checked(candidates, laws, kind)
-    ready = prepared(recording, span=span) if isinstance(recording, Recording) else recording
+    ready = prepared(recording, span=span, band=band) if isinstance(recording, Recording) else recording
     used, whole = ready.recording, ready.track
     start = float(used.time[0])
     offset = float(used.values.mean())

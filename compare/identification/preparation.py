@@ -17,6 +17,7 @@ from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.recording.quantity import named_quantity
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.signal.decimation import RINGING, Samples, every
+from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.track import Track
 
 PER_CYCLE = 24
@@ -26,6 +27,8 @@ MOST_SAMPLES = 60_000
 ARTICLES = {"velocity": "a velocity", "acceleration": "an acceleration"}
 WINDOW_CYCLES = 4.0
 """Window of the local harmonic least squares that start the fits; their border values are one-sided fits."""
+
+Pair = tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -61,7 +64,7 @@ class Prepared:
             yield in_windows(least.recording, least.notes)
 
 
-def prepared(recording: Recording, *, span: tuple[float, float] | None = None) -> Prepared:
+def prepared(recording: Recording, *, span: Pair | None = None, band: Pair | None = None) -> Prepared:
     """Make one oscillation of a recording: thinned, where it stands above the noise, without tones beside it.
 
     Parameters
@@ -70,12 +73,14 @@ def prepared(recording: Recording, *, span: tuple[float, float] | None = None) -
         One signal, evenly sampled.
     span
         First and last time to use; all by default.
+    band
+        Lowest and highest frequency of the oscillation, rad per time unit; by default about the strongest component.
 
     Raises
     ------
     InputError
-        For a span without samples, more samples than fit the budget, a signal that noise alone explains, and one that
-        is no displacement by its name or unit.
+        For a span without samples, more samples than fit the budget, a signal that noise alone explains, one that is
+        no displacement by its name or unit, and a band in which no model of one oscillation holds.
 
     Examples
     --------
@@ -90,23 +95,27 @@ def prepared(recording: Recording, *, span: tuple[float, float] | None = None) -
             f"{recording.label}: by its name or unit this is of {ARTICLES[named]}, and oscillators are told apart by "
             f"the displacement; give --quantity {named}, which converts it, or --quantity displacement if it is one"
         )
-    used, notes = usable(recording, span)
+    used, notes = usable(recording, span, band)
     wrong = used.clipped if used.clipped.any() else None
     start = float(used.time[0])
     try:
-        found = estimation(used.values, used.rate, method="harmonic-least-squares", start=start, wrong=wrong)
+        found = estimation(used.values, used.rate, method="harmonic-least-squares", start=start, wrong=wrong, band=band)
     except InputError:
+        if band is not None:
+            raise
         return in_windows(used, notes)
     track = found.track.of_oscillation()
     if not found.modelled or track.used.doubt or track.interval is None:
         doubt = track.used.doubt or track.no_interval or ""
+        if band is not None:
+            raise InputError(f"{recording.label}: no model of one oscillation in the band settles: {doubt}")
         return in_windows(used, notes, doubt)
     alone, where = in_its_span(used, track, found.samples.x)
     here = replace(track, used=replace(track.used, span=None))
     said = (*where, *beside_notes((), track.used.spikes), *notes)
     told = (*where, *beside_notes(track.used.tones, track.used.spikes), *notes)
     bare = Prepared(alone, here, told, ~alone.clipped, found.claimed_models, track.used.noise)
-    if not track.used.tones or track.used.spikes:
+    if not track.used.tones or track.used.spikes or band is not None:
         return bare
     together = in_its_span(used, track, used.values)[0]
     return replace(bare, whole=replace(bare, recording=together, notes=said))
@@ -126,7 +135,7 @@ def in_its_span(recording: Recording, track: Track, values: Array) -> tuple[Reco
     return part, track.used.span_notes()
 
 
-def usable(recording: Recording, span: tuple[float, float] | None) -> tuple[Recording, tuple[str, ...]]:
+def usable(recording: Recording, span: Pair | None, band: Pair | None = None) -> tuple[Recording, tuple[str, ...]]:
     """The part asked for, thinned where it has far more samples per cycle than a fit needs, with notes that say so."""
     notes: list[str] = []
     if span is not None:
@@ -139,7 +148,7 @@ def usable(recording: Recording, span: tuple[float, float] | None) -> tuple[Reco
         first, last = int(np.flatnonzero(keep)[0]), int(np.flatnonzero(keep)[-1])
         recording = part_of(recording, slice(first, last + 1))
         notes.append(f"Only times from {span[0]:g} to {span[1]:g} were used.")
-    factor = thinning(recording)
+    factor = thinning(recording, band)
     if factor > 1:
         recording = replace(
             recording,
@@ -153,7 +162,7 @@ def usable(recording: Recording, span: tuple[float, float] | None) -> tuple[Reco
     if recording.values.size > MOST_SAMPLES:
         raise InputError(
             f"{recording.source}: {recording.values.size} samples are over the budget of {MOST_SAMPLES} for fits; "
-            f"use a span of {MOST_SAMPLES / recording.rate:.4g} time units or less"
+            f"use a --span of {MOST_SAMPLES / recording.rate:.4g} time units or less"
         )
     return recording, tuple(notes)
 
@@ -179,11 +188,12 @@ def part_of(recording: Recording, cut: slice) -> Recording:
     )
 
 
-def thinning(recording: Recording) -> int:
-    """Factor by which samples may be thinned and still leave PER_CYCLE in each cycle of the strongest component."""
+def thinning(recording: Recording, band: Pair | None = None) -> int:
+    """Factor by which samples may be thinned and still leave PER_CYCLE in a cycle of the strongest, or in a band."""
     if recording.values.size <= ENOUGH:
         return 1
-    return max(1, min(int(samples_per_cycle(recording) / PER_CYCLE), math.ceil(recording.values.size / ENOUGH)))
+    cycle = samples_per_cycle(recording) if band is None else TWO_PI * recording.rate / band[1]
+    return max(1, min(int(cycle / PER_CYCLE), math.ceil(recording.values.size / ENOUGH)))
 
 
 def local_track(recording: Recording) -> Track:

@@ -360,7 +360,7 @@ def in_its_band(track: Track, band: tuple[float, float] | None) -> Track:
         beyond = float(np.median(track.omega[track.valid & ~inside]))
         raise InputError(
             f"{track.method}: the band {band[0]:.4g} to {band[1]:.4g} rad per time unit holds no oscillation that "
-            f"stands out beside one near {beyond:.4g} beyond it; give another band"
+            f"stands out beside one near {beyond:.4g} beyond it; give another --band"
         )
     return replace(track, valid=track.valid & inside)
 

@@ -28,7 +28,7 @@ def measure_level(x: Array, rate: float, guide: Array, *, half: int) -> Level:
     usable = fit.valid if fit.valid.any() else np.ones_like(fit.valid)
     amplitude = np.interp(np.arange(x.size) / rate, fit.time[usable], np.abs(fit.amplitude[usable]))
     if not amplitude.max() > 0.0:
-        raise InputError("signal has no component that follows the track; give a band around the oscillation")
+        raise InputError("signal has no component that follows the track; give a --band around the oscillation")
     return Level(amplitude, float(np.median(fit.noise[usable])))
 
 

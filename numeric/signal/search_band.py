@@ -101,7 +101,7 @@ def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | No
     if not clearest > 0.0:
         raise InputError(
             f"signal of {x.size} samples shows no oscillation between {low:.4g} and {high:.4g} rad per time unit; "
-            f"give a longer record or another band"
+            f"give a longer record or another --band"
         )
     return best
 

@@ -157,7 +157,7 @@ class Request:
     @property
     def half(self) -> int:
         """Half the lag window, in samples."""
-        return half_width(self.plan.lag_seconds, self.signal.rate, longest=self.signal.x.size)
+        return half_width(self.plan.lag_seconds, self.signal.rate, name="--lag", longest=self.signal.x.size)
 
     @property
     def lag_given(self) -> bool:
@@ -276,6 +276,9 @@ def prepared(samples: Samples, options: Options, *, search: SearchBand | None = 
             f"signal spans {span / cycle:.3g} cycles of its strongest component ({cycle:.4g} each); {FEWEST_CYCLES:g} "
             f"are needed: give a longer record, {drift}or {slow}"
         )
+    for name, seconds in (("--lag", options.lag_seconds), ("--smoothing", options.smoothing_seconds)):
+        if seconds is not None:
+            half_width(seconds, samples.rate, name=name, longest=real.size)
     lag = min(LAG_CYCLES * cycle, max(SHORT_CYCLES * cycle, SHORT_SHARE * span))
     signal = Signal(real, analytic_of(real), samples.rate, samples.start, offset, search, samples.factor, samples.wrong)
     signal = replace(signal, tones=beyond)
@@ -312,8 +315,8 @@ def refuse_cross_term(request: Request, method: str) -> None:
         return
     raise InputError(
         f"{method}: the band {low:.4g} .. {high:.4g} lies round {h} times the strongest component at {strongest:.4g} "
-        f"rad per time unit, where the cross term of harmonics 1 and {2 * h - 1} falls; use harmonic {h} with a band "
-        f"round the fundamental, or band_limited, which takes the other harmonics out first"
+        f"rad per time unit, where the cross term of harmonics 1 and {2 * h - 1} falls; use --harmonic {h} with a "
+        f"--band round the fundamental, or --band-limited, which takes the other harmonics out first"
     )
 
 
@@ -322,10 +325,11 @@ def check_valid(valid: Mask, method: str, border: float, request: Request) -> No
     if np.count_nonzero(valid) >= FEWEST_VALID:
         return
     seconds, rate = request.plan.lag_seconds, request.signal.rate
-    advice = "give a longer record, a shorter lag_seconds or another band"
-    if seconds * rate < FEWEST_IN_WINDOW:
+    shorter = ", a shorter --lag" if request.lag_given else ""
+    advice = f"give a longer record{shorter} or another --band"
+    if request.lag_given and seconds * rate < FEWEST_IN_WINDOW:
         advice = (
-            f"lag_seconds {seconds:.4g} holds only {seconds * rate:.2g} steps of {1.0 / rate:.4g}; give a longer one, "
+            f"--lag {seconds:.4g} holds only {seconds * rate:.2g} steps of {1.0 / rate:.4g}; give a longer one, "
             f"such as {LAG_CYCLES * TWO_PI / request.signal.search.centre:.4g}"
         )
     raise InputError(

@@ -31,6 +31,7 @@ def identify(
     damping: str | None = None,
     criterion: str = "bic",
     span: tuple[float, float] | None = None,
+    band: tuple[float, float] | None = None,
     predict_from: float | None = None,
     progress: Wanted = None,
 ) -> Identification:
@@ -48,6 +49,8 @@ def identify(
         What ranks them.
     span : (float, float), optional
         Times to use.
+    band : (float, float), optional
+        Lowest and highest frequency of the oscillation, rad per time unit; by default about the strongest component.
     predict_from : float, optional
         Number of first cycles that are also fitted by themselves, to predict the rest.
     progress : bool or callable, optional
@@ -76,7 +79,7 @@ def identify(
     wanted = how(candidates, damping, criterion)
     with showing(progress) as told:
         told(0.0, "frequency track")
-        ready, ahead = prepared(used, span=span), None
+        ready, ahead = prepared(used, span=span, band=band), None
         if predict_from is not None:
             ahead = prediction.predict(ready, cycles=predict_from, progress=told, **wanted)
         return identification.identify(ready, prediction=ahead, progress=told, **wanted)
@@ -93,6 +96,7 @@ def predict(
     damping: str | None = None,
     criterion: str = "bic",
     span: tuple[float, float] | None = None,
+    band: tuple[float, float] | None = None,
     progress: Wanted = None,
 ) -> Prediction:
     """Fit the first cycles of a decay and predict the rest, held against what was measured.
@@ -101,7 +105,7 @@ def predict(
     ----------
     cycles : float
         How many of the first cycles the fit sees.
-    x, rate, time, column, candidates, damping, criterion, span, progress
+    x, rate, time, column, candidates, damping, criterion, span, band, progress
         As for :func:`identify`.
 
     Returns
@@ -126,7 +130,7 @@ def predict(
     used = as_recording(x, rate, time=time, column=column)
     with showing(progress) as told:
         wanted = how(candidates, damping, criterion)
-        return prediction.predict(used, cycles=cycles, span=span, progress=told, **wanted)
+        return prediction.predict(used, cycles=cycles, span=span, band=band, progress=told, **wanted)
 
 
 def how(

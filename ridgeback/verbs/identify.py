@@ -11,7 +11,7 @@ from ridgeback.console.failure import PartialError
 from ridgeback.console.output import json_text, write_text
 from ridgeback.console.tables import aligned, csv_text, readable
 from ridgeback.console.verb import Verb
-from ridgeback.options.arguments import POSITIVE
+from ridgeback.options.arguments import BAND, POSITIVE
 from ridgeback.options.recording import Reading, Treatment, decimal_option, treatment_options
 from ridgeback.options.shared import format_option, output_option
 
@@ -40,6 +40,9 @@ def names(text: str | None) -> tuple[str, ...] | None:
 @decimal_option
 @treatment_options
 @click.option(
+    "--band", type=BAND, default=None, metavar="LOW,HIGH", help="Where the oscillation is, rad/s.  Default: found."
+)
+@click.option(
     "--candidates", default=None, metavar="NAME,...", help="Classes to try.  Default: all; a wrong name lists them."
 )
 @click.option(
@@ -64,6 +67,7 @@ def command(
     rate: float | None,
     decimal: str | None,
     treatment: Treatment,
+    band: tuple[float, float] | None,
     candidates: str | None,
     damping: str | None,
     criterion: str,
@@ -89,6 +93,7 @@ def command(
         candidates=names(candidates),
         damping=damping,
         criterion=criterion,
+        band=band,
         predict_from=predict_from,
         progress=True,
     )

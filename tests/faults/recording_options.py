@@ -54,9 +54,7 @@ CASES: tuple[Case, ...] = (
     refused("estimate decay.csv --harmonic 0", "0 is not in the"),
     refused("estimate decay.csv --harmonic 50", "harmonic 50 reaches 49.93 cycles", "use harmonic 16"),
     refused("estimate decay.csv --harmonic 100", "100 is not in the"),
-    refused(
-        "estimate decay.csv --lag 1e6 --method pseudo-wigner", "lag_seconds 1e+06 needs 32000001 samples", "use at most"
-    ),
+    refused("estimate decay.csv --lag 1e6 --method pseudo-wigner", "--lag 1e+06 needs 32000001 samples", "use at most"),
     refused("estimate decay.csv --lag 0", "'0'", "give a positive"),
     refused("estimate decay.csv --lag -1", "'-1'", "give a positive"),
     refused("estimate decay.csv --lag x", "'x'", "write a decimal"),
@@ -64,7 +62,7 @@ CASES: tuple[Case, ...] = (
     refused("estimate decay.csv --smoothing 0", "'0'", "give a positive"),
     refused(
         "estimate decay.csv --smoothing 1e6 --method smoothed-pseudo-wigner",
-        "smoothing_seconds 1e+06 needs 32000001 samples",
+        "--smoothing 1e+06 needs 32000001 samples",
         "use at most",
     ),
     refused("estimate decay.csv --harmonics 0", "0 is not in the"),

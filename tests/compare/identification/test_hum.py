@@ -60,3 +60,12 @@ def test_a_decay_of_almost_nothing_has_an_interval_of_its_loss_that_the_samples_
     # the Cramer-Rao bound of the growth rate: sigma sqrt(24 / N) / (a T)
     assert 0.5 * (high - low) == pytest.approx(1.96 * 0.01 * math.sqrt(24 / 1500) / 5.0, rel=0.25)
     assert low <= 0.0 <= high
+
+
+def test_a_band_isolates_the_decay_beside_a_hum(hum: Recording) -> None:
+    found = identify(hum, candidates=("linear",), band=(200.0, 260.0))
+    assert found.standing is Standing.CLAIMED
+    low, high = found.best.parameter("mu").interval()
+    assert low < 0.008 * 2 * np.pi * 37 < high
+    low, high = found.best.parameter("k").interval()
+    assert low < 2 * np.pi * 37 * math.sqrt(1 + 0.008**2) < high

@@ -95,6 +95,6 @@ def test_turning_points_at_one_time_or_on_zero_give_no_damping() -> None:
 
 def test_a_window_below_a_sample_is_told_to_be_longer() -> None:
     noise = np.random.default_rng(1).normal(size=801)
-    for advice, lag in (("use for example", 0.01), ("a shorter lag_seconds", 39.9)):
+    for advice, lag in (("use for example", 0.01), ("a shorter --lag", 39.9)):
         with pytest.raises(InputError, match=advice):
             estimate(noise + X, 20.0, method="pseudo-wigner", lag_seconds=lag, band=(3.9, 4.1), bias=False)
