@@ -11,6 +11,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from time import perf_counter
 
 import mpmath as mp
@@ -91,8 +92,9 @@ class TaylorSolution:
                         shift = _newton(c, derivative, shifts[i], shifts[i + 1])
                         yield PreciseEvent(knot + shift, *_evaluate(c, shift))
 
+    @cached_property
     def float_interpolant(self) -> Interpolant:
-        """Return dense output in float64: the scaled polynomials, summed by Horner's rule."""
+        """Dense output in float64: the scaled polynomials, summed by Horner's rule."""
         starts = np.array([float(t) for t in self.knots[:-1]])
         widths = np.array([float(b - a) for a, b in zip(self.knots[:-1], self.knots[1:], strict=True)])
         scaled = np.array(
@@ -292,5 +294,5 @@ def integrate_taylor(
         rtol=10.0**-digits,
         evaluations=len(solution.polynomials),
         steps=frozen([float(t) for t in solution.knots]),
-        interpolant=solution.float_interpolant(),
+        interpolant=lambda t: solution.float_interpolant(t),  # made when it is asked for first
     )

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Final
 
 from flint import arb, fmpq
@@ -36,6 +37,16 @@ class Computed:
     """The computed values are whole multiples of 2^grid; None where no such unit is known."""
 
 
+@cache
+def two_to(power: int) -> arb:
+    """2^power, exactly.
+
+    >>> two_to(-1) == arb(0.5)
+    True
+    """
+    return arb(2) ** power
+
+
 def half_spacing(size: arb, real: Real) -> arb:
     """How far rounding may move a value of at most this size; infinite beyond the largest number.
 
@@ -53,8 +64,8 @@ def half_spacing(size: arb, real: Real) -> arb:
     e = int(mantissa).bit_length() + int(exponent) if mantissa != 0 else real.low
     if e > real.high:
         return arb("inf")
-    whole, below = (arb(2) ** (max(n - real.digits, real.low) - 1) for n in (e, e - 1))
-    excess = top - arb(2) ** (e - 1)
+    whole, below = two_to(max(e - real.digits, real.low) - 1), two_to(max(e - 1 - real.digits, real.low) - 1)
+    excess = top - two_to(e - 1)
     return excess if below <= excess <= whole else below if excess < below else whole
 
 
@@ -104,13 +115,11 @@ class Analysis:
         """Whether all multiples of 2^grid up to a size are numbers of the format."""
         if grid is None or grid < self.real.low:
             return False
-        return bool(size <= arb(2) ** min(grid + self.real.digits, self.real.high - 1))
+        return bool(size <= two_to(min(grid + self.real.digits, self.real.high - 1)))
 
     def _may_underflow(self, exact: arb, error: arb) -> bool:
         """Whether a value may be so small, and is not 0, that fewer digits are left of it."""
-        return not (exact == 0 and error == 0) and not abs(exact) - error >= arb(2) ** (
-            self.real.low + self.real.digits
-        )
+        return not (exact == 0 and error == 0) and not abs(exact) - error >= two_to(self.real.low + self.real.digits)
 
     def _horner(self, horner: Horner) -> None:
         tail = self._tail(horner, self.known[horner.at]) if horner.loops else None
@@ -139,7 +148,7 @@ class Analysis:
         n = len(horner.falling)
         grown = arb(1 + 8 * n * SLACK)
         count = (2 * n + 2) * arb(fmpq(self.real.unit.numerator, self.real.unit.denominator))
-        error = count / (1 - count) * size + x.error * arb(slope) + 2 * n * arb(lost) * arb(2) ** self.real.low
+        error = count / (1 - count) * size + x.error * arb(slope) + 2 * n * arb(lost) * two_to(self.real.low)
         return Computed(arb(0, (arb(size) * grown).upper()), (error * grown).upper())
 
     def _step(self, step: Step) -> None:
@@ -161,7 +170,7 @@ class Analysis:
                 grid = of_product(x[0], x[1])
                 if any(is_power_of_two(one) for one in x) and not self.holds((abs(exact) + error).upper(), grid):
                     lost = half_spacing(abs(exact) + error, self.real)  # of an overflow; the rest is for an underflow
-                    under = arb(2) ** (self.real.low - 1) if self._may_underflow(exact, error) else ZERO
+                    under = two_to(self.real.low - 1) if self._may_underflow(exact, error) else ZERO
                     whole = (error + under).upper() if lost.is_finite() else lost
                     one, other = x if is_power_of_two(x[0]) else (x[1], x[0])
                     return Computed(exact, whole, (abs(one.exact) * other.before).upper())
@@ -191,7 +200,7 @@ class Analysis:
             exact, error = x.exact + y.exact, x.error + y.error
         else:
             exact, error = product(x, y)
-            error = error + arb(2) ** (self.real.low + self.real.digits + 6)  # should a partial product underflow
+            error = error + two_to(self.real.low + self.real.digits + 6)  # should a partial product underflow
             if not self.fused and not all(self._splits(one) for one in (x, y, Computed(exact, error))):
                 error = arb("inf")
         lost = half_spacing(abs(exact) + error, self.real)
@@ -204,7 +213,7 @@ class Analysis:
         S. Boldo, Pitfalls of a full floating-point proof, IJCAR 2006, LNCS 4130, 52-66.
         """
         half = (self.real.digits + 1) // 2
-        return bool((abs(x.exact) + x.error) * arb(2) ** (half + 1) < arb(2) ** self.real.high)
+        return bool((abs(x.exact) + x.error) * two_to(half + 1) < two_to(self.real.high))
 
     def _split(self, operation: Operation, operands: list[Computed]) -> tuple[Computed, Computed]:
         """A value as a multiple of a unit and the rest: what was not exact in it is now not exact in the rest.
@@ -215,9 +224,9 @@ class Analysis:
         a, x, constant = operands[0], operands[-2], operands[-1]
         cut = a if operation is Operation.SPLIT_SQUARE and not self.fused else x
         unit = unit_of(constant, self.real)
-        if unit is None or not (abs(cut.exact) + cut.error) * 8 <= arb(2) ** (unit + self.real.digits):
+        if unit is None or not (abs(cut.exact) + cut.error) * 8 <= two_to(unit + self.real.digits):
             return (Computed(x.exact, arb("inf")),) * 2
-        half = arb(2) ** (unit - 1)
+        half = two_to(unit - 1)
         if operation is Operation.SPLIT_SQUARE and not self.fused:
             part = Computed(a.exact + arb(0, half.upper()), arb(0), grid=unit)
             both = self._value(Operation.ADD, [a, part])
@@ -289,7 +298,7 @@ def any_root(x: Computed, degree: int, real: Real) -> Computed:
     what is left of Newton's error and the roundings of a correction of that size are in the last quarter.
     """
     least, most = x.exact.lower() - x.error, x.exact.upper() + x.error
-    if not (least > arb(2) ** (real.low + 2 * real.digits) / 2 and most < arb(2) ** (real.high - 1)):
+    if not (least > two_to(real.low + 2 * real.digits) / 2 and most < two_to(real.high - 1)):
         return Computed(arb.nan(), arb("inf"))  # where y^d may over- or underflow
     value = x.exact.root(degree)
     unit = arb(fmpq(9 * real.unit.numerator, 4 * real.unit.denominator))

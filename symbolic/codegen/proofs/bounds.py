@@ -14,7 +14,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic.balls import ball
 from ridgeback.symbolic.codegen.number import Real, fraction
 from ridgeback.symbolic.codegen.program import Form, Function, Horner, Statement
-from ridgeback.symbolic.codegen.proofs.analysis import KEPT, Computed, half_spacing
+from ridgeback.symbolic.codegen.proofs.analysis import KEPT, Computed, half_spacing, two_to
 from ridgeback.symbolic.codegen.proofs.runs import Run, Seen, least, runner
 
 BITS: Final = 128
@@ -158,7 +158,7 @@ def in_last_places(one: Computed, real: Real) -> arb:
     """
     low, high = abs(one.exact).lower(), abs(one.exact).upper()
     mantissa, exponent = high.man_exp()
-    edge = arb(2) ** (int(mantissa).bit_length() + int(exponent) - 1)
+    edge = two_to(int(mantissa).bit_length() + int(exponent) - 1)
     if not low < edge < high:
         return (one.error / last_place(low, real)).upper()
     below = one.before + half_spacing(edge + one.before, real)
@@ -173,7 +173,7 @@ def last_place(size: arb, real: Real) -> arb:
     True
     """
     mantissa, exponent = size.lower().man_exp()
-    return arb(2) ** max(int(mantissa).bit_length() + int(exponent) - real.digits, real.low)
+    return two_to(max(int(mantissa).bit_length() + int(exponent) - real.digits, real.low))
 
 
 def upper(x: arb) -> Fraction:
