@@ -56,7 +56,11 @@ def slopes(s: Array, degree: int) -> Array:
 
 def linear_columns(s: Array, phase: Array, shape: Shape, growth: Array) -> Array:
     """Model columns that enter linearly, for all windows: amplitude, harmonics, offset; ``(windows, n, columns)``."""
-    return np.swapaxes(linear_rows(s, turning(phase), shape, growth), 1, 2)
+    rows = np.empty((phase.shape[0], shape.size - shape.phase_degree - 1, s.size))
+    fill_linear(
+        rows, turning(phase), np.exp(np.multiply.outer(growth, s)), shape, powers(s, max(1, shape.amplitude_degree))
+    )
+    return np.swapaxes(rows, 1, 2)
 
 
 def turning(phase: Array) -> NDArray[np.complex128]:
@@ -67,11 +71,13 @@ def turning(phase: Array) -> NDArray[np.complex128]:
     return turn
 
 
-def linear_rows(s: Array, turn: NDArray[np.complex128], shape: Shape, growth: Array) -> Array:
-    """The same columns as rows, ``(windows, columns, n)``: samples lie side by side in memory."""
-    width, count = shape.amplitude_degree + 1, shape.size - shape.phase_degree - 1
-    slow = np.exp(np.multiply.outer(growth, s))[:, None] * powers(s, shape.amplitude_degree).T
-    rows = np.empty((turn.shape[0], count, s.size))
+def fill_linear(rows: Array, turn: NDArray[np.complex128], grown: Array, shape: Shape, raised: Array) -> None:
+    """Put the same columns into rows, ``(windows, columns, n)``: samples lie side by side in memory.
+
+    ``grown`` is exp(growth s), and ``raised`` has the powers of s.
+    """
+    width = shape.amplitude_degree + 1
+    slow = grown[:, None] * raised[:, :width].T
     np.multiply(slow, turn.real[:, None], out=rows[:, :width])
     begin, power, reached = width, turn, 1
     for h in shape.multiples:
@@ -79,8 +85,7 @@ def linear_rows(s: Array, turn: NDArray[np.complex128], shape: Shape, growth: Ar
         for part in (power.real, power.imag):
             np.multiply(slow, part[:, None], out=rows[:, begin : begin + width])
             begin += width
-    rows[:, begin:] = powers(s, 1).T
-    return rows
+    rows[:, begin:] = raised[:, :2].T
 
 
 def solve(jacobian: Array, target: Array) -> tuple[Array, Array]:
@@ -194,14 +199,16 @@ def first_steps(s: Array, x: Array, guide: Array, shape: Shape) -> Steps:
 
 def one_step(s: Array, x: Array, shape: Shape, at: Steps, rest: float) -> Steps:
     """One step of Gauss and Newton in every window."""
-    phase_powers, amplitude_powers = powers(s, shape.phase_degree), powers(s, shape.amplitude_degree)
+    raised, linear = powers(s, max(1, shape.phase_degree, shape.amplitude_degree)), shape.size - shape.phase_degree - 1
+    phase_powers, amplitude_powers = raised[:, : shape.phase_degree + 1], raised[:, : shape.amplitude_degree + 1]
     growth = np.clip(at.growth + at.steeper, -MOST_GROWTH, MOST_GROWTH)
     turn, grown = turning(at.p @ phase_powers.T), np.exp(np.multiply.outer(growth, s))
-    linear = linear_rows(s, turn, shape, growth)
-    along = -((at.a @ amplitude_powers.T) * grown * turn.imag)[:, None] * phase_powers.T
-    jacobian = np.swapaxes(np.concatenate([linear, along], axis=1), 1, 2)
+    rows = np.empty((x.shape[0], shape.size, s.size))
+    fill_linear(rows[:, :linear], turn, grown, shape, raised)
+    np.multiply(-((at.a @ amplitude_powers.T) * grown * turn.imag)[:, None], phase_powers.T, out=rows[:, linear:])
+    jacobian = np.swapaxes(rows, 1, 2)
     coefficients, inverse = solve(jacobian, x)
-    step, a = coefficients[:, linear.shape[1] :], coefficients[:, : shape.amplitude_degree + 1]
+    step, a = coefficients[:, linear:], coefficients[:, : shape.amplitude_degree + 1]
     moved, size = np.abs(step @ phase_powers.T), np.abs(a @ amplitude_powers.T) * grown
     largest = np.maximum(size.max(axis=1), np.finfo(float).tiny)
     last, steeper = (moved * size).max(axis=1) / largest, steepening(a)

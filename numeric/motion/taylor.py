@@ -22,7 +22,7 @@ from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.arrays import Array, frozen, frozen_mask
 from ridgeback.numeric.motion.dynamics import Dynamics, well
 from ridgeback.numeric.motion.events import CrossingEvents, TurningEvents
-from ridgeback.numeric.motion.integration import MEMORY_BUDGET, Interpolant
+from ridgeback.numeric.motion.integration import MEMORY_BUDGET
 from ridgeback.numeric.motion.precise_ring import Precise
 from ridgeback.numeric.motion.request import check_inside, check_request
 from ridgeback.numeric.motion.trajectory import Trajectory, sample_times
@@ -93,8 +93,8 @@ class TaylorSolution:
                         yield PreciseEvent(knot + shift, *_evaluate(c, shift))
 
     @cached_property
-    def float_interpolant(self) -> Interpolant:
-        """Dense output in float64: the scaled polynomials, summed by Horner's rule."""
+    def _scaled(self) -> tuple[Array, Array, Array]:
+        """Starts and widths of the steps, and the coefficients in shares of a step, ``[step, power]``, in float64."""
         starts = np.array([float(t) for t in self.knots[:-1]])
         widths = np.array([float(b - a) for a, b in zip(self.knots[:-1], self.knots[1:], strict=True)])
         scaled = np.array(
@@ -103,17 +103,18 @@ class TaylorSolution:
                 for c, h in zip(self.polynomials, widths, strict=True)
             ]
         )
+        return starts, widths, scaled
 
-        def dense(t: Array) -> tuple[Array, Array]:
-            index = np.clip(np.searchsorted(starts, t, side="right") - 1, 0, starts.size - 1)
-            s = (t - starts[index]) / widths[index]
-            u, v = np.zeros_like(s), np.zeros_like(s)
-            for j in range(self.degree, -1, -1):
-                v = v * s + u
-                u = u * s + scaled[index, j]
-            return u, v / widths[index]
-
-        return dense
+    def dense(self, t: Array) -> tuple[Array, Array]:
+        """Return u and u' in float64 at any times of the span: the scaled polynomials, summed by Horner's rule."""
+        starts, widths, scaled = self._scaled
+        index = np.clip(np.searchsorted(starts, t, side="right") - 1, 0, starts.size - 1)
+        s = (t - starts[index]) / widths[index]
+        u, v = np.zeros_like(s), np.zeros_like(s)
+        for j in range(self.degree, -1, -1):
+            v = v * s + u
+            u = u * s + scaled[index, j]
+        return u, v / widths[index]
 
 
 def _evaluate(c: tuple[Precise, ...], s: Precise) -> tuple[Precise, Precise]:
@@ -294,5 +295,5 @@ def integrate_taylor(
         rtol=10.0**-digits,
         evaluations=len(solution.polynomials),
         steps=frozen([float(t) for t in solution.knots]),
-        interpolant=lambda t: solution.float_interpolant(t),  # made when it is asked for first
+        interpolant=solution.dense,
     )
