@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ridgeback.common.show.picture import Picture, Stroke
-from ridgeback.compare.drift.results import DriftComparison
 from ridgeback.compare.report.results import Report
 from ridgeback.reports.drawing.figure import Figure
 from ridgeback.reports.figures.answer import answer_figure
 from ridgeback.reports.figures.clock import Clock
 from ridgeback.reports.figures.planes import level_plane
 from ridgeback.reports.parts import Part, Section
+
+if TYPE_CHECKING:
+    from ridgeback.compare.drift.results import DriftComparison
 
 
 def drift_head(report: Report) -> tuple[Part, ...]:

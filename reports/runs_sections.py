@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from ridgeback.common.numbers import per_cent
-from ridgeback.compare.report.results import Report
-from ridgeback.compare.report.several.runs import Named, Runs
-from ridgeback.compare.report.several.runs_report import facts
+from ridgeback.compare.report.several.runs import Named, Runs, facts
 from ridgeback.reports.figures.identification import parameter_table
 from ridgeback.reports.figures.recordings.runs import runs_backbone, runs_samples, runs_tracks
 from ridgeback.reports.parts import Part, Section, fold
 from ridgeback.reports.text.tables import Row, Table
+
+if TYPE_CHECKING:
+    from ridgeback.compare.report.results import Report
 
 
 def runs_head(report: Report) -> tuple[Part, ...]:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ridgeback.common.numbers import NONE, how_many, number, scientific
 from ridgeback.compare.report.results import Report
-from ridgeback.compare.report.several.answered import Answered
-from ridgeback.compare.studies.answer import Answer
 from ridgeback.reports.figures.answer import answer_figure, side_by_side
 from ridgeback.reports.parts import Part, Section, fold
 from ridgeback.reports.text.mathml import FormulaError, mathml
 from ridgeback.reports.text.tables import Row, Table
+
+if TYPE_CHECKING:
+    from ridgeback.compare.report.several.answered import Answered
+    from ridgeback.compare.studies.answer import Answer
 
 SPREAD = 1e3
 """Ratio of largest to smallest from which on a column of positive numbers is written as powers of ten."""

@@ -10,14 +10,17 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from enum import Enum
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ridgeback.common.show.brief import Brief
-from ridgeback.compare.identification.candidates import DampingLaw
 from ridgeback.compare.identification.sample_fit import UNKNOWN, Misfit, SampleFit
 from ridgeback.compare.identification.shown import ShownIdentification, ShownPrediction
 from ridgeback.numeric.arrays import Array, freeze
+
+if TYPE_CHECKING:
+    from ridgeback.compare.identification.candidates import DampingLaw
 
 NORMAL_95 = 1.959963984540054
 """The 97.5 % point of the normal distribution: half the width of a 95 % interval in standard deviations."""

@@ -105,3 +105,19 @@ def score(curve: Curve, reference: Reference, zone: Zones) -> Score:
 def failure(name: str, label: str, reason: str) -> Score:
     """Score of an estimate that gave nothing; the reason is kept and shown."""
     return Score(name, label, "estimate", None, None, None, None, None, failed=reason)
+
+
+def distance(first: Curve, second: Curve) -> float | None:
+    """Relative rms difference of two tracks at the times of the second where both are valid; None without any.
+
+    >>> t = np.arange(5.0)
+    >>> one = Curve("", "", "estimate", t, np.full(5, 2.0), t >= 0)
+    >>> distance(one, Curve("", "", "estimate", t, np.full(5, 2.2), t >= 0)).__round__(12)
+    0.1
+    """
+    own = first.time[first.valid]
+    keep = second.valid & (second.time >= own[0]) & (second.time <= own[-1]) if own.size else second.valid & False
+    if not keep.any():
+        return None
+    expected = np.interp(second.time[keep], own, first.omega[first.valid])
+    return float(np.sqrt(np.mean((second.omega[keep] / expected - 1) ** 2)))

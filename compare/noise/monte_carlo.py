@@ -24,7 +24,7 @@ from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.estimators.estimate import METHODS as ESTIMATORS
 from ridgeback.numeric.estimators.estimate import MODEL_FIT, estimate, estimation
 from ridgeback.numeric.model_fit.family import Family
-from ridgeback.numeric.recording.recording import Recording
+from ridgeback.numeric.recording.shown import ShownRecording
 from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.track import Track
 from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -61,7 +61,7 @@ class Work:
 
 
 def monte_carlo(
-    source: Truth | Recording | ArrayLike | None = None,
+    source: Truth | ShownRecording | ArrayLike | None = None,
     rate: float | None = None,
     *,
     methods: Sequence[str] = METHODS,
@@ -169,13 +169,13 @@ def monte_carlo(
     )
 
 
-def truth_of(source: Truth | Recording | ArrayLike | None, rate: float | None = None) -> Truth:
+def truth_of(source: Truth | ShownRecording | ArrayLike | None, rate: float | None = None) -> Truth:
     """The noise-free record that a study is about; InputError for samples without their rate."""
     if source is None:
         return paper_truth() if rate is None else paper_truth(rate=rate)
     if isinstance(source, Truth):
         return source
-    if isinstance(source, Recording):
+    if isinstance(source, ShownRecording):
         start = float(source.time[0])
         title = f"{source.source}, {source.name}"
         return recording_truth(source.values, source.rate, start=start, title=title)

@@ -13,6 +13,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import relative
+from ridgeback.compare.motion.error_norms import distance
 from ridgeback.compare.motion.estimate_curves import curve_of
 from ridgeback.compare.motion.planes import spectrogram_image
 from ridgeback.compare.motion.results import Curve
@@ -190,19 +191,3 @@ def _notes(curves: tuple[Curve, ...], said: list[str]) -> Iterable[str]:
     apart = [f"{label} {relative(value)}" for label, value in pairs if value is not None]
     if apart:
         yield f"Rms distance of the other tracks from it, where both are valid: {', '.join(apart)}."
-
-
-def distance(first: Curve, second: Curve) -> float | None:
-    """Relative rms difference of two tracks at the times of the second where both are valid; None without any.
-
-    >>> t = np.arange(5.0)
-    >>> one = Curve("", "", "estimate", t, np.full(5, 2.0), t >= 0)
-    >>> distance(one, Curve("", "", "estimate", t, np.full(5, 2.2), t >= 0)).__round__(12)
-    0.1
-    """
-    own = first.time[first.valid]
-    keep = second.valid & (second.time >= own[0]) & (second.time <= own[-1]) if own.size else second.valid & False
-    if not keep.any():
-        return None
-    expected = np.interp(second.time[keep], own, first.omega[first.valid])
-    return float(np.sqrt(np.mean((second.omega[keep] / expected - 1) ** 2)))

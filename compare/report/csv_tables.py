@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ridgeback.common.csv_text import csv_text
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.results import BudgetRow, Curve, MotionComparison
-from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.study.results import Study
 from ridgeback.numeric.arrays import Array
+
+if TYPE_CHECKING:
+    from ridgeback.compare.recording.results import RecordingComparison
 
 
 def study_table(study: Study) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,10 +11,12 @@ from numpy.typing import NDArray
 from ridgeback.common.numbers import NONE, number, per_cent, uncertain
 from ridgeback.common.quantities import frequency
 from ridgeback.compare.identification.results import Identification, Standing
-from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.results import Card
 from ridgeback.compare.study.results import Trend, trend_of
 from ridgeback.numeric.arrays import Array
+
+if TYPE_CHECKING:
+    from ridgeback.compare.recording.results import RecordingComparison
 
 Indices = NDArray[np.intp]
 KNOWN = 2.0

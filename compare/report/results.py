@@ -4,22 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from ridgeback.common.show.brief import Brief
 from ridgeback.compare.benchmark.contenders import Way
 from ridgeback.compare.benchmark.results import Benchmark
-from ridgeback.compare.drift.results import DriftComparison
-from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.noise.results import NoiseStudy
-from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report.error_grid import ErrorGrid
-from ridgeback.compare.report.several.answered import Answered
-from ridgeback.compare.report.several.indexed import Page
-from ridgeback.compare.report.several.runs import Runs
 from ridgeback.compare.report.shown import ShownReport
 from ridgeback.compare.study.results import Certified, Derivation, Range, Study
+
+if TYPE_CHECKING:
+    from ridgeback.compare.drift.results import DriftComparison
+    from ridgeback.compare.identification.results import Identification
+    from ridgeback.compare.recording.results import RecordingComparison
+    from ridgeback.compare.report.several.answered import Answered
+    from ridgeback.compare.report.several.indexed import Page
+    from ridgeback.compare.report.several.runs import Runs
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,9 @@ class ShownRecording(Displayed):
     time: Array
     values: Array
     rate: float
+    name: str
     units: str
+    source: str
     notes: tuple[str, ...]
     clipped: Mask
     filled: Mask

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ridgeback.common.numbers import number, per_cent
-from ridgeback.compare.recording.recording import distance
-from ridgeback.compare.recording.results import RecordingComparison
+from ridgeback.compare.motion.error_norms import distance
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.apart import apart
 from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout
@@ -18,6 +18,9 @@ from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
 from ridgeback.reports.figures.clock import Clock, shown
 from ridgeback.reports.figures.planes import level_plane, record_data
+
+if TYPE_CHECKING:
+    from ridgeback.compare.recording.results import RecordingComparison
 
 CLOCK = Clock("s")
 LETTER, ROW, HEIGHTS = 7.0, 17.0, 5

@@ -5,15 +5,18 @@ from __future__ import annotations
 import io
 import warnings
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import matplotlib.style
 from matplotlib import pyplot
 from matplotlib.ticker import FuncFormatter
 
-from ridgeback.compare.studies.answer import Answer
 from ridgeback.reports.drawing.picture import NO_DATES, RESOLUTION
 from ridgeback.reports.drawing.theme import DRAWING
 from ridgeback.reports.pictures import draw
+
+if TYPE_CHECKING:
+    from ridgeback.compare.studies.answer import Answer
 
 WIDTH, HEIGHT = 9.0, 5.0
 """Inches of a panel."""

@@ -27,6 +27,7 @@ from ridgeback.compare.drift import comparison as drift
 from ridgeback.compare.identification import fits, fitting
 from ridgeback.compare.identification.sample_fit import strongest_line
 from ridgeback.compare.motion.error_budget import _estimate_row, _model_row, estimator_error
+from ridgeback.compare.motion.error_norms import distance
 from ridgeback.compare.motion.estimate_curves import Outcome, attempt
 from ridgeback.compare.motion.harmonics.folding import folding
 from ridgeback.compare.motion.harmonics.overtones import slope
@@ -35,7 +36,6 @@ from ridgeback.compare.motion.results import Curve, Score
 from ridgeback.compare.recording.backbone_fit import BackboneFit
 from ridgeback.compare.recording.measurement import size_columns
 from ridgeback.compare.recording.planes import plane_of
-from ridgeback.compare.recording.recording import distance
 from ridgeback.compare.recording.samples import NAMES, sample
 from ridgeback.compare.report.drift import drift_report
 from ridgeback.compare.report.naming import start_line

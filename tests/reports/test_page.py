@@ -376,3 +376,15 @@ def test_a_heavy_page_is_warned_of_in_bytes_not_letters() -> None:
     assert "2.0 MB" in str(size_warning("x" * (WARN_BYTES + 1)))
     assert size_warning("θ" * (WARN_BYTES // 2)) is None
     assert size_warning("θ" * (WARN_BYTES // 2 + 1)) is not None
+
+
+def test_a_page_about_a_motion_loads_nothing_that_reads_or_identifies_recordings() -> None:
+    """Nor scipy.signal, which brings scipy.stats: a tenth of the time that the page takes."""
+    late = ("scipy.signal", "scipy.io", "matplotlib", "ridgeback.numeric.files", "ridgeback.compare.studies")
+    late += ("ridgeback.compare.identification.candidates", "ridgeback.numeric.backbone")
+    program = (
+        "import sys, ridgeback.compare.report.system_report, ridgeback.reports.page\n"
+        f"print([name for name in {late!r} if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"

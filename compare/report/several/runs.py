@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
+import numpy as np
+
+from ridgeback.common.numbers import number, uncertain
 from ridgeback.common.show.brief import Brief
-from ridgeback.compare.identification.results import Identification
-from ridgeback.compare.recording.measurements import Measurements
-from ridgeback.compare.recording.theory import TheoryBackbone
+
+if TYPE_CHECKING:
+    from ridgeback.compare.identification.results import Identification
+    from ridgeback.compare.recording.measurement import Measurement
+    from ridgeback.compare.recording.measurements import Measurements
+    from ridgeback.compare.recording.theory import TheoryBackbone
 
 
 @dataclass(frozen=True, repr=False)
@@ -29,3 +37,33 @@ class Runs(Brief):
     theory: TheoryBackbone | None
     """The named oscillator's backbone at the amplitudes of the combined or the first one."""
     named: tuple[Named, ...]
+
+
+def facts(one: Measurement) -> Mapping[str, str]:
+    """A signal's row of the table: what it is, and what was measured of it."""
+    recording, curve = one.recording, one.backbone
+    row = {
+        "samples": str(recording.values.size),
+        "rate, 1/s": number(recording.rate),
+        "method": one.method.replace("-", " "),
+    }
+    if curve is None:
+        return {
+            **row,
+            "largest": "",
+            "ω₀ at the largest, Hz": "",
+            "smallest": "",
+            "ω₀ at the smallest, Hz": "",
+            "damping ratio": "",
+        }
+    a, omega, sd = curve.curve_amplitude, curve.curve_omega / (2 * np.pi), curve.curve_omega_sd / (2 * np.pi)
+    high, low = int(np.argmax(a)), int(np.argmin(a))
+    ratio = float(np.median(-curve.curve_growth_rate / curve.curve_omega))
+    return {
+        **row,
+        "largest": f"{a[high]:.3g}",
+        "ω₀ at the largest, Hz": uncertain(float(omega[high]), float(sd[high])),
+        "smallest": f"{a[low]:.3g}",
+        "ω₀ at the smallest, Hz": uncertain(float(omega[low]), float(sd[low])),
+        "damping ratio": number(ratio, 3),
+    }

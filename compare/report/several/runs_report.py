@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from ridgeback.common.csv_text import csv_text
 from ridgeback.common.errors import InputError
-from ridgeback.common.numbers import number, per_cent, uncertain
+from ridgeback.common.numbers import per_cent, uncertain
 from ridgeback.common.progress import Progress, silent
 from ridgeback.common.quantities import frequency
 from ridgeback.compare.identification.identify import identify
@@ -280,33 +280,3 @@ def _track_rows(runs: Runs) -> Iterator[list[object]]:
         along = one.frequency()
         for values in zip(*(part.tolist() for part in along), strict=True):
             yield [label, *(f"{v:.8g}" for v in values)]
-
-
-def facts(one: Measurement) -> Mapping[str, str]:
-    """A signal's row of the table: what it is, and what was measured of it."""
-    recording, curve = one.recording, one.backbone
-    row = {
-        "samples": str(recording.values.size),
-        "rate, 1/s": number(recording.rate),
-        "method": one.method.replace("-", " "),
-    }
-    if curve is None:
-        return {
-            **row,
-            "largest": "",
-            "ω₀ at the largest, Hz": "",
-            "smallest": "",
-            "ω₀ at the smallest, Hz": "",
-            "damping ratio": "",
-        }
-    a, omega, sd = curve.curve_amplitude, curve.curve_omega / (2 * np.pi), curve.curve_omega_sd / (2 * np.pi)
-    high, low = int(np.argmax(a)), int(np.argmin(a))
-    ratio = float(np.median(-curve.curve_growth_rate / curve.curve_omega))
-    return {
-        **row,
-        "largest": f"{a[high]:.3g}",
-        "ω₀ at the largest, Hz": uncertain(float(omega[high]), float(sd[high])),
-        "smallest": f"{a[low]:.3g}",
-        "ω₀ at the smallest, Hz": uncertain(float(omega[low]), float(sd[low])),
-        "damping ratio": number(ratio, 3),
-    }

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ridgeback.compare.report.several.runs import Runs
 from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.apart import apart
 from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout
@@ -17,6 +17,9 @@ from ridgeback.reports.drawing.scale import Scale, padded
 from ridgeback.reports.figures.answer import STYLES
 from ridgeback.reports.figures.clock import Clock
 from ridgeback.reports.figures.recording import amplitudes
+
+if TYPE_CHECKING:
+    from ridgeback.compare.report.several.runs import Runs
 
 CLOCK = Clock("s")
 TWO_SIDED = 1.96

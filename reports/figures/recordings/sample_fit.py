@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ridgeback.common.numbers import minus, number, per_cent
 from ridgeback.common.quantities import frequency
-from ridgeback.compare.identification.sample_fit import SampleFit
 from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout
 from ridgeback.reports.drawing.marks import drawing, group, line, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
 from ridgeback.reports.figures.clock import Clock
+
+if TYPE_CHECKING:
+    from ridgeback.compare.identification.sample_fit import SampleFit
 
 CLOCK = Clock("s")
 LEAST_DB = -120.0
