@@ -50,6 +50,7 @@ def compare_recording(
     column: str | int | None = None,
     time_column: str | int | None = None,
     rate: float | None = None,
+    band: tuple[float, float] | None = None,
     methods: Iterable[str] = METHODS,
     oscillator: Oscillator | None = None,
     progress: Callable[[float, str], None] = lambda _, __: None,
@@ -64,6 +65,8 @@ def compare_recording(
         Names or numbers of the columns of the samples and of their times; found by default.
     rate
         Samples per second, in place of a time column.
+    band
+        Lowest and highest frequency of the oscillation, rad per time unit; by default about the strongest component.
     methods
         Estimators in order of preference.
     oscillator
@@ -88,11 +91,11 @@ def compare_recording(
         recording = source
     else:
         recording = read_recording(source, column=column, time_column=time_column, rate=rate)
-    found, failed = _estimations(recording, tuple(methods), progress)
+    found, failed = _estimations(recording, tuple(methods), band, progress)
     if not found:
         raise InputError(f"{recording.source}: no estimator succeeded; " + "; ".join(failed))
     progress(0.7, "backbone")
-    first = measured(recording, found[0], 1, None)
+    first = measured(recording, found[0], 1, band)
     curve, doubt = first.backbone, ""
     if curve is None:
         curve = in_windows(found[0].track, recording)
@@ -109,13 +112,16 @@ def in_windows(track: Track, recording: Recording) -> Backbone:
 
 
 def _estimations(
-    recording: Recording, methods: tuple[str, ...], progress: Callable[[float, str], None]
+    recording: Recording,
+    methods: tuple[str, ...],
+    band: tuple[float, float] | None,
+    progress: Callable[[float, str], None],
 ) -> tuple[list[Estimation], list[str]]:
     found, failed = [], []
     for i, method in enumerate(methods):
         progress(0.05 + 0.6 * i / len(methods), _LABELS.get(method, method))
         try:
-            found.append(estimated(recording, method=method))
+            found.append(estimated(recording, method=method, band=band))
         except InputError as error:
             failed.append(str(error))
     return found, failed

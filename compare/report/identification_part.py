@@ -29,7 +29,12 @@ class IdentificationPart:
 
 
 def identification_part(
-    recording: Recording, compared: RecordingComparison, cycles: float | None, progress: Progress
+    recording: Recording,
+    compared: RecordingComparison,
+    cycles: float | None,
+    progress: Progress,
+    *,
+    band: tuple[float, float] | None = None,
 ) -> IdentificationPart:
     """The identification, with its prediction where there are cycles enough.
 
@@ -43,10 +48,12 @@ def identification_part(
         How many of the first cycles predict the rest; None for a third of them.
     progress
         Called with the share of the work that is done, 0 to 1, and the name of the step.
+    band
+        Lowest and highest frequency of the oscillation, rad per time unit; by default about the strongest component.
     """
     used = SHARE * cycles_of(compared) if cycles is None else cycles
     try:
-        ready = prepared(recording)
+        ready = prepared(recording, band=band)
         ahead, why = None, "Nothing was predicted: a steady tone is no decay." if compared.hum else ""
         if not compared.hum:
             ahead, why = _ahead(ready, used, lambda share, step: progress(0.5 * share, step))

@@ -32,6 +32,7 @@ def recording_report(
     column: str | int | None = None,
     time_column: str | int | None = None,
     rate: float | None = None,
+    band: tuple[float, float] | None = None,
     oscillator: OscillatorLike | None = None,
     cycles: float | None = None,
     trials: int = TRIALS,
@@ -49,6 +50,9 @@ def recording_report(
         Names or numbers of the columns that hold the samples and their times; found by default.
     rate
         Samples per second, in place of a time column.
+    band
+        Lowest and highest frequency of the oscillation, rad per time unit; by default about the strongest component.
+        Estimators in noise are tried on the strongest component alone, and not in a band.
     oscillator
         Its exact backbone is drawn over the measured one.
     cycles
@@ -78,14 +82,15 @@ def recording_report(
     theory = None if oscillator is None else as_oscillator(oscillator)
     recording = _read(source, column=column, time_column=time_column, rate=rate)
     with watch.stage("recording", 0.0, 0.3) as inner:
-        found = compare_recording(recording, oscillator=theory, progress=inner)
+        found = compare_recording(recording, band=band, oscillator=theory, progress=inner)
     with watch.stage("what made it", 0.3, 0.7) as inner:
-        made = identification_part(recording, found, cycles, inner)
+        made = identification_part(recording, found, cycles, inner, band=band)
     with watch.stage("estimators in noise", 0.7, 1.0) as inner:
-        noise = noise_part(lambda: truth_of(part_of(recording, slice(MOST_SAMPLES))), trials, inner)
+        noisy = trials if band is None else 0
+        noise = noise_part(lambda: truth_of(part_of(recording, slice(MOST_SAMPLES))), noisy, inner)
     progress(1.0, "done")
     left_out = tuple(reason for reason in (made.left_out, noise.left_out) if reason)
-    settings = _settings(found, theory, {"cycles": cycles, "trials": trials})
+    settings = _settings(found, theory, {"cycles": cycles, "trials": trials, "band": band})
     return Report(
         title=recording_title(found),
         lead=f"{found.source}, {found.column}: {found.time.size} samples shown, {found.rate:g} per second.",

@@ -93,6 +93,7 @@ def report(
     rate: float | None = None,
     time: Any = None,
     column: str | int | None = None,
+    band: tuple[float, float] | None = None,
     parameters: Mapping[str, Value] | None = None,
     about: str | None = None,
     drift: Mapping[str, str] | None = None,
@@ -125,6 +126,9 @@ def report(
         The time of each sample of the recording, in place of a rate.
     column : str or int, optional
         The signal of a table or a file with several.
+    band : (float, float), optional
+        Lowest and highest frequency of a recording's oscillation, rad per time unit; by default about its strongest
+        component.
     parameters, about : optional
         As for :func:`ridgeback.oscillator`.
     drift : mapping of str to str, optional
@@ -171,7 +175,7 @@ def report(
         if drift:
             if oscillator is None:
                 raise InputError("a drift needs an oscillator whose parameters change; name it")
-            refuse("a recording", recording=recording, time=time, column=column, predict_from=predict_from)
+            refuse("a recording", recording=recording, time=time, column=column, band=band, predict_from=predict_from)
             refuse("the study of a system", order=order, orders=orders, amplitudes=amplitudes, target=target)
             own = as_oscillator(oscillator, parameters=parameters, about=about)
             return drift_report(
@@ -196,17 +200,18 @@ def report(
             if several(recording):
                 refuse("one recording", predict_from=predict_from, time=time)
                 signals = [as_recording(one, rate, column=column) for one in recording]
-                return runs_report(signals, oscillator=named, timed=timed, progress=told)
+                return runs_report(signals, band=band, oscillator=named, timed=timed, progress=told)
             used = as_recording(recording, rate, time=time, column=column)
             return recording_report(
                 used,
+                band=band,
                 oscillator=named,
                 cycles=predict_from,
                 trials=trials,
                 timed=timed,
                 progress=told,
             )
-        refuse("a recording", time=time, column=column, predict_from=predict_from)
+        refuse("a recording", time=time, column=column, band=band, predict_from=predict_from)
         case = simulated(oscillator, parameters, about, initial, duration, rate)
         return system_report(
             case if title is None else replace(case, oscillator=replace(case.oscillator, title=title)),

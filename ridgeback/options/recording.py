@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ridgeback.options.arguments import POSITIVE, SPAN
+from ridgeback.options.arguments import BAND, POSITIVE, SPAN
 from ridgeback.options.shared import added
 
 if TYPE_CHECKING:
@@ -124,6 +124,9 @@ decimal_option = click.option(
     type=click.Choice(("auto", "point", "comma", ".", ",")),
     default=None,
     help="The mark of the decimals in a table of text.  Default: auto, what each column's cells prove.",
+)
+band_option = click.option(
+    "--band", type=BAND, default=None, metavar="LOW,HIGH", help="Where a recording's oscillation is, rad/s."
 )
 PLACE_OPTIONS = (
     click.option(

@@ -11,8 +11,8 @@ from ridgeback.console.failure import PartialError
 from ridgeback.console.output import json_text, write_text
 from ridgeback.console.tables import aligned, csv_text, readable
 from ridgeback.console.verb import Verb
-from ridgeback.options.arguments import BAND, POSITIVE
-from ridgeback.options.recording import Reading, Treatment, decimal_option, treatment_options
+from ridgeback.options.arguments import POSITIVE
+from ridgeback.options.recording import Reading, Treatment, band_option, decimal_option, treatment_options
 from ridgeback.options.shared import format_option, output_option
 
 if TYPE_CHECKING:
@@ -39,9 +39,7 @@ def names(text: str | None) -> tuple[str, ...] | None:
 @click.option("--rate", type=POSITIVE, default=None, metavar="R", help="Samples per second, in place of a time column.")
 @decimal_option
 @treatment_options
-@click.option(
-    "--band", type=BAND, default=None, metavar="LOW,HIGH", help="Where the oscillation is, rad/s.  Default: found."
-)
+@band_option
 @click.option(
     "--candidates", default=None, metavar="NAME,...", help="Classes to try.  Default: all; a wrong name lists them."
 )

@@ -16,7 +16,7 @@ from ridgeback.console.failure import say
 from ridgeback.console.output import STDOUT, output_path, write_text
 from ridgeback.console.verb import Verb
 from ridgeback.options.arguments import GRID, ORDER, ORDERS, PAIR, POSITIVE
-from ridgeback.options.recording import Reading, Treatment, decimal_option, treatment_options
+from ridgeback.options.recording import Reading, Treatment, band_option, decimal_option, treatment_options
 from ridgeback.options.shared import drift_option, format_option, refuse_twice, unique
 from ridgeback.options.study import STORE
 from ridgeback.options.system import Choice, choosing
@@ -64,6 +64,7 @@ class Source:
     decimal: str | None
     cycles: float | None
     treatment: Treatment
+    band: tuple[float, float] | None
 
 
 @click.command("report", cls=Verb, short_help="Write the comparison as one HTML page.")
@@ -97,6 +98,7 @@ class Source:
 )
 @click.option("--time-column", default=None, metavar="NAME", help="The recording's times.")
 @click.option("--run-column", default=None, metavar="NAME", help="The column that numbers runs, all on one page.")
+@band_option
 @decimal_option
 @treatment_options
 @click.option(
@@ -142,6 +144,7 @@ def command(
     time_column: str | None,
     run_column: str | None,
     decimal: str | None,
+    band: tuple[float, float] | None,
     predict_from: float | None,
     treatment: Treatment,
     trials: int,
@@ -188,12 +191,12 @@ def command(
             refuse_unused("a report on a drift", *(name for name in context.params if name not in BESIDE_A_DRIFT))
             report = of_drift(motion, unique(laws, "--drift"), shown, progress, timed=not no_timings)
         elif not recordings:
-            places = {"--column": column, "--time-column": time_column, "--run-column": run_column}
+            places = {"--column": column, "--time-column": time_column, "--run-column": run_column, "--band": band}
             treating = {f"--{name}": value for name, value in {"decimal": decimal, **treatment.given()}.items()}
             refuse({**places, "--predict-from": predict_from, **treating}, "belongs to --recording FILE")
             report = of_motion(motion, scope, shown, progress)
         else:
-            source = Source(recordings, column, time_column, run_column, decimal, predict_from, treatment)
+            source = Source(recordings, column, time_column, run_column, decimal, predict_from, treatment, band)
             report = of_recordings(source, motion, scope, shown, progress)
     try:
         publish(report, output, style)
@@ -316,11 +319,14 @@ def of_recordings(source: Source, motion: Motion, scope: Scope, shown: str, prog
 
         refuse_unused("a page on several recordings", "predict_from", "trials")
         found = reading.all(source.files)
-        return runs_report(found, oscillator=oscillator, timed=scope.timed, command=shown, progress=progress)
+        return runs_report(
+            found, band=source.band, oscillator=oscillator, timed=scope.timed, command=shown, progress=progress
+        )
     from ridgeback.compare.report.recording_report import recording_report
 
     return recording_report(
         reading.one(source.files[0]),
+        band=source.band,
         oscillator=oscillator,
         cycles=source.cycles,
         trials=scope.trials,

@@ -37,6 +37,7 @@ TOLD = 2.0
 def runs_report(
     recordings: Sequence[Recording],
     *,
+    band: tuple[float, float] | None = None,
     oscillator: OscillatorLike | None = None,
     timed: bool = True,
     command: str = "",
@@ -48,6 +49,8 @@ def runs_report(
     ----------
     recordings
         Runs, channels, stretches; two or more.
+    band
+        Lowest and highest frequency of the oscillation, rad per time unit; by default about the strongest component.
     oscillator
         Its exact backbone is drawn over the measured ones.
     timed
@@ -70,9 +73,9 @@ def runs_report(
     watch = Stopwatch(progress)
     theory = None if oscillator is None else as_oscillator(oscillator)
     with watch.stage("measuring", 0.0, 0.5) as inner:
-        found = measure_recordings(recordings, progress=inner)
+        found = measure_recordings(recordings, band=band, progress=inner)
     with watch.stage("what made them", 0.5, 1.0) as inner:
-        named = tuple(_named(found, inner))
+        named = tuple(_named(found, band, inner))
     progress(1.0, "done")
     labels = labels_of([one.recording for one in found.measured])
     over = None if theory is None else _theory(found, theory)
@@ -96,13 +99,13 @@ def runs_report(
     )
 
 
-def _named(found: Measurements, progress: Progress) -> Iterator[Named]:
+def _named(found: Measurements, band: tuple[float, float] | None, progress: Progress) -> Iterator[Named]:
     labels = labels_of([one.recording for one in found.measured])
     pairs = [(label, one) for label, one in zip(labels, found.measured, strict=True) if one.backbone is not None]
     for i, (label, one) in enumerate(pairs[:IDENTIFIED]):
         progress(i / min(len(pairs), IDENTIFIED), label)
         try:
-            yield Named(label, identify(prepared(one.recording)))
+            yield Named(label, identify(prepared(one.recording, band=band)))
         except InputError as refusal:
             yield Named(label, None, str(refusal))
 
