@@ -421,6 +421,17 @@ def any_hum_near_a_harmonic(rng: np.random.Generator) -> Kind:
     return any_decay(rng, rng.uniform(0.003, 0.015), rng.uniform(40.0, 120.0), hum(size, mains), noise, f)
 
 
+def any_drift(rng: np.random.Generator) -> Kind:
+    """A straight or an exponential drift of one to ten times the amplitude beneath."""
+    level, rate = rng.choice([-1.0, 1.0]) * log_uniform(rng, 1.0, 10.0), rng.uniform(1.0, 5.0)
+
+    def spoiled(x: Array, t: Array, rng: np.random.Generator) -> Array:
+        u = t / t[-1]
+        return np.asarray(x + level * (u if rng.uniform() < 0.5 else np.exp(-rate * u)))
+
+    return any_decay(rng, rng.uniform(0.003, 0.02), rng.uniform(20.0, 60.0), spoiled)
+
+
 def any_tone_out_of_the_band(rng: np.random.Generator) -> Kind:
     """A steady tone, or a mode, of 2 to 10 % at 1.4 to 4.4 times the frequency."""
     f, ratio, size = rng.uniform(5.0, 100.0), rng.uniform(1.4, 4.4), log_uniform(rng, 0.02, 0.1)
@@ -453,6 +464,7 @@ DRAWN: dict[str, Kind] = {
     "a chirp that runs away": any_chirp,
     "a mode beside that dies in a few cycles": drawn(any_dying_mode),
     "a swell from 2 % within 3 to 6 cycles": any_swell,
+    "drift beneath": drawn(any_drift),
     "hum near a harmonic": drawn(any_hum_near_a_harmonic),
     "a tone out of the band": drawn(any_tone_out_of_the_band),
 }

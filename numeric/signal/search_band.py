@@ -18,6 +18,7 @@ from scipy.ndimage import gaussian_filter1d
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.late import signal
+from ridgeback.numeric.signal.local_line import local_line
 from ridgeback.numeric.signal.samples import TWO_PI, Floats, checked_budget
 from ridgeback.numeric.signal.windows import half_width, window
 
@@ -32,6 +33,8 @@ CLEAR = 100.0
 """Of the median of the spectrum, that its highest line exceeds in white noise with hardly any probability."""
 CLEAR_AT_AN_END = 40.0
 """The same for a line of a record that holds nothing else than noise for the most of it."""
+WANDERING = 0.05
+"""Of the signal's rms, by which a local mean wanders that is drift."""
 LONG = 100_000
 BLOCK_VALUES = 60_000
 """Values that the segments of one block of columns hold, padded: half a megabyte."""
@@ -167,6 +170,7 @@ def guide_path(x: Array, rate: float, centre: float, low: float, high: float) ->
         thin = guide_path(signal.decimate(x, factor, ftype="fir"), rate / factor, centre, low, high)
         return np.asarray(np.interp(np.arange(x.size), factor * np.arange(thin.size), thin), dtype=np.float64)
     seconds = min(GUIDE_CYCLES * TWO_PI / centre, (x.size - 1) / rate * 0.999)
+    x = without_drift(x, half_width(seconds, rate, longest=x.size))
     fine = max(1, round(0.25 * TWO_PI / centre * rate))
     hop = max(fine, min(MOST_STEPS * fine, x.size // ENOUGH_COLUMNS))
     n_fft = fft.next_fast_len(max(int(8 * seconds * rate), 64), real=True)
@@ -178,6 +182,26 @@ def guide_path(x: Array, rate: float, centre: float, low: float, high: float) ->
     path = omega[rows][continuous_path(ridge.levels(x, slice(rows[0], rows[-1] + 1)), reach=round(3 * hop / fine))]
     smooth = gaussian_filter1d(path, GUIDE_CYCLES * fine / hop, mode="nearest")
     return np.asarray(np.interp(np.arange(x.size), hop * np.arange(path.size), smooth), dtype=np.float64)
+
+
+def without_drift(x: Array, half: int) -> Array:
+    """Samples less what wanders beneath, where that is notable: its foot in a spectrum hides the tail of a decay.
+
+    That is the local mean, and at the ends, where it sees half a window, its tangent.
+
+    >>> t = np.arange(800) / 20.0
+    >>> left = without_drift(0.3 * t + np.cos(6.0 * t), 63)
+    >>> bool(np.abs(left - np.cos(6.0 * t)).max() < 0.01)
+    True
+    """
+    if x.size < 4 * half:
+        return x
+    mean, slope = (part.real for part in local_line(x + 0j, window("blackman", half), 1.0))
+    inside = np.arange(half, x.size - half)
+    if float(np.ptp(mean[inside])) <= WANDERING * float(np.std(x)):
+        return x
+    nearest = np.clip(np.arange(x.size), inside[0], inside[-1])
+    return np.asarray(x - mean[nearest] - slope[nearest] * (np.arange(x.size) - nearest), dtype=np.float64)
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from ridgeback.numeric.tracking.clear_stretch import clear_stretch, followed_str
 from ridgeback.numeric.tracking.followed import along, lengthened
 from ridgeback.numeric.tracking.request import Request, prepared
 
-FOLLOWED = "the frequency changes slowly enough to be followed"
+FOLLOWED = "one smooth oscillation can be followed"
 FEWEST_CYCLES = 8.0
 """Of a record, from which on a part of it is looked for in which a frequency can be followed."""
 

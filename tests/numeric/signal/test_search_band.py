@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.signal import search_band
 from ridgeback.numeric.signal.samples import checked_rate
 from ridgeback.numeric.signal.search_band import guide_path, strongest_frequency
@@ -67,3 +71,15 @@ def test_a_record_of_three_cycles_shows_them(ratio: float) -> None:
 def test_a_straight_line_has_no_cycles() -> None:
     t = np.arange(400) / 100.0
     assert strongest_frequency(3.0 * t, 100.0) * 4.0 / (2 * np.pi) == pytest.approx(2.5)
+
+
+@pytest.mark.parametrize(
+    "drift", [lambda t: 0.4 * t, lambda t: 5.0 * np.exp(-t / 3.0)], ids=["straight", "exponential"]
+)
+def test_a_drift_beneath_a_decay_does_not_draw_the_guide_away_from_its_tail(drift: Callable[[Array], Array]) -> None:
+    t, w = np.arange(800) / 80.0, 10.0 * np.pi
+    noise = 0.01 * np.random.default_rng(1).normal(size=t.size)
+    track = estimate(np.exp(-0.01 * w * t) * np.cos(w * t) + 30.0 + drift(t) + noise, 80.0)
+    assert track.used.span is None
+    assert track.interval is not None
+    assert np.mean(track.interval.holds(np.full(t.size, w))[track.valid]) > 0.8
