@@ -196,7 +196,7 @@ def without_drift(x: Array, half: int) -> Array:
     """
     if x.size < 4 * half:
         return x
-    mean, slope = (part.real for part in local_line(x + 0j, window("blackman", half), 1.0))
+    mean, slope = (part.real for part in local_line(x.astype(np.complex128), window("blackman", half), 1.0))
     inside = np.arange(half, x.size - half)
     if float(np.ptp(mean[inside])) <= WANDERING * float(np.std(x)):
         return x
