@@ -7,6 +7,7 @@ their frequency, or change it smoothly as they decay, so that tracks which come 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -16,7 +17,6 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.recording.measurement import Measurement, estimated, measure, measured
 from ridgeback.numeric.components.tones import Tone
 from ridgeback.numeric.recording.recording import Recording
-from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.request import Request
 
 NEAR = 1.25
@@ -60,15 +60,33 @@ def measured_components(
         return [measure(recording, harmonic=harmonic, halves=halves, **words)]
     found = estimated(recording, **words)
     strongest = replace(measured(recording, found, 1, None), component=1)
-    tones = found.track.used.tones
-    if len(tones) + 1 < wanted:
-        count = f"{len(tones) + 1} of {wanted} components"
-        note = f"{count} that were asked for stand out; none is made up."
-        strongest = replace(strongest, notes=(note, *strongest.notes))
-    if found.request is None or found.track.interval is None:
-        return [strongest]
-    ordered = sorted(tones, key=lambda tone: -tone.amplitude)
-    return [strongest, *(of_tone(recording, found.request, tone, i) for i, tone in enumerate(ordered, start=2))]
+    tones = [tone for tone in found.track.used.tones if in_band(tone, words.get("band"))]
+    ordered = sorted(tones, key=lambda tone: -tone.amplitude)[: wanted - 1]
+    told = list(counted(len(ordered) + 1, wanted, words.get("band")))
+    others: list[Measurement] = []
+    if found.request is not None and found.track.interval is not None:
+        for i, tone in enumerate(ordered, start=2):
+            try:
+                others.append(of_tone(recording, found.request, tone, i))
+            except InputError as error:
+                told.append(f"Component {i}, {tone.said()}, is not measured by itself: {error}.")
+    return [replace(strongest, notes=(*told, *strongest.notes)), *others]
+
+
+def in_band(tone: Tone, band: tuple[float, float] | None) -> bool:
+    """Whether a tone is in the band that was asked for, if one was."""
+    return band is None or band[0] <= tone.omega <= band[1]
+
+
+def counted(found: int, wanted: int, band: tuple[float, float] | None) -> Iterator[str]:
+    """That fewer components stand out than were asked for, if so.
+
+    >>> list(counted(1, 2, None)), list(counted(2, 2, None))
+    (['1 of 2 components that were asked for stand out; none is made up.'], [])
+    """
+    if found < wanted:
+        where = "" if band is None else " in the band"
+        yield f"{found} of {wanted} components that were asked for stand out{where}; none is made up."
 
 
 def of_tone(recording: Recording, request: Request, tone: Tone, number: int) -> Measurement:
@@ -88,8 +106,5 @@ def of_tone(recording: Recording, request: Request, tone: Tone, number: int) -> 
     )
     band = (tone.omega / NEAR, min(tone.omega * NEAR, 0.999 * np.pi * signal.rate))
     note = f"Component {number}, {tone.said()}: measured in what the others leave of the samples."
-    try:
-        found = measure(here, band=band, components=1)
-    except InputError as error:
-        raise InputError(f"component {number}, near {tone.omega / TWO_PI:.6g} cycles per unit: {error}") from None
+    found = measure(here, band=band, components=1)
     return replace(found, notes=(note, *found.notes), component=number)

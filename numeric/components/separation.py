@@ -20,9 +20,10 @@ from ridgeback.numeric.components.bends import with_bends
 from ridgeback.numeric.components.candidates import first_tones, in_turns, more_tones
 from ridgeback.numeric.components.doubts import doubt
 from ridgeback.numeric.components.given import Given, residual
-from ridgeback.numeric.components.lines import colour
+from ridgeback.numeric.components.lines import LEAST, clearest_line, colour
 from ridgeback.numeric.components.spikes import spikes
 from ridgeback.numeric.components.tones import Tone, total
+from ridgeback.numeric.components.unlocked import locked_and_others, unlocked
 from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
 from ridgeback.numeric.harmonics.spline_fit import Known
 from ridgeback.numeric.harmonics.spline_model import SplineModel
@@ -31,8 +32,8 @@ from ridgeback.numeric.signal.samples import TWO_PI
 MOST_TONES = 6
 SAME = 0.1
 """Of the noise, by which tones may differ between two models."""
-ROUNDS = 3
-"""In which spikes are looked for."""
+ROUNDS, FEW = 3, 0.01
+"""In which spikes, and other modes among the harmonics, are looked for; and the share of samples that are few."""
 
 
 @dataclass(frozen=True)
@@ -106,15 +107,22 @@ def separated(
         apart = total(beyond, np.arange(x.size) / rate)
         bare = signal_models(x - apart, rate, guide, half=half, multiples=(), known=Known(sound.astype(float)))
         filled = np.where(sound, x, bare.best.samples() + apart)
+    free = multiples is None and most > 0
+    if free:
+        apart = filled - total(beyond, np.arange(x.size) / rate)
+        multiples, others = unlocked(apart, rate, guide, half, sound.astype(float))
+        beyond = (*beyond, *others)
     given = Given(filled, rate, guide, half, multiples, sound, band)
     most += len(beyond)
     models, tones = with_tones(given, beyond, most)
+    if free and tones:
+        given, models, tones = with_other_modes(given, models, tones, most)
     count = 0
     for _ in range(ROUNDS):
         left, cycle = residual(given.x, models.best, tones), TWO_PI * rate / float(np.median(guide))
         off = spikes(left, cycle, float(models.best.size.max())) & given.sound
-        if not off.any():
-            break
+        if not off.any() or (off.mean() > FEW and clearest_line(left, rate, LEAST * float(models.best.size.max()))):
+            break  # so many, where a line is left, are its tops
         sound, count = given.sound & ~off, count + int(off.sum())
         filled = np.where(sound, x, models.best.samples() + total(tones, given.time))
         given = replace(given, x=filled, sound=sound)
@@ -184,6 +192,25 @@ def with_tones(given: Given, here: tuple[Tone, ...], most: int) -> tuple[SignalM
         except InputError:
             break
     return models, here
+
+
+def with_other_modes(
+    given: Given, models: SignalModels, tones: tuple[Tone, ...], most: int
+) -> tuple[Given, SignalModels, tuple[Tone, ...]]:
+    """The same with tones for what was taken for harmonics and is none, which shows once other tones are off."""
+    sound = given.known.sound_of(given.x.size)
+    for _ in range(ROUNDS):
+        apart = given.x - total(tones, given.time)
+        kept, others = locked_and_others(apart, models.best, models.best.multiples, sound)
+        if not others:
+            break
+        told = replace(given, multiples=kept)
+        try:
+            models, tones = with_tones(told, (*tones, *others), most + len(others))
+        except InputError:
+            break
+        given, most = told, most + len(others)
+    return given, models, tones
 
 
 def settled(given: Given, tones: tuple[Tone, ...]) -> tuple[SignalModels, tuple[Tone, ...]]:

@@ -104,6 +104,8 @@ HARDLY_KNOWN = 0.1
 """Half width of a 95 % interval, relative to omega, beyond which a value is not counted as valid."""
 MORE_PER_CYCLE, VERY_LONG = 12.0, 65_536
 """Samples a cycle that methods other than auto keep of a record of more samples than that."""
+OF_A_MODE = 0.6
+"""Of the samples a cycle that as many harmonics need, those that are kept for components of which there are so many."""
 QUADRATIC = ("wigner", "pseudo-wigner", "smoothed-pseudo-wigner", "polynomial-wigner")
 """Methods whose distribution has cross terms on the harmonics."""
 
@@ -297,9 +299,9 @@ def estimation(
 def of_enough_samples(
     samples: Samples, method: str, options: Options, harmonic: int
 ) -> tuple[Samples, SearchBand | None]:
-    """A long record decimated, as far as method and harmonics allow, with its search band where that was looked for."""
+    """A long record decimated, as far as the options allow, with its search band where that was looked for."""
     least, longest = (PER_CYCLE, LONG) if method == "auto" else (MORE_PER_CYCLE, VERY_LONG)
-    highest = max(harmonic, options.harmonics or 1)
+    highest = max(harmonic, options.harmonics or 1, OF_A_MODE * (options.components or 1))
     return decimated(samples, band=options.band, per_cycle=max(least, 4.0 * highest), longest=longest)
 
 

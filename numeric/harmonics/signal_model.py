@@ -81,15 +81,19 @@ def signal_models(
     >>> models.coarse.parameters < models.fine.parameters, round(models.cycles, 1)
     (True, 28.6)
     """
-    if multiples is None:
-        cycle = TWO_PI / float(guide.min())
-        wide = max(half, math.ceil(0.5 * WINDOW_CYCLES * cycle * rate), min(WINDOW_HALF, x.size // 8))
-        multiples = choose_multiples(x, rate, guide, half=min((x.size - 1) // 2, wide))
+    multiples = shown_multiples(x, rate, guide, half=half) if multiples is None else multiples
     models = harmonic_splines(x, rate, guide, multiples=multiples, known=known)
     least = best_model(models)
     at, last = next(i for i, model in enumerate(models) if model is least), len(models) - 1
     best, fine = models[min(at + STEPS_BEYOND, last)], models[min(at + STEPS_FINER, last)]
     return SignalModels(best, fine, least if fine is not least else models[max(at - 1, 0)], tuple(models))
+
+
+def shown_multiples(x: Array, rate: float, guide: Array, *, half: int) -> tuple[int, ...]:
+    """The harmonics that windows of 2 ``half`` + 1 samples show, or longer ones where those are too short."""
+    cycle = TWO_PI / float(guide.min())
+    wide = max(half, math.ceil(0.5 * WINDOW_CYCLES * cycle * rate), min(WINDOW_HALF, x.size // 8))
+    return choose_multiples(x, rate, guide, half=min((x.size - 1) // 2, wide))
 
 
 @lru_cache(maxsize=2)

@@ -16,7 +16,7 @@ import numpy as np
 
 from ridgeback.numeric.components.tones import Tone
 from ridgeback.numeric.signal.decimation import Samples
-from ridgeback.numeric.signal.search_band import SearchBand
+from ridgeback.numeric.signal.search_band import MARGIN, SearchBand, guide_path
 from ridgeback.numeric.tracking.clear_stretch import clear_stretch, followed_stretch
 from ridgeback.numeric.tracking.followed import along, lengthened
 from ridgeback.numeric.tracking.request import Request, prepared
@@ -47,7 +47,20 @@ def in_its_stretch(request: Request, samples: Samples) -> Request:
         return part_of(request, samples, stretch, "the amplitude stands above the noise")
     if not request.options.bias or request.options.band is not None or has_model(request):
         return request
-    return along_what_is_followed(request, samples)
+    return near_its_line(request) or along_what_is_followed(request, samples)
+
+
+def near_its_line(request: Request) -> Request | None:
+    """The request with a guide that keeps near the strongest line; None where no model holds along it.
+
+    Of several modes of like strength the guide goes over to another as the first decays.
+    """
+    signal = request.signal
+    centre, rate = signal.search.centre, signal.rate
+    guide = guide_path(signal.x, rate, centre, centre / MARGIN, min(centre * MARGIN, math.pi * rate))
+    near = replace(request, signal=replace(signal, search=along(signal.search, guide, rate)))
+    found = near.separated()
+    return None if found.known_models is None or found.signal.doubt else near
 
 
 def along_what_is_followed(request: Request, samples: Samples) -> Request:

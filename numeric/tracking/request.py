@@ -61,8 +61,10 @@ class Options:
 
     @property
     def most_tones(self) -> int:
-        """Tones to look for beside the oscillation."""
-        return MOST_TONES if self.components is None else self.components - 1
+        """Tones to look for beside the oscillation: more than are asked for, too, lest they disturb it."""
+        if self.components == 1:
+            return 0
+        return MOST_TONES if self.components is None else max(MOST_TONES, self.components - 1)
 
     @property
     def given(self) -> list[str]:

@@ -180,7 +180,7 @@ OPTIONS = (
         default="auto",
         show_default=True,
         help="Oscillations to tell apart: the strongest in the band, and tones beside it, which are taken off; with N "
-        "each has a track and a backbone of its own.",
+        "the N strongest have a track and a backbone each.",
     ),
     click.option("--single", is_flag=True, help="Compute these three in single precision."),
     click.option("--remove-bias", is_flag=True, help="Take the estimated bias off the values."),

@@ -57,3 +57,43 @@ def test_components_are_told_in_every_form(style: str) -> None:
         assert "u, component 1: 800 samples" in text
         assert "u, component 2: 800 samples" in text
     assert not found.combined
+
+
+def test_modes_at_one_to_two_are_two_and_neither_is_a_harmonic() -> None:
+    t, noise = np.arange(1200) / 1000.0, 0.01 * np.random.default_rng(3).normal(size=1200)
+    size = np.exp(-2.5 * t)
+    softening = size * np.cos(2 * np.pi * (122.0 * t - 0.244 * (1.0 - size**2)))  # 122 (1 - 0.01 a^2) Hz
+    x = softening + 0.6 * np.exp(-4.0 * t) * np.cos(2 * np.pi * 243.0 * t + 1.0) + noise
+    first, second = measured_components(Recording.from_arrays(x, 1000.0), components=2)
+    for one, omega in ((first, 244 * np.pi * (1.0 - 0.01 * size**2)), (second, np.full(1200, 486 * np.pi))):
+        assert one.track is not None
+        inside = one.track.inside()
+        assert inside.interval is not None
+        assert np.mean(inside.interval.holds(np.interp(inside.time, t, omega))) > 0.7
+        assert len(one.track.used.tones) == (one is first)
+
+
+def test_partials_of_a_stiff_string_are_modes_each_over_the_whole_record() -> None:
+    t, noise = np.arange(1500) / 2000.0, 0.003 * np.random.default_rng(5).normal(size=1500)
+    partials = {110.0 * n * np.sqrt(1.0 + 8e-4 * n**2): 1.2 + 0.5 * n for n in (1, 2, 3, 4)}
+    sizes = (0.6, 0.9, 0.5, 0.3)
+    waves = (
+        a * np.exp(-g * t) * np.cos(2 * np.pi * f * t + f) for a, (f, g) in zip(sizes, partials.items(), strict=True)
+    )
+    found = measured_components(Recording.from_arrays(sum(waves) + noise, 2000.0), components=4)
+    assert len(found) == 4
+    assert found[0].track is not None
+    assert found[0].track.used.span is None
+    for one in found:
+        assert one.track is not None
+        f = float(np.median(one.track.inside().frequency_hz))
+        near = min(partials, key=lambda true: abs(true - f))
+        assert abs(f - near) < 0.1
+        assert one.backbone is not None
+        assert abs(np.median(one.backbone.curve_growth_rate) + partials.pop(near)) < 0.1
+
+
+def test_a_component_of_a_band_is_in_it() -> None:
+    found = measured_components(two_modes(2), components=2, band=(100.0, 130.0))
+    assert [one.component for one in found] == [1]
+    assert found[0].notes[0].startswith("1 of 2 components that were asked for stand out in the band")

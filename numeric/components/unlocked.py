@@ -1,0 +1,203 @@
+"""Lines near the multiples of an oscillation that are not its harmonics: other modes, whose phase slips from its own.
+
+    y = Re[Z e^((g + i d) t + i h phi(t))],
+
+is a line near h times the oscillation of phase phi.  A harmonic turns h times as often as the oscillation does,
+whatever its frequency: d = 0.  A mode at a ratio near h, such as 1.99 or the partials of a stiff string, slips.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+
+from ridgeback.common.errors import InputError
+from ridgeback.numeric.arrays import Array, ComplexArray
+from ridgeback.numeric.components.tones import Tone, fitted_tone, total
+from ridgeback.numeric.harmonics.signal_model import shown_multiples, signal_models
+from ridgeback.numeric.harmonics.spline_fit import Known
+from ridgeback.numeric.harmonics.spline_model import SplineModel
+from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.signal.search_band import half_tapers
+
+AROUND = 0.3
+"""Distance from a multiple, in the oscillation's frequency, within which a line is looked for."""
+SLIP, SURE = 0.5, 5.0
+"""Radians by which a phase must slip while there is something of the line, and times its deviation that d must be."""
+FAINT, MUCH = 0.01, 0.05
+"""Of the oscillation's amplitude, that another mode must have; of its power, by which it must explain more of the
+samples than a harmonic that keeps its phase does, though its own frequency be the same on the mean."""
+ITERATIONS, TURNS = 12, 3
+SHALLOWEST, FALLS = 2.0, 2.0
+"""Growth rates that a fit begins from: the first times the length of the record, one over the one before."""
+
+
+@dataclass(frozen=True)
+class Riding:
+    """A line on a multiple: d and g (per time unit), Z, and the deviation of d."""
+
+    slope: float
+    growth: float
+    size: complex
+    deviation: float = math.inf
+
+    def wave(self, time: Array, turn: ComplexArray) -> ComplexArray:
+        """What multiplies Z."""
+        return np.asarray(np.exp((self.growth + 1j * self.slope) * time) * turn, dtype=np.complex128)
+
+    def slips(self, time: Array) -> bool:
+        """Whether it is no harmonic."""
+        weight = np.exp(2.0 * self.growth * (time - time[0]))
+        middle = float(np.average(time, weights=weight))
+        length = math.sqrt(12.0 * float(np.average((time - middle) ** 2, weights=weight)))
+        return abs(self.slope) > SURE * self.deviation and abs(self.slope) * length > SLIP
+
+
+def riding(left: Array, time: Array, turn: ComplexArray, reach: float, sound: Array) -> Riding:
+    """The strongest line within ``reach`` of a multiple, whose turning factor is ``turn``, by least squares.
+
+    >>> t = np.arange(1500) / 250.0
+    >>> x = 0.3 * np.exp(-t) * np.cos(128.0 * t + 1.0)
+    >>> line = riding(x, t, np.exp(126j * t), 20.0, np.ones(1500))
+    >>> round(line.slope, 6), round(line.growth, 6), round(abs(line.size), 6)
+    (2.0, -1.0, 0.3)
+    """
+    line = begin(left * sound, time, turn, reach)
+    for _ in range(ITERATIONS):
+        wave = line.wave(time, turn)
+        linear = np.stack([wave.real, -wave.imag], axis=1) * sound[:, None]
+        size = complex(*np.linalg.lstsq(linear, left * sound, rcond=None)[0].tolist())
+        whole = size * wave
+        jacobian = np.concatenate([linear, (np.stack([-whole.imag, whole.real], axis=1).T * time * sound).T], axis=1)
+        off = (left - whole.real) * sound
+        step = np.linalg.lstsq(jacobian, off, rcond=None)[0]
+        most = max(0.5 / float(time[-1]), 0.3 * abs(line.growth))
+        slope, growth = (float(np.clip(one, -most, most)) for one in step[2:])
+        variance = float(np.mean(off**2) * np.linalg.pinv(jacobian.T @ jacobian)[2, 2])
+        line = Riding(
+            float(np.clip(line.slope + slope, -reach, reach)),
+            float(np.clip(line.growth + growth, -reach, 2.0 / float(time[-1]))),
+            size,
+            math.sqrt(max(variance, 0.0)),
+        )
+    return line
+
+
+def begin(left: Array, time: Array, turn: ComplexArray, reach: float) -> Riding:
+    """Where a fit begins: at the highest line of any taper, with the growth rate that explains most."""
+    turned, size = left * turn.conj(), 2 * time.size
+    omega = TWO_PI * fft.fftfreq(size, float(time[1] - time[0]))
+    tapers = (np.hanning(time.size), *half_tapers(time.size))
+    heights = np.max([np.abs(fft.fft(turned * w, size)) / float(w.sum()) for w in tapers], axis=0)
+    at = float(omega[np.where(np.abs(omega) < reach, heights, 0.0).argmax()])
+    growths, fall = [0.0], SHALLOWEST / float(time[-1])
+    while fall < reach:
+        growths.append(-fall)
+        fall *= FALLS
+
+    def explained(one: Riding) -> float:
+        wave = one.wave(time, turn)
+        return float(abs(np.vdot(wave, left)) ** 2 / np.sum(np.abs(wave) ** 2))
+
+    return max((Riding(at, growth, 0j) for growth in growths), key=explained)
+
+
+def slipping(left: Array, model: SplineModel, multiples: tuple[int, ...], sound: Array) -> dict[int, Tone]:
+    """Tones for the multiples of an oscillation that are none of its harmonics, the strongest taken first.
+
+    ``left`` is what a model of the oscillation without harmonics leaves of the samples.
+    """
+    time, omega = model.time, float(np.average(model.omega, weights=model.size**2))
+    turns = {h: np.exp(1j * h * model.phase) for h in multiples}
+    sizes = {h: abs(riding(left, time, turns[h], AROUND * omega, sound).size) for h in multiples}
+    found = dict[int, Tone]()
+    for h in sorted(multiples, key=lambda h: -sizes[h]):
+        line = riding(left, time, turns[h], AROUND * omega, sound)
+        harmonic = (line.size * line.wave(time, turns[h])).real
+        tone = fitted_tone(left, time, h * omega + line.slope, sound)
+        mode = tone.samples(time)
+        strong = tone.amplitude > FAINT * float(model.size.max())
+        near = abs(tone.omega - h * omega) < AROUND * omega
+        if strong and near and (line.slips(time) or fits_better(left * sound, mode * sound, harmonic * sound)):
+            found[h] = tone
+        left = left - (mode if h in found else harmonic)
+    return found
+
+
+# Two models of as many parameters: n log of the ratio of what they leave is twice that of their likelihoods.
+def fits_better(x: Array, one: Array, other: Array) -> bool:
+    """Whether one model of samples leaves far less of them than another, in view of their noise and of what they say.
+
+    >>> x, noise = np.cos(np.arange(200.0)), 0.1 * np.random.default_rng(1).normal(size=200)
+    >>> fits_better(x + noise, x, 0.5 * x), fits_better(x + noise, x, 0.999 * x)
+    (True, False)
+    """
+    left, rest = float(np.sum((x - one) ** 2)), float(np.sum((x - other) ** 2))
+    sure = x.size * math.log(max(rest, 1e-300) / max(left, 1e-300)) > SURE**2
+    return sure and rest - left > MUCH * float(np.sum(one**2))
+
+
+def unlocked(
+    x: Array, rate: float, guide: Array, half: int, sound: Array
+) -> tuple[tuple[int, ...] | None, tuple[Tone, ...]]:
+    """The harmonics that are locked to an oscillation, and tones for other modes near its multiples.
+
+    Parameters
+    ----------
+    x : array of float, shape (N,)
+        Samples without their mean.
+    rate : float
+        Samples per time unit.
+    guide : array of float, shape (N,)
+        About the frequency of the oscillation, rad per time unit.
+    half : int
+        Half the window in which harmonics are chosen.
+    sound : array of float, shape (N,)
+        1 at the samples that count.
+
+    Returns
+    -------
+    multiples : tuple of int, or None
+        None where all that the samples show are harmonics, or no model tells.
+    tones : tuple of Tone
+        The strongest first.
+
+    Examples
+    --------
+    >>> t, noise = np.arange(1500) / 250.0, 0.01 * np.random.default_rng(1).normal(size=1500)
+    >>> x = np.exp(-0.5 * t) * np.cos(63.0 * t + 0.2 * np.exp(-t)) + noise
+    >>> guide, sound = np.full(1500, 63.0), np.ones(1500)
+    >>> multiples, (tone,) = unlocked(x + 0.3 * np.exp(-t) * np.cos(128.0 * t), 250.0, guide, 50, sound)
+    >>> multiples, round(tone.omega), round(tone.growth)
+    ((), 128, -1)
+    >>> unlocked(x + 0.1 * np.exp(-t) * np.cos(126.0 * t + 0.4 * np.exp(-t)), 250.0, guide, 50, sound)
+    (None, ())
+    """
+    try:
+        multiples = shown_multiples(x, rate, guide, half=half)
+        known = Known(None if sound.all() else sound)
+        models = signal_models(x, rate, guide, half=half, multiples=(), known=known) if multiples else None
+    except InputError:
+        return None, ()
+    if models is None:
+        return None, ()
+    return locked_and_others(x, models.best, multiples, sound)
+
+
+def locked_and_others(
+    x: Array, model: SplineModel, multiples: tuple[int, ...], sound: Array
+) -> tuple[tuple[int, ...] | None, tuple[Tone, ...]]:
+    """The same by a model of the oscillation, of which its harmonics do not count."""
+    left = x - model.samples(keep=lambda h: h < 2)
+    others = slipping(left, model, multiples, sound)
+    if not others:
+        return None, ()
+    tones, time = tuple(others.values()), model.time
+    for _ in range(TURNS):
+        for i, tone in enumerate(tones):
+            rest = left - total((*tones[:i], *tones[i + 1 :]), time)
+            tones = (*tones[:i], fitted_tone(rest, time, tone.omega, sound, tone), *tones[i + 1 :])
+    return tuple(h for h in multiples if h not in others), tones
