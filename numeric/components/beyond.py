@@ -75,7 +75,8 @@ def tones_beyond(x: Array, rate: float, band: tuple[float, float], sound: Mask |
             break
         left = x - total(found, time)
         more = one_more(x, time, rate, (*found, fitted_tone(left, time, line.omega, counted)), counted)
-        after = highest(x - total(more, time), rate, (0.8 * line.omega, 1.25 * line.omega))
+        near = 0.5 * TWO_PI * rate / x.size
+        after = highest(x - total(more, time), rate, (line.omega - near, line.omega + near))
         if after is not None and after.height > TAKEN_OFF * line.height:
             break
         found = more
