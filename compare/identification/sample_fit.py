@@ -23,7 +23,7 @@ from scipy.special import chdtrc, fdtrc
 from ridgeback.common.show.brief import Brief
 from ridgeback.numeric.arrays import Array, freeze
 from ridgeback.numeric.harmonics.signal_model import SignalModels
-from ridgeback.numeric.late import signal
+from ridgeback.numeric.signal.averaged_spectrum import averaged_spectrum
 
 RARE = 0.01
 """Probability of so high a line in white noise below which it is called one."""
@@ -209,8 +209,8 @@ def sample_fit(time: Array, samples: Array, model: Array, rate: float, fundament
 def spectrum(x: Array, rate: float) -> tuple[Array, Array]:
     """Welch's spectrum under a Hann window, and its angular frequencies."""
     length = max(16, 2 * x.size // (SEGMENTS + 1))
-    frequency, power = signal.welch(x - x.mean(), rate, "hann", min(length, x.size), detrend="constant")
-    return np.asarray(2 * np.pi * frequency), np.asarray(power, dtype=float)
+    frequency, power = averaged_spectrum(x, rate, min(length, x.size))
+    return 2 * np.pi * frequency, power
 
 
 def level(power: Array, top: float) -> Array:
