@@ -80,7 +80,8 @@ class Measurement(Brief):
         if found.interval is not None:
             low, high = (np.where(found.valid, end, np.nan) for end in found.interval)
             return Along(found.time, values, low, high)
-        deviation = np.nan if found.standard_deviation is None else found.standard_deviation
+        claimed = found.no_interval is None and found.standard_deviation is not None
+        deviation = found.standard_deviation if claimed and found.standard_deviation is not None else np.nan
         return Along(found.time, values, values - NORMAL_95 * deviation, values + NORMAL_95 * deviation)
 
     def rows(self) -> list[Row]:

@@ -18,6 +18,8 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.reports.drawing.scale import round_values, shared_power, tick_labels
 from ridgeback.reports.drawing.theme import Variant, colour_of
 
+LINE = 15.0
+"""Height of a line of text."""
 TOP, BOTTOM, LEFT, RIGHT, GAP = 26.0, 34.0, 46.0, 18.0, 34.0
 
 
@@ -55,13 +57,23 @@ class Canvas:
         return self.grid(shares, 1, left=left, gap=gap)
 
     def grid(
-        self, shares: Sequence[float], columns: int, *, left: float = LEFT, gap: float = GAP, right: float = RIGHT
+        self,
+        shares: Sequence[float],
+        columns: int,
+        *,
+        left: float = LEFT,
+        gap: float = GAP,
+        right: float = RIGHT,
+        above: float = 0.0,
     ) -> list[Axes]:
-        """Make rows of panels, heights in proportion to ``shares``, ``columns`` of equal width; row by row."""
+        """Make rows of panels below what stands ``above`` them, ``columns`` of equal width; row by row.
+
+        Their heights are in proportion to ``shares``.
+        """
         width, height = self.figure.get_size_inches() * 72
         cell = (width - (left + right) * columns) / columns
-        usable = height - TOP - BOTTOM - gap * (len(shares) - 1)
-        top = height - TOP
+        usable = height - above - TOP - BOTTOM - gap * (len(shares) - 1)
+        top = height - above - TOP
         for share in shares:
             size = usable * share / sum(shares)
             for column in range(columns):
@@ -70,6 +82,13 @@ class Canvas:
                 self.panels.append(dress(self.figure.add_axes(place)))
             top -= size + gap
         return self.panels
+
+
+def heading(canvas: Canvas, lines: Sequence[str], *, left: float) -> None:
+    """Write lines at the top of a figure, LINE points each."""
+    width, height = canvas.figure.get_size_inches() * 72
+    for i, words in enumerate(lines, start=1):
+        canvas.figure.text(left / width, 1.0 - LINE * i / height, words, color=colour_of("fg"))
 
 
 def dress(axes: Axes) -> Axes:

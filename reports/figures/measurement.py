@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from textwrap import wrap
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,7 +13,7 @@ from ridgeback.common.visible import visible
 from ridgeback.compare.recording.measurement import Measurement
 from ridgeback.compare.recording.measurements import Measurements
 from ridgeback.numeric.arrays import Array
-from ridgeback.reports.drawing.canvas import Canvas, Line, draw, linear, padded, titles
+from ridgeback.reports.drawing.canvas import LINE, Canvas, Line, draw, heading, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.picture import picture
 from ridgeback.reports.drawing.theme import SERIES, Variant, colour_of
@@ -24,6 +25,8 @@ PAGE = Variant("wide", 9.6, 6.4)
 MOST_POINTS = 4000
 """Samples drawn of each signal: more than a picture has columns."""
 LEFT, GAP = 52.0, 66.0
+WIDEST = 100
+"""Letters of a line over the panels."""
 LONGEST_NAME = 28
 """Letters of a channel's name that fit under a panel."""
 TWO_SIDED = 1.96
@@ -64,15 +67,25 @@ def plot_file(found: Measurements, kind: str) -> bytes:
 
 def drawn(found: Measurements) -> Canvas:
     """Draw the four panels."""
-    canvas = Canvas(PAGE)
-    panels = canvas.grid((1.0, 1.0), 2, left=LEFT, gap=GAP)
     shown = found.measured[: len(SERIES)]
+    said = unclaimed(shown)
+    canvas = Canvas(PAGE, height=PAGE.height + LINE * len(said) / 72.0)
+    heading(canvas, said, left=10.0)
+    panels = canvas.grid((1.0, 1.0), 2, left=LEFT, gap=GAP, above=LINE * len(said))
     cut = f", {len(shown)} of {len(found.measured)} signals" if len(shown) < len(found.measured) else ""
     signal_panel(panels[0], shown, cut)
     frequency_panel(panels[1], shown)
     curve_panel(panels[2], found, "omega")
     curve_panel(panels[3], found, "growth_rate")
     return canvas
+
+
+def unclaimed(shown: Sequence[Measurement]) -> list[str]:
+    """Why there is no interval or no backbone of the signals drawn, in lines; none where everything is claimed."""
+    reasons = dict.fromkeys(
+        reason for one in shown for reason in (one.track and one.track.no_interval, one.unmeasured) if reason
+    )
+    return [line for reason in reasons for line in wrap(f"Not claimed: {visible(reason)}.", WIDEST)]
 
 
 def channels(shown: Sequence[Measurement]) -> str:
@@ -132,7 +145,7 @@ def frequency_panel(axes: Axes, shown: Sequence[Measurement]) -> None:
     """Frequency over time where it is valid, with its band."""
     bands = [track_band(one, label_of(one, shown), token) for one, token in zip(shown, SERIES, strict=False)]
     span(axes, [band.line for band in bands])
-    draw_bands(axes, bands, titled=(CLOCK.time_title, f"{CLOCK.title()}, 95 % band"))
+    draw_bands(axes, bands, titled=(CLOCK.time_title, CLOCK.title()))
 
 
 def track_band(one: Measurement, label: str, token: str) -> Band:
@@ -160,13 +173,18 @@ def curve_panel(axes: Axes, found: Measurements, what: str) -> None:
         bands.append(band_of(line, deviation * factor))
     linear(axes, "x", *amplitudes(np.concatenate([band.line.x for band in bands] or [np.array([])])), ticks=6)
     title = CLOCK.title() if what == "omega" else "a′/a / (1/s)"
-    draw_bands(axes, bands, titled=(f"amplitude of {channels(shown)}", f"{title}, 95 % band"))
+    draw_bands(axes, bands, titled=(f"amplitude of {channels(shown)}", title))
 
 
 def draw_bands(axes: Axes, bands: Sequence[Band], *, titled: tuple[str, str]) -> None:
     """Curves over their bands."""
     linear(axes, "y", *padded([values for band in bands for values in (band.line.y, band.low, band.high)], share=0.12))
-    titles(axes, x=titled[0], y=titled[1])
+    claimed = any(np.isfinite(band.low).any() for band in bands)
+    told = "95 % band" if claimed else "no interval" if bands else "not claimed"
+    titles(axes, x=titled[0], y=f"{titled[1]}, {told}")
+    if not bands:
+        axes.set_xticks([])
+        axes.set_yticks([])
     for band in bands:
         axes.fill_between(band.line.x, band.low, band.high, color=colour_of(band.line.token), alpha=0.18, linewidth=0.0)
         draw(axes, band.line)

@@ -127,7 +127,9 @@ def briefly(row: Mapping[str, Any]) -> dict[str, Any]:
     """A row for the eye: each value with its deviation, frequencies in Hz, what follows from them left out.
 
     >>> briefly({"time_s": 0.5, "frequency_hz": 1.25, "standard_deviation_rad_s": 0.02, "valid": True})
-    {'time, s': 0.5, 'frequency, Hz': '1.2500 +- 0.0032', 'valid': True}
+    {'time, s': 0.5, 'frequency, Hz': 1.25, 'valid': True}
+    >>> briefly({"amplitude": 2.0, "amplitude_standard_deviation": 0.05})
+    {'amplitude': '2.000 +- 0.050'}
     """
     found: dict[str, Any] = {"time, s": row["time_s"]} if "time_s" in row else {}
     for title, value, deviation in (
@@ -145,6 +147,8 @@ def briefly(row: Mapping[str, Any]) -> dict[str, Any]:
 def hertz_of(row: Mapping[str, Any]) -> tuple[float | None, float | None]:
     """A row's frequency in Hz and one sigma of it: by its interval, which lies about the estimate less its bias.
 
+    A row of a track without an interval claims none; one of a backbone has but its deviation.
+
     >>> row = {"frequency_hz": 1.3, "low_95_rad_s": 2 * np.pi * 1.0, "high_95_rad_s": 2 * np.pi * 1.4}
     >>> [round(value, 6) for value in hertz_of(row)], hertz_of({"frequency_hz": 1.3})
     ([1.2, 0.102043], (1.3, None))
@@ -152,7 +156,7 @@ def hertz_of(row: Mapping[str, Any]) -> tuple[float | None, float | None]:
     if row.get("low_95_rad_s") is not None:
         low, high = (float(row[end]) / (2.0 * np.pi) for end in ("low_95_rad_s", "high_95_rad_s"))
         return 0.5 * (low + high), (high - low) / (2.0 * NORMAL_95)
-    known = row.get("omega_standard_deviation_rad_s", row.get("standard_deviation_rad_s"))
+    known = row.get("omega_standard_deviation_rad_s")
     return row.get("frequency_hz"), None if known is None else float(known) / (2.0 * np.pi)
 
 

@@ -79,6 +79,18 @@ def test_axes_are_named_with_their_units(one: Measurements) -> None:
     assert "u [mm]" in words
 
 
+def test_why_nothing_is_claimed_stands_above_the_panels() -> None:
+    """Three oscillations whose frequencies cross again and again."""
+    t, turn = np.arange(600) / 40.0, 2.0 * np.pi
+    x = np.cos(turn * (3.0 * t + 0.06 * t**2)) + 0.9 * np.cos(turn * (5.0 * t - 0.06 * t**2))
+    x += 0.8 * np.cos(turn * (4.0 * t + 0.5 * np.sin(0.9 * t))) + 0.01 * np.random.default_rng(2).normal(size=t.size)
+    found = measure_recordings([Recording(t, x, 40.0, "u", "mm", "run.csv", "0")])
+    placed = boxes(plot_file(found, "svg"))
+    said = next(box for box in placed if box[0].startswith("Not claimed: "))
+    assert 0.0 <= said[2] < said[4] < min(top for words, _, top, _, _ in placed if words == "u [mm]")
+    assert {"ω₀ / 2π, Hz, no interval", "ω₀ / 2π, Hz, not claimed"} <= {words for words, *_ in placed}
+
+
 def test_runs_and_their_common_curve_are_told_apart(several: Measurements) -> None:
     words = [element.text for element in texts(plot_file(several, "svg"))]
     assert words.count("combined") == 2
