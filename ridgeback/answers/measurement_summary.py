@@ -104,18 +104,18 @@ def backbone_lines(curve: Backbone) -> list[str]:
 
 
 def uncertain(value: float, deviation: float) -> str:
-    """A value to the second digit of its deviation; a small one by a power of ten.
+    """A value to the second digit of its deviation, to the first of a sharp one; a small one by a power of ten.
 
     >>> uncertain(3.14159, 0.0123), uncertain(-5.7792e-7, 5.4e-10), uncertain(1.0, float("nan"))
     ('3.142 +- 0.012', '(-5.7792 +- 0.0054)e-07', '1 +- nan')
     >>> uncertain(3.14159265, 2e-9)
-    '3.1415926500 +- 2.0e-09'
-    >>> uncertain(0.00477464, 1.5e-8), uncertain(3e-5, 4.8e-4), uncertain(-2e-6, 3.4e-5)
-    ('0.004774640 +- 1.5e-08', '0.00003 +- 0.00048', '(-0.2 +- 3.4)e-05')
+    '3.141592650 +- 2e-09'
+    >>> uncertain(0.00477464, 1.6e-8), uncertain(3e-5, 4.8e-4), uncertain(-2e-6, 3.4e-5)
+    ('0.00477464 +- 2e-08', '0.00003 +- 0.00048', '(-0.2 +- 3.4)e-05')
     """
     size = abs(value)
     if 0.0 < deviation < SHARP * (1.0 if SMALL < size < 1.0 else size):
-        return f"{value:#.{digits_to(value, deviation)}g} +- {deviation:.1e}"
+        return f"{value:#.{digits_to(value, deviation) - 1}g} +- {deviation:.0e}"
     larger = max(size, deviation)
     if not (np.isfinite(deviation) and deviation > 0.0 and 0.0 < larger < SMALL):
         return with_deviation(value, deviation)
