@@ -18,7 +18,6 @@ from ridgeback.compare.identification.quantities import refuse_another_quantity
 from ridgeback.compare.identification.ranking import CLEAR, CRITERIA, ROUNDING, candidate
 from ridgeback.compare.identification.results import Identification, MeasuredBackbone, Prediction
 from ridgeback.compare.identification.sample_fit import (
-    UNKNOWN,
     Misfit,
     SampleFit,
     over_elsewhere,
@@ -216,15 +215,17 @@ def assembled(attempt: Attempt, kind: str, notes: tuple[str, ...], prediction: P
 
 def misfit(ready: Prepared, data: Data, best: Fit) -> Misfit:
     """How much more than noise the best fit leaves: beside a model of the samples, else beside other frequencies."""
-    left, count, models = data.length * best.residual, best.model.count, ready.models
-    beside = UNKNOWN if models is None else over_model(left, count, models, ROUNDING * data.length)
-    if models is not None and not beside.better:
-        return beside
+    count, whole = best.model.count, np.zeros(data.time.size)
+    whole[data.kept] = data.length * best.residual
+    beside, colour = UNKNOWN, 1.0
+    if ready.models is not None and ready.left is not None:
+        model = ready.models.best
+        beside, colour = over_model(whole, ready.left, count, model, ROUNDING * data.length), model.colour
+        if (beside.agrees and not beside.better) or beside.out:
+            return beside
     omega = best.model.motion(best.theta, data.time).omega
-    whole = np.zeros(data.time.size)
-    whole[data.kept] = left
-    band, colour = (float(omega.min()), float(omega.max())), 1.0 if models is None else models.best.colour
-    return over_elsewhere(whole, count, data.rate, band, colour)
+    elsewhere = over_elsewhere(whole, count, data.rate, (float(omega.min()), float(omega.max())), colour)
+    return elsewhere if elsewhere.out or elsewhere.agrees else beside
 
 
 def over_samples(recording: Recording, data: Data, best: Fit) -> SampleFit:

@@ -49,6 +49,8 @@ class Prepared:
     """Standard deviation of what such a model leaves, in the signal's unit."""
     doubt: str = ""
     """Why no model of one oscillation can be trusted, if so."""
+    left: Array | None = None
+    """What the best of the models leaves of the samples, 0 where they do not count."""
     whole: Prepared | None = None
     """The same with the tones that were found beside the oscillation, where there are any."""
 
@@ -114,7 +116,9 @@ def prepared(recording: Recording, *, span: Pair | None = None, band: Pair | Non
     here = replace(track, used=replace(track.used, span=None))
     said = (*where, *beside_notes((), track.used.spikes), *notes)
     told = (*where, *beside_notes(track.used.tones, track.used.spikes), *notes)
-    bare = Prepared(alone, here, told, ~alone.clipped, found.claimed_models, track.used.noise)
+    models = found.claimed_models
+    left = None if models is None else np.where(alone.clipped, 0.0, alone.values - models.best.samples())
+    bare = Prepared(alone, here, told, ~alone.clipped, models, track.used.noise, left=left)
     if not track.used.tones or track.used.spikes or band is not None:
         return bare
     together = in_its_span(used, track, used.values)[0]

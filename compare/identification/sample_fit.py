@@ -22,7 +22,7 @@ from scipy.special import chdtrc, fdtrc
 
 from ridgeback.common.show.brief import Brief
 from ridgeback.numeric.arrays import Array, freeze
-from ridgeback.numeric.harmonics.signal_model import SignalModels
+from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.averaged_spectrum import averaged_spectrum
 
 RARE = 0.01
@@ -86,28 +86,39 @@ class Misfit:
 UNKNOWN = Misfit()
 
 
-def over_model(residual: Array, parameters: int, models: SignalModels, floor: float = 0.0) -> Misfit:
+def over_model(residual: Array, free: Array, parameters: int, model: SplineModel, floor: float = 0.0) -> Misfit:
     """Hold what a class leaves against what a model of the same samples without any oscillator in mind does.
+
+    Both are held from below the oscillation on: slow drift beside it is no misfit of a class.
 
     Parameters
     ----------
-    residual
-        Samples less the class, in the unit of the samples that the models are of.
+    residual, free
+        Samples less the class and less the model, 0 where they do not count, shape (N,).
     parameters
         How many of the class were fitted.
-    models
-        Those of the samples, whose best is taken.
+    model
+        That model.
     floor
         Root mean square below which nothing is told.
     """
-    best = models.best
-    free = max(best.noise, floor) ** 2 * max(best.count - best.parameters, 1)
-    left = max(float(residual @ residual), best.count * floor**2)
-    if not free > 0.0 or not left > 0.0:
+    first, last = max(round(model.band[0] / (2 * np.pi) * residual.size), 1), residual.size // 2
+    (left, best), share = (in_band(x, first, last) for x in (residual, free)), model.count / residual.size
+    n = 2.0 * (last - first) * share
+    least = floor**2 * n / share
+    more = model.parameters - model.basis.count
+    if n <= more or not max(best, least) > 0.0:
         return UNKNOWN
-    beyond = best.count * math.log(left / free) / max(best.colour, 1.0)
-    chance = float(chdtrc(max(best.parameters - parameters, 1), max(beyond, 0.0)))
-    return Misfit(math.sqrt(left / best.count) / max(best.noise, floor), chance, Against.MODEL)
+    left, best = max(left, least), max(best, least)
+    close = model.colour * float(np.mean(free**2)) * n / share / best
+    beyond = n * math.log(left / best) / max(close, 1.0)
+    chance = float(chdtrc(max(more - parameters + 1, 1), max(beyond, 0.0)))
+    return Misfit(math.sqrt(left / best * (1.0 - more / n)), chance, Against.MODEL)
+
+
+def in_band(x: Array, first: int, last: int) -> float:
+    """The sum of squares in ordinates ``first`` to ``last`` of the spectrum."""
+    return float((2.0 * np.abs(np.fft.rfft(x))[first:last] ** 2).sum()) / x.size
 
 
 def over_elsewhere(

@@ -161,3 +161,12 @@ def test_a_folded_harmonic_is_no_mode_beside() -> None:
     found = identify(Recording.from_arrays(values, 1.0), candidates=("duffing-hardening",), laws=LAWS[:1])
     assert not any("taken off" in note for note in found.notes)
     assert near(found, "eps", 0.8)
+
+
+def test_a_zero_that_wanders_is_no_misfit_of_a_class() -> None:
+    t = np.arange(600) / 12.0
+    recording = of(np.exp(-0.03 * t) * np.cos(6.0 * t) + 0.02 * np.sin(0.12 * t), 12.0)
+    found = identify(recording, candidates=("linear",), laws=LAWS[:1])
+    assert found.standing is Standing.CLAIMED
+    mu = found.best.parameter("mu")
+    assert abs(mu.value - 0.03) < 3.5 * mu.standard_deviation
