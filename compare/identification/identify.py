@@ -18,6 +18,7 @@ from ridgeback.compare.identification.quantities import refuse_another_quantity
 from ridgeback.compare.identification.ranking import CLEAR, CRITERIA, ROUNDING, candidate
 from ridgeback.compare.identification.results import Identification, MeasuredBackbone, Prediction
 from ridgeback.compare.identification.sample_fit import (
+    UNKNOWN,
     Misfit,
     SampleFit,
     over_elsewhere,
