@@ -11,11 +11,12 @@ What the parts leave is the closure; it should be small beside the total, and is
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 import numpy as np
 
 from ridgeback.compare.motion.error_norms import relative_error, rms
-from ridgeback.compare.motion.estimate_curves import Outcome, attempt
+from ridgeback.compare.motion.estimate_curves import Outcome, along, attempt
 from ridgeback.compare.motion.model_curves import LINEAR
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.compare.motion.reconstruction import KnownMotion
@@ -106,7 +107,7 @@ def damped(motion: Motion, omega: Array) -> Array:
 def _estimate_row(
     motion: Motion, outcome: Outcome, known: KnownMotion | None, progress: Callable[[str], None]
 ) -> BudgetRow | None:
-    curve = outcome.curve
+    curve = _sampled(outcome, motion.time)
     if curve is None:
         return None
     total = _interior(motion, curve, relative_error(curve, motion.reference))
@@ -130,6 +131,14 @@ def _estimate_row(
     )
 
 
+def _sampled(outcome: Outcome, time: Array) -> Curve | None:
+    """An estimate at the motion's samples, where every other curve is judged: crossings alone are few and uneven."""
+    if outcome.curve is None or outcome.track is None:
+        return None
+    omega = along(outcome.track, time)
+    return replace(outcome.curve, time=time, omega=omega, valid=np.isfinite(omega), standard_deviation=None, bias=None)
+
+
 def _estimate_note(total: float, spread: float, known: bool) -> str:
     """Say when the distance is below what omega0(t) of a decay is defined to, and when the bias is not known."""
     below = "Closer to the crossings' reading than the turning points' reading is." * (total < spread)
@@ -138,12 +147,11 @@ def _estimate_note(total: float, spread: float, known: bool) -> str:
 
 
 def estimator_error(motion: Motion, outcome: Outcome, known: KnownMotion) -> Array | None:
-    """Relative error of the same estimate on the known motion, at the curve's times; None where it fails there."""
-    recipe, curve = outcome.recipe.bare, outcome.curve
+    """Relative error of the same estimate on the known motion, at the samples; None where it fails there."""
+    recipe = outcome.recipe.bare
     signal = known.velocity if recipe.velocity else known.signal
     again = attempt(recipe, signal, motion.trajectory.rate, deviations=False).curve
-    if again is None or curve is None:
+    if again is None:
         return None
     error = again.omega / np.interp(again.time, motion.time, known.omega) - 1
-    error = np.where(again.valid, error, np.nan)
-    return np.interp(curve.time, again.time, error)
+    return np.interp(motion.time, again.time, np.where(again.valid, error, np.nan))

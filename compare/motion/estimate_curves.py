@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.motion.motion import Motion
@@ -120,3 +121,22 @@ def curve_of(track: Track, name: str, label: str) -> Curve:
         standard_deviation=track.standard_deviation,
         bias=track.bias,
     )
+
+
+def along(track: Track, time: Array) -> Array:
+    """The valid part of a track at other times, NaN where its nearest valid samples lie too far apart."""
+    keep = track.valid & np.isfinite(track.omega)
+    if keep.sum() < 2:
+        return np.full(time.size, np.nan)
+    t, w = track.time[keep], track.omega[keep]
+    step = 2.5 * float(np.median(np.diff(track.time)))
+    covered = _within_reach(time, t, step)
+    return np.where(covered, PchipInterpolator(t, w, extrapolate=False)(time), np.nan)
+
+
+def _within_reach(time: Array, known: Array, step: float) -> Array:
+    """Whether each time lies between two known ones no farther apart than ``step``."""
+    right = np.clip(np.searchsorted(known, time), 1, known.size - 1)
+    gap = known[right] - known[right - 1]
+    inside = (time >= known[0]) & (time <= known[-1])
+    return np.asarray(inside & (gap <= step))

@@ -18,7 +18,6 @@ from ridgeback.compare.benchmark import verdict
 from ridgeback.compare.benchmark.account import Account
 from ridgeback.compare.benchmark.contenders import Row
 from ridgeback.compare.benchmark.ways import formulas, outsiders
-from ridgeback.compare.benchmark.ways.estimates import along
 from ridgeback.compare.benchmark.ways.own_correction import corrected
 from ridgeback.compare.benchmark.ways.slow_flows import powers_of
 from ridgeback.compare.binding import generated_code
@@ -28,7 +27,7 @@ from ridgeback.compare.identification import fits, fitting
 from ridgeback.compare.identification.sample_fit import strongest_line
 from ridgeback.compare.motion.error_budget import _estimate_row, _model_row, estimator_error
 from ridgeback.compare.motion.error_norms import distance
-from ridgeback.compare.motion.estimate_curves import Outcome, attempt
+from ridgeback.compare.motion.estimate_curves import Outcome, along, attempt
 from ridgeback.compare.motion.harmonics.folding import folding
 from ridgeback.compare.motion.harmonics.overtones import slope
 from ridgeback.compare.motion.paper_statements import WIGNER, Evidence, _cause

@@ -10,14 +10,12 @@ import time
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 
-import numpy as np
-from scipy.interpolate import PchipInterpolator
-
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.contenders import Row
 from ridgeback.compare.benchmark.ways.contender import Contender, refused
 from ridgeback.compare.benchmark.ways.own_correction import corrected
 from ridgeback.compare.benchmark.ways.timing import Cost, cost_of, repeated
+from ridgeback.compare.motion.estimate_curves import along
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.estimate import estimation
@@ -93,22 +91,3 @@ def _contender(motion: Motion, track: Track, name: str, label: str, cost: Cost, 
         time_scatter=cost.scatter,
     )
     return Contender(row, along(track, motion.time), track)
-
-
-def along(track: Track, time: Array) -> Array:
-    """The valid part of a track at other times, NaN where its nearest valid samples lie too far apart."""
-    keep = track.valid & np.isfinite(track.omega)
-    if keep.sum() < 2:
-        return np.full(time.size, np.nan)
-    t, w = track.time[keep], track.omega[keep]
-    step = 2.5 * float(np.median(np.diff(track.time)))
-    covered = _within_reach(time, t, step)
-    return np.where(covered, PchipInterpolator(t, w, extrapolate=False)(time), np.nan)
-
-
-def _within_reach(time: Array, known: Array, step: float) -> Array:
-    """Whether each time lies between two known ones no farther apart than ``step``."""
-    right = np.clip(np.searchsorted(known, time), 1, known.size - 1)
-    gap = known[right] - known[right - 1]
-    inside = (time >= known[0]) & (time <= known[-1])
-    return np.asarray(inside & (gap <= step))

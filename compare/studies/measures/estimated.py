@@ -7,9 +7,9 @@ from functools import partial
 
 import numpy as np
 
-from ridgeback.compare.benchmark.ways.estimates import along
 from ridgeback.compare.benchmark.ways.outsiders import outsiders
 from ridgeback.compare.benchmark.ways.own_correction import corrected
+from ridgeback.compare.motion.estimate_curves import along
 from ridgeback.compare.noise.monte_carlo import SCOPED
 from ridgeback.compare.studies.measures.along import Case
 from ridgeback.numeric.arrays import Array

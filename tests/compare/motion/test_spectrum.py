@@ -89,7 +89,7 @@ def test_leakage_is_no_harmonic_of_an_odd_force() -> None:
 
 def test_the_wigner_peak_and_the_smoothed_one_part_at_the_kink_of_a_bilinear_oscillator() -> None:
     """Stops with a preload: omega0(t) has a corner where the decay leaves them, as in the appendix of the paper."""
-    from ridgeback.compare.benchmark.ways.estimates import along
+    from ridgeback.compare.motion.estimate_curves import along
     from ridgeback.numeric.motion.bilinear import Bilinear, as_dynamics
     from ridgeback.numeric.motion.bilinear_motion import bilinear_motion
     from ridgeback.numeric.motion.cycle_frequency import cycle_frequency
