@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ridgeback.common.numbers import NONE, how_many, number, scientific
+from ridgeback.common.show.picture import Picture
 from ridgeback.compare.report.results import Report
+from ridgeback.numeric.arrays import floats
 from ridgeback.reports.figures.answer import answer_figure, side_by_side
 from ridgeback.reports.parts import Part, Section, fold
 from ridgeback.reports.text.mathml import FormulaError, mathml
@@ -19,6 +23,14 @@ if TYPE_CHECKING:
 SPREAD = 1e3
 """Ratio of largest to smallest from which on a column of positive numbers is written as powers of ten."""
 MOST_ROWS = 400
+ROUNDING = 1e-15
+CAPTIONS: Mapping[str, str] = {
+    "order-needed": "Smallest studied order that stays within a tolerance there and at every smaller amplitude, one "
+    "panel for each oscillator. A line ends where no studied order does.",
+    "observed-order": "Power with which the error of an order grows, less the power of the first term that is left "
+    "out; bars: 95 % intervals. Points of one order stand beside one another.",
+}
+"""What the figure of a question shows."""
 
 
 def study_head(report: Report) -> tuple[Part, ...]:
@@ -28,10 +40,21 @@ def study_head(report: Report) -> tuple[Part, ...]:
         return ()
     if found.panels:
         name = found.panels[0].y_label
-        caption = f"{name[:1].upper()}{name[1:]} against amplitude, one panel for each oscillator and method."
+        caption = f"{name[:1].upper()}{name[1:]}, its size, against amplitude, one panel for each oscillator."
+        caption += (
+            " Below about 10⁻¹⁵ it is that of the arithmetic."
+            if any(_rounded(picture) for picture in found.panels)
+            else ""
+        )
         return (Part("figure", side_by_side("side-by-side", found.panels, caption, "table-error")),)
     figure = answer_figure("first", found.answers[0].picture()) if found.answers else None
     return () if figure is None else (Part("figure", figure),)
+
+
+def _rounded(picture: Picture) -> bool:
+    """Whether errors are drawn that are no larger than the rounding of a double."""
+    y = [floats(stroke.y) for stroke in picture.strokes]
+    return any(bool((values[np.isfinite(values)] < ROUNDING).any()) for values in y)
 
 
 def study_sections(report: Report) -> Iterator[Section]:
@@ -62,11 +85,12 @@ def _set(latex: str) -> str:
 def _answer(answer: Answer, *, first: bool, panels: bool) -> Section:
     parts = []
     if not (first and (panels or answer.question == "error")):
-        figure = answer_figure(
-            f"answer-{answer.question}",
-            answer.picture(),
-            f"{_capital(answer.title)}.",
-            f"table-{answer.question}",
+        key, caption = f"answer-{answer.question}", CAPTIONS.get(answer.question, f"{_capital(answer.title)}.")
+        table = f"table-{answer.question}"
+        figure = (
+            side_by_side(key, answer.panels, caption, table)
+            if answer.panels
+            else answer_figure(key, answer.picture(), caption, table)
         )
         parts += [] if figure is None else [Part("figure", figure)]
     said = [f"{_capital(sentence)}." for sentence in answer.sentences]

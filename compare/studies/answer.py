@@ -33,6 +33,8 @@ class Answer(Displayed):
         Cells that gave a reason and no value; they are in no row and no rank.
     passed : bool, optional
         Whether everything that was tested holds; None where nothing is tested.
+    panels : tuple of Picture
+        The figure as small ones side by side, where one alone is crowded.
 
     Examples
     --------
@@ -48,6 +50,7 @@ class Answer(Displayed):
     drawing: Picture
     failed: int
     passed: bool | None = None
+    panels: tuple[Picture, ...] = ()
 
     def rows(self) -> list[Mapping[str, Any]]:
         """The rows of the table."""

@@ -57,6 +57,11 @@ class System:
         return {name: float(value) for name, value in self.oscillator().parameters.items() if value is not None}
 
     @property
+    def title(self) -> str:
+        """What it is called in a sentence."""
+        return self.oscillator().title
+
+    @property
     def natural_frequency(self) -> float:
         """The natural frequency k, rad per time unit."""
         return float(self.oscillator().natural_frequency.evalf(30))

@@ -56,6 +56,8 @@ def axes_of(pictures: Sequence[Picture]) -> Axes:
     log_x = low > 0 and high / low > WIDE_SPAN
     taken = {int(v) for stroke in strokes if stroke.steps for v in floats(stroke.y) if np.isfinite(v)}
     across = (low, high) if high > low else (low - 0.5, high + 0.5)
+    if any(stroke.dots for stroke in strokes) and not log_x:
+        across = padded(x, share=0.05)
     return Axes(across, _range(y, log_y), log_x, log_y, tuple(sorted(taken)))
 
 
@@ -247,7 +249,7 @@ def _key(picture: Picture) -> list[tuple[float, int]]:
     """Where each name of a small drawing begins: its x and its line."""
     found, x, row = [], 0.0, 0
     for stroke in picture.strokes[:6]:
-        width = text_width(stroke.label, 12.0) + 34
+        width = text_width(stroke.label, 12.0) + 29
         if x + width > SMALL and x > 0.0:
             x, row = 0.0, row + 1
         found.append((x, row))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from ridgeback.common.csv_text import csv_text
@@ -21,7 +21,7 @@ from ridgeback.compare.studies.measures import backbone
 from ridgeback.compare.studies.measures.by_name import measure_of
 from ridgeback.compare.studies.plan import Plan
 from ridgeback.compare.studies.questions.error import drawing
-from ridgeback.compare.studies.questions.grids import grids
+from ridgeback.compare.studies.questions.grids import grids, titles
 from ridgeback.compare.studies.result import StudyResult, result_of
 from ridgeback.compare.studies.running import counted, finished
 from ridgeback.compare.studies.store import Store, Warned, existing
@@ -109,20 +109,21 @@ def _check_finished(plan: Plan, kept: Store) -> None:
 def _panels(plan: Plan, kept: Store) -> Iterator[Picture]:
     if measure_of(plan.ask) is not backbone.MEASURE:
         return
-    blocks = finished(plan, kept, warned=lambda _: None)
-    for _, grid in zip(range(PANELS), grids(blocks), strict=False):
-        yield drawing(grid, "")
+    found = list(grids(finished(plan, kept, warned=lambda _: None)))
+    for grid, name in list(zip(found, titles(found), strict=True))[:PANELS]:
+        yield drawing(grid, name)
 
 
 def study_title(found: StudyResult) -> str:
     """The finding of the first question: how the highest order errs on the best and on the worst oscillator."""
     name = found.plan.title or how_many(len(found.plan.subjects), "oscillator")
     first = found.answers[0]
-    verdict = _spread(first) if first.question == "error" else ""
+    named = {subject.system.name: subject.system.title for subject in found.plan.subjects}
+    verdict = _spread(first, named) if first.question == "error" else ""
     return f"{name}: {verdict or (first.sentences[0] if first.sentences else first.title)}"
 
 
-def _spread(answer: Answer) -> str:
+def _spread(answer: Answer, named: Mapping[str, str]) -> str:
     rows = answer.rows()
     top = max((row["order"] for row in rows), default=None)
     mine = sorted((row for row in rows if row["order"] == top), key=lambda row: float(row["largest"]))
@@ -130,8 +131,8 @@ def _spread(answer: Answer) -> str:
         return ""
     best, worst = mine[0], mine[-1]
     return (
-        f"order {top} errs at most {per_cent(best['largest'])} on {best['oscillator']} and "
-        f"{per_cent(worst['largest'])} on {worst['oscillator']}"
+        f"order {top} errs at most {per_cent(best['largest'])} ({named[best['oscillator']]}) "
+        f"to {per_cent(worst['largest'])} ({named[worst['oscillator']]})"
     )
 
 
@@ -158,7 +159,7 @@ def _findings(found: StudyResult) -> Iterator[str]:
 def _subject(system: System) -> Subject:
     oscillator = system.oscillator()
     given = ", ".join(f"{symbol(name)} = {number(value)}" for name, value in system.numbers().items())
-    return Subject(system.name, oscillator.equation_latex, given)
+    return Subject(system.title, oscillator.equation_latex, given)
 
 
 def _files(found: StudyResult) -> Iterator[tuple[str, str]]:

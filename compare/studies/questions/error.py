@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,16 @@ from ridgeback.common.numbers import number, relative
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, Grid, axis_of, grids, thinned
+from ridgeback.compare.studies.questions.grids import (
+    SHOWN_STROKES,
+    WHO,
+    Grid,
+    axis_of,
+    backbone_text,
+    grids,
+    thinned,
+    titles,
+)
 from ridgeback.compare.studies.tasks import Column, Finished
 
 COLUMNS = (
@@ -40,13 +49,16 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
         A row for each oscillator, method and order; the figure has the first oscillator and method.
     """
     rows: list[dict[str, Any]] = []
-    picture, failed = Picture(plan.title, "amplitude", "relative error of ω₀"), 0
-    for grid in grids(blocks):
-        picture = drawing(grid, plan.title) if not rows else picture
+    called: dict[tuple[str, str], str] = {}
+    found = list(grids(blocks))
+    picture = Picture(plan.title, "amplitude", "relative error of ω₀")
+    for grid, name in zip(found, titles(found), strict=True):
+        picture = drawing(grid, f"{plan.title}: {name}" if plan.title else name) if not rows else picture
         rows += rows_of(grid)
-        failed += grid.failed
+        called.setdefault((grid.system.name, backbone_text(grid.system)), name.removesuffix(f", {grid.method}"))
     title = "relative error of ω₀ over the amplitudes, by order"
-    return Answer("error", title, COLUMNS, tuple(rows), tuple(sentences(rows)), picture, failed)
+    failed = sum(grid.failed for grid in found)
+    return Answer("error", title, COLUMNS, tuple(rows), tuple(sentences(rows, called)), picture, failed)
 
 
 def rows_of(grid: Grid) -> Iterator[dict[str, Any]]:
@@ -71,21 +83,18 @@ def drawing(grid: Grid, title: str) -> Picture:
     errors = np.where(grid.error == 0.0, np.nan, np.abs(grid.error))[:, at]
     pairs = list(zip(grid.orders, errors, strict=True))
     strokes = tuple(Stroke(grid.amplitudes[at], line, f"order {order}") for order, line in pairs[:SHOWN_STROKES])
-    name = f"{grid.system.name}, {grid.method}"
-    whole = f"{title}: {name}" if title else name
-    return Picture(whole, axis_of([grid.system]), "relative error of ω₀", strokes, None, True)
+    return Picture(title, axis_of([grid.system]), "relative error of ω₀", strokes, None, True)
 
 
-def sentences(rows: list[dict[str, Any]]) -> Iterator[str]:
+def sentences(rows: list[dict[str, Any]], called: Mapping[tuple[str, str], str]) -> Iterator[str]:
     """The least of the largest errors of each oscillator, among orders with a value at as many amplitudes as any."""
-    everyone = list(dict.fromkeys((row["oscillator"], row["parameters"]) for row in rows))
-    names = [name for name, _ in everyone]
-    for who in everyone:
+    several = len({row["method"] for row in rows}) > 1
+    for who in dict.fromkeys((row["oscillator"], row["parameters"]) for row in rows):
         mine = [row for row in rows if (row["oscillator"], row["parameters"]) == who]
         most = max(row["cells"] for row in mine)
         best = min((row for row in mine if row["cells"] == most), key=lambda row: row["largest"])
-        name = who[0] if names.count(who[0]) == 1 else f"{who[0]} ({who[1]})"
+        how = f"{best['method']} of order" if several else "order"
         yield (
-            f"{name}: {best['method']} of order {best['order']} has the least largest error, "
+            f"{called[who]}: {how} {best['order']} has the least largest error, "
             f"{relative(best['largest'])} at {number(best['at_amplitude'])}"
         )

@@ -51,6 +51,26 @@ def grids(blocks: Iterable[Finished]) -> Iterator[Grid]:
         yield joined([_grid(block) for block in group])
 
 
+def titles(found: Sequence[Grid]) -> list[str]:
+    """What each is called among these: its oscillator, with parameters where two share it, methods where they differ.
+
+    >>> one, two = (System("duffing", "duffing", parameters=(("eps", text),)) for text in ("1", "2"))
+    >>> none = np.zeros((0, 0))
+    >>> titles([Grid(system, "lindstedt", (), none, none, none, 0) for system in (one, two)])
+    ['Duffing oscillator, hardening (mu = 0, k = 1, eps = 1)', 'Duffing oscillator, hardening (mu = 0, k = 1, eps = 2)']
+    """
+    systems = list(dict.fromkeys(grid.system for grid in found))
+    several = len({grid.method for grid in found}) > 1
+    names = [system.title for system in systems]
+
+    def called(grid: Grid) -> str:
+        name = grid.system.title
+        name += f" ({backbone_text(grid.system)})" if names.count(name) > 1 else ""
+        return f"{name}, {grid.method}" if several else name
+
+    return [called(grid) for grid in found]
+
+
 def axis_of(systems: Iterable[System]) -> str:
     """What the errors of some oscillators are drawn over: the amplitude, or eps for limit cycles.
 

@@ -23,7 +23,7 @@ from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.measures.backbone import series_of
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, Grid, grids
+from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, Grid, grids, titles
 from ridgeback.compare.studies.tasks import Column, Finished
 from ridgeback.numeric.arrays import Array
 
@@ -81,11 +81,12 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
     rows: list[dict[str, Any]] = []
     strokes: list[Stroke] = []
     failed = 0
-    for grid in grids(blocks):
+    found = list(grids(blocks))
+    for grid, name in zip(found, titles(found), strict=True):
         failed += grid.failed
         own = list(rows_of(grid))
         rows += own
-        strokes += stroke_of(grid, own, BESIDE * len(strokes))
+        strokes += stroke_of(name, own, BESIDE * len(strokes))
     passes, fails = (sum(row["verdict"] == word for row in rows) for word in ("pass", "fail"))
     said = (summary(len(rows), passes, fails),)
     title = plan.title or "order of convergence"
@@ -98,21 +99,20 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
 
 
 def summary(count: int, passes: int, fails: int) -> str:
-    """How many orders are as theory has them, are not, and are not decided.
+    """How many orders of convergence agree with theory, how many do not, and how many are left open.
 
     >>> summary(20, 10, 0), summary(2, 1, 1)
-    ('10 of 20 orders of convergence are as theory has them, none is not, 10 are not decided', \
-'1 of 2 orders of convergence is as theory has them, 1 is not')
+    ('10 of 20 orders of convergence agree with theory, none disagrees, 10 are left open', \
+'1 of 2 orders of convergence agrees with theory, 1 disagrees')
     """
-    wrong = f"{fails or 'none'} {'are' if fails > 1 else 'is'} not"
+    wrong = f"{fails or 'none'} {'disagree' if fails > 1 else 'disagrees'}"
     rest = count - passes - fails
-    open_ = f", {rest} {'are' if rest > 1 else 'is'} not decided" if rest else ""
-    return (
-        f"{passes} of {count} orders of convergence {'is' if passes == 1 else 'are'} as theory has them, {wrong}{open_}"
-    )
+    open_ = f", {rest} {'are' if rest > 1 else 'is'} left open" if rest else ""
+    right = f"{passes} of {count} orders of convergence {'agrees' if passes == 1 else 'agree'} with theory"
+    return f"{right}, {wrong}{open_}"
 
 
-def stroke_of(grid: Grid, rows: Sequence[Mapping[str, Any]], aside: float) -> Iterator[Stroke]:
+def stroke_of(name: str, rows: Sequence[Mapping[str, Any]], aside: float) -> Iterator[Stroke]:
     """What is decided of one oscillator: how far observed orders are from theory's, with their intervals."""
     known = [row for row in rows if row["verdict"] in ("pass", "fail")]
     order, theory, power, half = (
@@ -121,7 +121,7 @@ def stroke_of(grid: Grid, rows: Sequence[Mapping[str, Any]], aside: float) -> It
     )
     if known:
         off = power - theory
-        yield Stroke(order + aside, off, grid.system.name, off - half, off + half, dots=True)
+        yield Stroke(order + aside, off, name, off - half, off + half, dots=True)
 
 
 def rows_of(grid: Grid) -> Iterator[dict[str, Any]]:

@@ -7,6 +7,7 @@ studied amplitude, too.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
@@ -16,7 +17,7 @@ from ridgeback.common.numbers import number, threshold
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.compare.studies.answer import Answer
 from ridgeback.compare.studies.plan import Plan
-from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, Grid, axis_of, grids, thinned
+from ridgeback.compare.studies.questions.grids import SHOWN_STROKES, WHO, Grid, axis_of, grids, thinned, titles
 from ridgeback.compare.studies.systems import System
 from ridgeback.compare.studies.tasks import Column, Finished
 from ridgeback.numeric.arrays import Array
@@ -47,24 +48,28 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
     """
     rows: list[dict[str, Any]] = []
     strokes: list[Stroke] = []
+    panels: list[Picture] = []
     said: list[str] = []
     systems: list[System] = []
     failed = 0
-    for grid in grids(blocks):
+    found = list(grids(blocks))
+    for grid, name in zip(found, titles(found), strict=True):
         failed += grid.failed
         systems.append(grid.system)
+        own: list[Stroke] = []
         for tolerance in plan.tolerances:
             needed = orders_needed(grid, tolerance)
             rows += rows_of(grid, tolerance, needed)
-            said.append(sentence(grid, tolerance, needed))
+            said.append(sentence(name, grid, tolerance, needed))
             at = thinned(grid.amplitudes.size)
-            name = f"{grid.system.name}, {grid.method}, {threshold(tolerance)}"
             orders = [np.nan if needed[i] is None else needed[i] for i in at]
-            strokes.append(Stroke(grid.amplitudes[at], orders, name, steps=True))
+            own.append(Stroke(grid.amplitudes[at], orders, f"within {threshold(tolerance)}", steps=True))
+        panels.append(Picture(name, axis_of([grid.system]), "order", tuple(own)))
+        strokes += [replace(stroke, label=f"{name}, {stroke.label}") for stroke in own]
     picture = Picture(plan.title or "order needed", axis_of(systems), "order", tuple(strokes[:SHOWN_STROKES]))
-    return Answer(
-        "order-needed", "smallest order within a tolerance", COLUMNS, tuple(rows), tuple(said), picture, failed
-    )
+    beside = tuple(panels[:SHOWN_STROKES]) if len(panels) > 1 else ()
+    title = "smallest order within a tolerance"
+    return Answer("order-needed", title, COLUMNS, tuple(rows), tuple(said), picture, failed, panels=beside)
 
 
 def orders_needed(grid: Grid, tolerance: float) -> list[int | None]:
@@ -85,9 +90,9 @@ def rows_of(grid: Grid, tolerance: float, needed: list[int | None]) -> Iterator[
         yield {**grid.who(), "tolerance": tolerance, "order": order, **ends}
 
 
-def sentence(grid: Grid, tolerance: float, needed: list[int | None]) -> str:
+def sentence(name: str, grid: Grid, tolerance: float, needed: list[int | None]) -> str:
     """How far the studied orders serve."""
-    head = f"{grid.system.name}, {grid.method}, tolerance {threshold(tolerance)}"
+    head = f"{name}, within {threshold(tolerance)}"
     served = [i for i, order in enumerate(needed) if order is not None]
     if not served:
         return f"{head}: no studied order serves at {number(float(grid.amplitudes[0]))}"
