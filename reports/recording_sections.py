@@ -6,13 +6,13 @@ from ridgeback.common.numbers import per_cent
 from ridgeback.compare.report.recording_summary import held
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.study.results import Trend, trend_of
-from ridgeback.reports.figures.identification import (
+from ridgeback.reports.figures.recording import backbone_figure, plane_figure, signal_figure, tracks_figure
+from ridgeback.reports.figures.recordings.identification import (
     candidates_figure,
     forecast_figure,
     parameter_table,
     ranking_table,
 )
-from ridgeback.reports.figures.recording import backbone_figure, plane_figure, signal_figure, tracks_figure
 from ridgeback.reports.figures.recordings.sample_fit import fit_figure, spectrum_figure
 from ridgeback.reports.parts import Part, Section, fold, set_formula
 from ridgeback.reports.text.bibtex import bibtex

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ridgeback.common.numbers import per_cent
 from ridgeback.compare.report.several.runs import Named, Runs, facts
-from ridgeback.reports.figures.identification import parameter_table
+from ridgeback.reports.figures.recordings.identification import parameter_table
 from ridgeback.reports.figures.recordings.runs import runs_backbone, runs_samples, runs_tracks
 from ridgeback.reports.parts import Part, Section, fold
 from ridgeback.reports.text.tables import Row, Table

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from ridgeback.common.numbers import NONE, listing, per_cent
+from ridgeback.common.numbers import NONE, alike, listing, per_cent
 from ridgeback.common.quantities import measured_time, symbol
 from ridgeback.compare.benchmark.contenders import Reference, Row, Source
 from ridgeback.compare.motion.results import Case
@@ -84,15 +84,22 @@ def at_most(
     *,
     missing: str = NONE,
     signed: bool = False,
+    written: Callable[..., str] = per_cent,
 ) -> str:
-    """An error as far as the reference knows it: below its floor, the floor.
+    """An error as far as the reference knows it: below its floor, the floor; ``written`` as its column is.
 
     >>> at_most(1.3e-5, Reference("", 0.0, 1.8e-4)), at_most(0.01, Reference("", 0.0, 1.8e-4), "≤ ")
     ('at most 0.018 %', '1.0 %')
     """
     if reference is not None and below_floor(error, reference):
-        return f"{words}{per_cent(reference.floor)}"
-    return per_cent(error, missing=missing, signed=signed)
+        return f"{words}{written(reference.floor)}"
+    return written(error, missing=missing, signed=signed)
+
+
+def written_of(errors: Iterable[float | None], reference: Reference | None = None) -> Callable[..., str]:
+    """How a column of errors is written that tells those below the reference's floor as the floor."""
+    floor = 0.0 if reference is None else reference.floor
+    return alike(None if error is None else max(abs(error), floor) for error in errors)
 
 
 def below_floor(error: float | None, reference: Reference | None) -> bool:

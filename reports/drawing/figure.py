@@ -49,6 +49,8 @@ class Figure:
     """Class of a row of small drawings: ``two``, ``five``; they stand in ``wide``."""
     table: str = ""
     """Id of the table that holds the figure's numbers, where its data do not."""
+    leads: tuple[str, str] = ("", "")
+    """What stands before the caption, where the two drawings are read differently: of the wide one, of the narrow."""
 
     @property
     def told(self) -> bool:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from ridgeback.common.numbers import number, threshold
+import math
+from collections.abc import Callable, Iterable
+
+from ridgeback.common.numbers import number, power_of_ten, threshold
 
 
 def per_cent_tick(value: float) -> str:
@@ -12,6 +15,17 @@ def per_cent_tick(value: float) -> str:
     ('0.01 %', '100 %', '10⁻⁹')
     """
     return f"{100 * value:.10g} %" if value > 0.9e-6 else threshold(value)
+
+
+def error_ticks(values: Iterable[float]) -> Callable[[float], str]:
+    """How the decades of one axis are written: in per cent, or all as powers of ten where one lies below 0.0001 %.
+
+    >>> [error_ticks([1e-8, 1e-2])(v) for v in (1e-8, 1e-2)], error_ticks([1e-6, 1e-2])(1e-2)
+    (['10⁻⁸', '10⁻²'], '1 %')
+    """
+    if min(values, default=1.0) > 0.9e-6:
+        return per_cent_tick
+    return lambda value: power_of_ten(round(math.log10(value)))
 
 
 def round_duration(seconds: float) -> str:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from functools import partial
 
 import numpy as np
 
-from ridgeback.common.numbers import number, per_cent, threshold
+from ridgeback.common.numbers import number, per_cent, power_of_ten, threshold
 from ridgeback.compare.benchmark.contenders import WAYS, Row
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.report.naming import refused_names, short_name, told
@@ -17,72 +17,22 @@ from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, toggles
 from ridgeback.reports.drawing.marks import curve, dot, drawing, group, line, rect, text, trace
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale
-from ridgeback.reports.drawing.ticks import per_cent_tick, round_duration
+from ridgeback.reports.drawing.ticks import error_ticks, round_duration
+from ridgeback.reports.figures.contending import (
+    LEAST,
+    LETTERS,
+    NUMBERED,
+    Shown,
+    brief,
+    error,
+    least_drawn,
+    shown,
+)
+from ridgeback.reports.figures.ranked import ranked_drawing
 
-LETTERS = {"expansions": "E", "series model": "S", "estimates": "T", None: "S"}
-STYLE = {"E": "e", "S": "s", "T": "t"}
 HEIGHT = 430.0
-NUMBERED = (2, 4, 8, 12, 20, 30, 40)
-LEAST = 1e-17
 HEAD = 0.12
 """Share of the panel that its heading takes."""
-RANKED = 26
-"""Rows of the narrow drawing, at most."""
-
-
-@dataclass(frozen=True)
-class Shown:
-    """The contenders that are drawn, by family, and their common scales."""
-
-    found: Benchmark
-    expansions: tuple[Row, ...]
-    in_python: tuple[Row, ...]
-    flows: tuple[Row, ...]
-    terms: tuple[Row, ...]
-    exact: tuple[Row, ...]
-    estimates: tuple[Row, ...]
-    corrected: tuple[Row, ...]
-
-    @property
-    def all(self) -> tuple[Row, ...]:
-        """All of them."""
-        parts = (self.expansions, self.in_python, self.flows, self.terms, self.exact, self.estimates, self.corrected)
-        return tuple(row for part in parts for row in part)
-
-    def cost(self, row: Row) -> float:
-        """What a track costs, s."""
-        if row.time_s_per_track is not None:
-            return row.time_s_per_track
-        return float(row.time_ns_per_value or math.nan) * 1e-9 * self.found.time.size
-
-
-def error(row: Row) -> float:
-    """Its relative rms error, never 0 on a logarithmic axis."""
-    return max(float(row.relative_rms_error or 0.0), LEAST)
-
-
-def shown(found: Benchmark) -> Shown:
-    """Choose one amplitude for the formulas: the averaged action's where there is one, so that no floor hides them."""
-    ranked = [row for row in found.contenders if row.ranked and row.relative_rms_error is not None]
-    sources = {row.amplitude_from for row in ranked if row.kind in ("expansion", "series-model")}
-    source = "action" if "action" in sources else next(iter(sorted(sources, key=str)), None)
-
-    def of(kind: str, language: str | None = None) -> tuple[Row, ...]:
-        rows = [r for r in ranked if r.kind == kind and (kind == "slow-flow" or r.amplitude_from == source)]
-        return tuple(sorted((r for r in rows if language in (None, r.language)), key=lambda r: r.order or 0))
-
-    native, python = of("expansion", "c"), of("expansion", "python")
-    raw = [row for row in ranked if row.kind == "estimate" and row.corrected_by is None]
-    return Shown(
-        found=found,
-        expansions=native or python,
-        in_python=python if native else (),
-        flows=of("slow-flow"),
-        terms=of("series-model"),
-        exact=tuple(row for row in ranked if row.kind == "closed-form"),
-        estimates=tuple(sorted(raw, key=error)),
-        corrected=tuple(row for row in ranked if row.corrected_by is not None),
-    )
 
 
 def accuracy_cost(found: Benchmark, target: float) -> Figure:
@@ -91,24 +41,34 @@ def accuracy_cost(found: Benchmark, target: float) -> Figure:
     timed = any(math.isfinite(which.cost(row)) for row in which.all)
     label = "Relative rms error of every contender" + (" against the cost of one track" if timed else "")
     letters = [letter for letter in "EST" if any(LETTERS[WAYS[row.kind]] == letter for row in which.all)]
-    wide = _wide(which, target, label) if timed else _ranked(which, target, label, WIDE, timed=False)
+    ranked = partial(ranked_drawing, which, target, label)
     return Figure(
         key="accuracy-cost",
-        wide=wide,
-        narrow=_ranked(which, target, label, NARROW, timed=timed),
-        caption=_caption(which, timed=timed),
+        wide=_wide(which, target, label) if timed else ranked(WIDE, timed=False),
+        narrow=ranked(NARROW, timed=timed),
+        caption=_caption(which, target),
+        leads=_leads(found, timed=timed),
         toggles=toggles(*letters, series=bool(which.terms)),
         label=label,
         table="contenders",
     )
 
 
-def _caption(which: Shown, *, timed: bool) -> str:
+def _leads(found: Benchmark, *, timed: bool) -> tuple[str, str]:
+    """How the wide drawing is read, and how the narrow one."""
+    floor = found.reference.floor
+    shaded = f" Shaded: below {per_cent(floor)}, where {found.reference.open_words}." if floor > 0.0 else ""
+    narrow = f"Left: error, right: cost; further left is better in both.{shaded}"
+    return ("Further down is closer, further left is cheaper.", narrow) if timed else (f"Left is closer.{shaded}",) * 2
+
+
+def _caption(which: Shown, target: float) -> str:
     found = which.found
     low, high = (number(x, 3) for x in found.support)
-    parts = ["Further down is closer, further left is cheaper." if timed else "Left is closer."]
     span = f"{low} to {high} {found.case.time_unit}".strip()
-    parts.append(f"Rms error relative to the {found.reference.label}, t = {span}.")
+    parts = [f"Rms error relative to the {found.reference.label}, t = {span}."]
+    if any(error(row) > _panel(which, target).y.high for row in which.all if math.isfinite(which.cost(row))):
+        parts.append("At the upper edge: off scale.")
     if which.expansions and which.expansions[0].amplitude_from == "action":
         parts.append("Expansions and series take A(t) from the averaged action, whose own cost is not counted.")
     if which.corrected:
@@ -142,9 +102,9 @@ def _panel(which: Shown, target: float) -> Panel:
     rows = [row for row in which.all if math.isfinite(which.cost(row))]
     costs, errors = [which.cost(row) for row in rows], [error(row) for row in rows]
     floor = which.found.reference.floor
-    low, high = min(*errors, max(floor, LEAST)), min(max(errors), 30.0)
+    low, high = max(min(*errors, max(floor, LEAST)), least_drawn(floor)), min(max(errors), 30.0)
     span = high / low
-    low, high = low / max(span**0.11, 2.2), high * max(span**0.14, 2.2)
+    low, high = max(low / max(span**0.11, 2.2), least_drawn(floor)), high * max(span**0.14, 2.2)
     if low < target < high < target * (target / low) ** (HEAD / (1.0 - HEAD)):
         high = target * (target / low) ** (HEAD / (1.0 - HEAD))
     x = Scale(0.4 * min(costs), 4.0 * max(costs), 70.0, 968.0, log=True)
@@ -157,7 +117,8 @@ def _frame(which: Shown, panel: Panel, target: float) -> Iterable[str]:
     if floor > panel.y.low:
         top = panel.y(min(floor, panel.y.high))
         yield rect(panel.left, top, panel.right - panel.left, panel.bottom - top)
-    yield panel.rows(label=per_cent_tick, most=9)
+    ticks = panel.y.ticks(9)
+    yield panel.rows(ticks, label=error_ticks(ticks))
     for value in panel.x.ticks(9):
         yield line(panel.x(value), panel.bottom, panel.x(value), panel.bottom + 5, "ax")
         yield text(panel.x(value), panel.bottom + 19, round_duration(value), "m", "middle")
@@ -173,7 +134,7 @@ def _frame(which: Shown, panel: Panel, target: float) -> Iterable[str]:
         y = panel.y(target)
         free = y - 5 > panel.top + 30 or y < panel.top + 4
         place = y - 5 if free else max(y, panel.top + 18) + 15
-        yield group([text(panel.right, place, f"target {threshold(target)}", "m sm", "end")], "halo")
+        yield group([text(panel.right, place, f"target {_target(target, ticks)}", "m sm", "end")], "halo")
     if floor > panel.y.low:
         words = f"below {per_cent(floor)} {found.reference.open_words}"
         formulas = (*which.expansions, *which.in_python)
@@ -181,6 +142,13 @@ def _frame(which: Shown, panel: Panel, target: float) -> Iterable[str]:
         clear = all(x > panel.left + text_width(words, 12.6) + 16 for x in low)
         x = panel.left + 8 if clear else 0.3 * (panel.left + panel.right)
         yield group([text(x, panel.bottom - 8, words, "m sm")], "halo")
+
+
+def _target(target: float, ticks: Sequence[float]) -> str:
+    """The target, as a power of ten too where the axis is written so."""
+    exponent = round(math.log10(target))
+    whole = math.isclose(target, 10.0**exponent, rel_tol=1e-9) and error_ticks(ticks)(target) == power_of_ten(exponent)
+    return threshold(target) + (f", {power_of_ten(exponent)}" if whole and "%" in threshold(target) else "")
 
 
 def _places(which: Shown, panel: Panel, rows: Sequence[Row]) -> list[tuple[float, float, Row]]:
@@ -201,43 +169,61 @@ def _chain(which: Shown, panel: Panel, rows: Sequence[Row], style: str, *, dashe
     return stroke + "".join(dot(a, b, 3.0 if dashed else 4.0, filled, _title(which, row)) for a, b, row in at)
 
 
-def _numbers(which: Shown, panel: Panel, rows: Sequence[Row], style: str, *, left: bool = False) -> str:
+Placed = tuple[float, float, str, str]
+"""Place, words and anchor of a label."""
+
+
+def _numbers(which: Shown, panel: Panel, rows: Sequence[Row], *, left: bool = False) -> list[Placed]:
+    """The numbers of some orders or terms beside their points, or above where the next point stands there."""
     wanted = [row for row in rows if row.order in NUMBERED or len(rows) < 7]
     taken: list[tuple[float, float]] = []
-    parts = []
+    found: list[Placed] = []
     everywhere = _places(which, panel, rows)
     for x, y, row in _places(which, panel, wanted):
         if all(abs(x - a) > 20 or abs(y - b) > 12 for a, b in taken):
             taken.append((x, y))
             side = -1 if left else 1
             crowded = any(0 < side * (a - x) < 32 and abs(b - y) < 5 for a, b, _ in everywhere)
-            if crowded:
-                parts.append(text(x, y - 9, str(row.order), style, "middle"))
-            else:
-                parts.append(text(x + 9 * side, y + 4, str(row.order), style, "end" if left else "start"))
-    return "".join(parts)
+            beside = (x + 9 * side, y + 4, str(row.order), "end" if left else "start")
+            found.append((x, y - 9, str(row.order), "middle") if crowded else beside)
+    return found
 
 
 def _families(which: Shown, panel: Panel, line_at: float | None) -> Iterable[str]:
     e = [_chain(which, panel, which.in_python, "e", dashed=True), _chain(which, panel, which.expansions, "e")]
     e += [_chain(which, panel, which.flows, "e", dashed=True)]
-    words = [_numbers(which, panel, which.expansions, "e", left=True)]
+    resummed = _finite(_places(which, panel, which.resummed))
+    e += [dot(x, y, 4.0, "e", _title(which, row)) for x, y, row in resummed]
+    numbers = _numbers(which, panel, which.expansions, left=True)
+    words = [text(x, y, number_, "e", anchor) for x, y, number_, anchor in numbers]
     native = any(row.language == "c" for row in which.expansions)
     name = f"expansions{' in C' if native else ''}"
-    words += _named(which, panel, which.expansions, "e b", name, line_at=line_at)
+    words += _named(which, panel, which.expansions, "e b", name, line_at=line_at, clear=numbers)
     below = _name_is_below(_places(which, panel, which.expansions), panel)
     words += _named(which, panel, which.in_python, "e sm", "in Python", last=True, down=17.0 * below)
+    words += [_named_point(which, panel, x, y, brief(r)) for x, y, r in resummed if r is which.best_resummed]
     words += _named(which, panel, which.flows, "e sm", "multiple scales", line_at=line_at)
     yield group([*e, group(words, "halo")], "fE")
     s = [_chain(which, panel, which.terms, "s")]
     exact = [place for place in _places(which, panel, which.exact) if math.isfinite(place[0])]
     s += [dot(x, y, 4.5, "s", _title(which, row)) for x, y, row in exact]
-    words = [_numbers(which, panel, which.terms, "s")]
+    words = [text(x, y, number_, "s", anchor) for x, y, number_, anchor in _numbers(which, panel, which.terms)]
     words += _named(which, panel, which.terms, "s b", "paper’s series, by terms")
     for x, y, row in exact if not _crowded(which, panel) else ():
         struck = line_at is not None and abs(y - line_at) < 11
         words.append(text(x - 9, (line_at or 0.0) + 17 if struck else y + 4, _exact_name(row), "s", "end"))
     yield group([*s, group(words, "halo")], "fS")
+
+
+def _named_point(which: Shown, panel: Panel, x: float, y: float, name: str) -> str:
+    """A point's name at its right, or at its left where the names of the estimates stand there."""
+    at = _finite(_places(which, panel, which.estimates))
+    if at:
+        edge, heights = _column(panel, at)
+        near = [text_width(short_name(row)) for (_, _, row), h in zip(at, heights, strict=True) if abs(h - y) < 17]
+        if x + 17 + text_width(name) > edge - max(near, default=-math.inf):
+            return text(x - 9, y + 4, name, "e b", "end")
+    return text(x + 9, y + 4, name, "e b")
 
 
 def _exact_name(row: Row) -> str:
@@ -284,8 +270,9 @@ def _named(
     last: bool = False,
     down: float = 0.0,
     line_at: float | None = None,
+    clear: Sequence[Placed] = (),
 ) -> list[str]:
-    """The name of a family above its highest point, or below its last; clear of a line at this height."""
+    """The name of a family above its highest point, or below its last; clear of a line at a height, and of labels."""
     at = [p for p in _places(which, panel, rows) if math.isfinite(p[0])]
     if not at:
         return []
@@ -300,7 +287,9 @@ def _named(
         return [text(max(x - 12, panel.left + 4), min(y + 20, panel.bottom - 22), name, style)]
     if line_at is not None and abs(y - 15 - line_at) < 9:
         return [text(*((x - 12, line_at - 7) if style == "e b" else (x + 10, y + 4)), name, style)]
-    return [text(max(x - 12, panel.left + 4), y - 10, name, style)]
+    left = max(x - 12, panel.left + 4)
+    met = any(left - 16 < a < left + text_width(name) + 8 and abs(b - y + 10) < 12 for a, b, _, _ in clear)
+    return [text(left, y - (25 if met else 10), name, style)]
 
 
 def _estimates(which: Shown, panel: Panel, target: float | None) -> Iterable[str]:
@@ -321,6 +310,7 @@ def _estimates(which: Shown, panel: Panel, target: float | None) -> Iterable[str
                 trace("sk nf", "M", edge + 4, height, "H", edge + 14, "L", x, y),
                 dot(x, y, 4.5, "s", _title(which, row)),
             ]
+            exact += _behind(edge, height, _exact_name(row), target)
             exact.append(group([text(edge, height + 4, _exact_name(row), "s", "end")], "halo"))
             continue
         parts.append(trace("tk nf", "M", edge + 4, height, "H", led, "L", x, y))
@@ -329,71 +319,16 @@ def _estimates(which: Shown, panel: Panel, target: float | None) -> Iterable[str
             parts.append(trace("tt nf", "M", x, y, "L", a, b))
             parts.append(dot(a, b, 3.6, "to", _title(which, bare)))
         parts.append(dot(x, y, 4.5, "t", _title(which, row)))
-        wide = text_width(name)
-        if target is not None and abs(height - target) < 10:
-            words.append(rect(edge - wide - 2, height - 8, wide + 4, 16, "bgf"))
+        words += _behind(edge, height, name, target)
         words.append(text(edge, height + 4, name, "t b" if row.method == best else "t", "end"))
     head = text(panel.right, panel.top + 16, f"estimates from {which.found.time.size} samples", "t b", "end")
     yield group([*parts, group([head, *words], "halo")], "fT")
     yield group(exact, "fS") if exact else ""
 
 
-# --- the narrow drawing: names legible on a phone, errors and costs as ranked dots
-
-
-def _ranked(which: Shown, target: float, label: str, width: float, *, timed: bool) -> str:
-    rows = _chosen(which)
-    step = 18.0 if width < WIDE else 20.0
-    height = 44 + step * len(rows) + 8
-    names = max((text_width(_row_name(row), 11.5 if width < WIDE else 13.5) for row in rows), default=60.0)
-    names = min(names, 0.5 * width)
-    errors = [error(row) for row in rows]
-    split = names + 14 + (width - names) * (0.52 if timed else 0.94)
-    x = Scale(0.5 * min(*errors, target), 2.0 * min(max(errors), 30.0), names + 14, split, log=True)
-    marks = [text((x.start + x.end) / 2, 11, "rms error", "m sm", "middle")]
-    marks += _ticks(x, x.ticks(3 if width < WIDE else 8), per_cent_tick, height)
-    marks.append(line(x(target), 32, x(target), height, "tg"))
-    cost = None
-    if timed:
-        known = [which.cost(row) for row in rows if math.isfinite(which.cost(row))]
-        cost = Scale(0.7 * min(known), 1.6 * max(known), split + 16, width - 6, log=True)
-        marks.append(text((cost.start + cost.end) / 2, 11, "cost of a track", "m sm", "middle"))
-        marks += _ticks(cost, cost.ticks(3), round_duration, height)
-    for i, row in enumerate(rows):
-        marks.append(_ranked_row(which, row, 42 + step * (i + 0.5), names, x, cost))
-    return drawing(width, height, "narrow" if width < WIDE else "wide", label, marks)
-
-
-def _ticks(scale: Scale, values: Iterable[float], worded: Callable[[float], str], height: float) -> Iterable[str]:
-    """Lines, with words at those that leave room for them, inside the scale."""
-    end = scale.start - 8.0
-    for value in values:
-        at, half = scale(value), 0.5 * text_width(worded(value), 12.0)
-        yield line(at, 32, at, height, "g")
-        if at - half > end + 4.0 and at + half < scale.end + 8.0:
-            end = at + half
-            yield text(at, 26, worded(value), "m sm", "middle")
-
-
-def _ranked_row(which: Shown, row: Row, y: float, names: float, x: Scale, cost: Scale | None) -> str:
-    letter = LETTERS[WAYS[row.kind]]
-    style = STYLE[letter]
-    marks = [
-        text(names, y + 4, _row_name(row), style, "end"),
-        dot(float(x.clipped(np.array([error(row)]))[0]), y, 3.4, style),
-    ]
-    if cost is not None and math.isfinite(which.cost(row)):
-        marks.append(dot(cost(which.cost(row)), y, 3.4, style))
-    return group(marks, f"f{letter}", _title(which, row))
-
-
-def _row_name(row: Row) -> str:
-    return short_name(row).replace("own bias removed", "corr.")
-
-
-def _chosen(which: Shown) -> list[Row]:
-    """One row for each contender: some orders, all terms, all estimates and the best corrected one."""
-    orders = [row for row in which.expansions if row.order in NUMBERED] or list(which.expansions[:8])
-    rows = [*orders, *which.flows[-1:], *which.terms, *which.exact[:1], *which.estimates]
-    rows += sorted(which.corrected, key=error)[:2]
-    return sorted(rows, key=error)[:RANKED]
+def _behind(edge: float, height: float, name: str, target: float | None) -> list[str]:
+    """What hides the line of the target behind a name that ends at an edge."""
+    wide = text_width(name)
+    return (
+        [] if target is None or abs(height - target) >= 10 else [rect(edge - wide - 2, height - 8, wide + 4, 16, "bgf")]
+    )

@@ -10,12 +10,13 @@ from ridgeback.common.numbers import listing, per_cent
 from ridgeback.compare.benchmark.contenders import Reference
 from ridgeback.compare.motion.estimate_curves import RECIPES
 from ridgeback.compare.motion.results import BudgetRow
-from ridgeback.compare.report.naming import at_most, capital, floor_words
+from ridgeback.compare.report.naming import at_most, capital, floor_words, written_of
 from ridgeback.reports.drawing.apart import text_width
 from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, toggles
 from ridgeback.reports.drawing.marks import dot, drawing, group, line, places, rect, text
 from ridgeback.reports.drawing.scale import Scale
-from ridgeback.reports.drawing.ticks import per_cent_tick
+from ridgeback.reports.drawing.ticks import error_ticks
+from ridgeback.reports.figures.contending import least_drawn
 
 ESTIMATES = frozenset(recipe.name for recipe in RECIPES)
 LEAST = 1e-15
@@ -64,16 +65,20 @@ def _draw(rows: Sequence[BudgetRow], label: str, reference: Reference | None, *,
     width, step = (NARROW, 20.0) if narrow else (WIDE, 21.0)
     size = 11.5 if narrow else 13.5
     left = min(max(text_width(short(row.label), size) for row in rows) + 12, (0.44 if narrow else 0.3) * width)
-    right = width - (64 if narrow else 84)
+    floor = reference.floor if reference else 0.0
+    written = written_of([row.total for row in rows], reference)
+    totals = [at_most(row.total, reference, "≤ ", written=written) for row in rows]
+    right = width - max(64.0 if narrow else 84.0, *(text_width(total, size) + 10 for total in totals))
     parts = [p for row in rows for p in (row.total, row.truncation, row.averaging, row.estimator) if p]
-    x = Scale(max(0.5 * min(parts), LEAST), min(2.0 * max(parts), 30.0), left, right, log=True)
+    x = Scale(max(0.5 * min(parts), LEAST, least_drawn(floor)), min(2.0 * max(parts), 30.0), left, right, log=True)
     gaps = [0.0, *(8.0 * (letter(a) != letter(b)) for a, b in zip(rows[1:], rows, strict=False))]
     tops = 28 + np.cumsum(gaps) + step * np.arange(len(rows))
     bottom = float(tops[-1]) + step + 4 if rows else 40.0
     marks = [*_key(rows, left, bottom + 16, width)]
-    for value in x.ticks(3 if narrow else 7):
-        marks += [line(x(value), 20, x(value), bottom, "g"), text(x(value), 13, per_cent_tick(value), "m sm", "middle")]
-    marks += [_row(row, float(top), x, width, reference) for row, top in zip(rows, tops, strict=True)]
+    ticks = x.ticks(3 if narrow else 7)
+    for value, words in zip(ticks, map(error_ticks(ticks), ticks), strict=True):
+        marks += [line(x(value), 20, x(value), bottom, "g"), text(x(value), 13, words, "m sm", "middle")]
+    marks += [_row(row, float(top), x, width, total) for row, top, total in zip(rows, tops, totals, strict=True)]
     return drawing(width, bottom + 26, "narrow" if narrow else "wide", label, marks)
 
 
@@ -94,9 +99,9 @@ def _mark(part: str, x: float, y: float) -> str:
     return f'<path d="M{places(x)} {places(y - 6)}l6 6-6 6-6-6z" class="mk3"/>'
 
 
-def _row(row: BudgetRow, top: float, x: Scale, width: float, reference: Reference | None) -> str:
+def _row(row: BudgetRow, top: float, x: Scale, width: float, total: str) -> str:
     style = {"E": "e", "S": "s", "T": "t"}[letter(row)]
-    y, total = top + 8, at_most(row.total, reference, "≤ ")
+    y = top + 8
     end = float(x.clipped(np.array([row.total]))[0])
     marks = [
         text(x.start - 8, y + 4, short(row.label), style, "end"),

@@ -14,7 +14,7 @@ from ridgeback.reports.drawing.figure import Figure
 from ridgeback.reports.drawing.marks import area, curve, dot, drawing, group, line, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale
-from ridgeback.reports.drawing.ticks import per_cent_tick
+from ridgeback.reports.drawing.ticks import error_ticks
 from ridgeback.reports.text.tables import Row, Table
 
 AT_BOUND = 1.5
@@ -53,14 +53,15 @@ def noise_figure(study: NoiseStudy) -> Figure:
 def _small(study: NoiseStudy, method: str, snr: Array, rms: dict[str, Array], scale: tuple[float, float]) -> str:
     wide = float(snr.max() - snr.min()) or 2.0
     panel = Panel(
-        Scale(float(snr.min()) - 0.06 * wide, float(snr.max()) + 0.06 * wide, 50.0, 198.0),
+        Scale(float(snr.min()) - 0.06 * wide, float(snr.max()) + 0.06 * wide, 58.0, 198.0),
         Scale(*scale, 176.0, 30.0, log=True),
     )
     marks = [text(0, 12, estimator(method), "fgt b")]
-    for value in panel.y.ticks(4):
+    ticks = panel.y.ticks(4)
+    for value, words in zip(ticks, map(error_ticks(ticks), ticks), strict=True):
         marks += [
             line(panel.left, panel.y(value), panel.right, panel.y(value)),
-            text(panel.left - 5, panel.y(value) + 4, per_cent_tick(value), "m sm", "end"),
+            text(panel.left - 5, panel.y(value) + 4, words, "m sm", "end"),
         ]
     shown = snr[:: max(1, (snr.size + 2) // 3)]
     marks += [text(panel.x(float(v)), 192, f"{v:g}", "m sm", "middle") for v in shown]
@@ -77,9 +78,11 @@ def _small(study: NoiseStudy, method: str, snr: Array, rms: dict[str, Array], sc
     for i, (a, b) in enumerate(zip(x, y, strict=True)):
         if np.isfinite(b):
             marks.append(dot(float(a), float(b), 3.0, "t", _told(cells[i])))
-            if own[i] > scale[1]:
-                shift, anchor = (9, "start") if i < snr.size - 1 else (-9, "end")
-                marks.append(group([text(float(a) + shift, panel.top + 5, "off scale", "t sm", anchor)], "halo"))
+    off = np.flatnonzero(own > scale[1])
+    if off.size:  # said once, beside the last of them
+        last = int(off[-1])
+        shift, anchor = (9, "start") if last < snr.size - 1 else (-9, "end")
+        marks.append(group([text(float(x[last]) + shift, panel.top + 5, "off scale", "t sm", anchor)], "halo"))
     return drawing(204, 210, "one", f"{estimator(method)}: error against noise", marks)
 
 

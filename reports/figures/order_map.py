@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ridgeback.common.numbers import number, per_cent, rounded_down, threshold
+from ridgeback.common.numbers import number, per_cent, rounded_down, threshold, uncertain
 from ridgeback.compare.motion.results import MotionComparison
 from ridgeback.compare.report.error_grid import ErrorGrid
 from ridgeback.compare.study.results import Range, Study
@@ -70,9 +70,10 @@ def _caption(study: Study, grid: ErrorGrid, observed: bool) -> str:
             f"to {number(low[1], 2)}; open: {number(high[0], 2)} to {number(high[1], 2)})."
         )
     if study.convergence_radius:
-        text_ += f" The series converges for {name} below {number(study.convergence_radius)}"
         open_ = study.convergence_uncertainty or 0.0
-        text_ += f" ± {number(open_, 1)}." if open_ > ROUNDING * study.convergence_radius else "."
+        exact = open_ <= ROUNDING * study.convergence_radius
+        radius = number(study.convergence_radius) if exact else uncertain(study.convergence_radius, open_)
+        text_ += f" The series converges for {name} below {radius}."
     return text_
 
 
@@ -277,7 +278,16 @@ def reach_sentence(study: Study, target: float, order: int, up_to: float | None)
         return f"ω₀ is the same at every {name} studied"
     if up_to is None:
         return f"Order {order} keeps {threshold(target)} at no {name} studied"
-    end = f"{name} = {number(rounded_down(up_to, 3))} {study.amplitude_unit}".strip()
+    end = f"{name} = {three_digits(rounded_down(up_to, 3))} {study.amplitude_unit}".strip()
     if up_to >= study.amplitudes[-1]:
         return f"Order {order} keeps {threshold(target)} over all of the range studied, to {end}"
     return f"Order {order} keeps {threshold(target)} up to {end}"
+
+
+def three_digits(value: float) -> str:
+    """A limit with as many digits as those beside it have.
+
+    >>> three_digits(1.2), three_digits(0.956), three_digits(12.0), three_digits(2e-7)
+    ('1.20', '0.956', '12.0', '2 × 10⁻⁷')
+    """
+    return f"{value:#.3g}" if 1e-3 <= value < 100.0 else number(value, 3)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ridgeback.common.numbers import decibels, minus
+from ridgeback.common.numbers import decibels, minus, per_cent
 from ridgeback.common.quantities import frequency
 from ridgeback.compare.motion.harmonics.folding import Folding, folded, folded_sentence
 from ridgeback.compare.motion.results import Curve, Image, MotionComparison, SignedPlane
@@ -16,7 +16,7 @@ from ridgeback.reports.drawing.figure import Figure
 from ridgeback.reports.drawing.marks import curve, drawing, group, line, places, rect, text, trace
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.raster import mask_uri
-from ridgeback.reports.drawing.scale import Scale
+from ridgeback.reports.drawing.scale import Scale, round_values
 from ridgeback.reports.figures.clock import Clock, shown
 
 SIZE = (500.0, 372.0)
@@ -125,7 +125,7 @@ def _bias(decay: MotionComparison) -> str:
     bias = decay.wigner_bias
     if bias is None or bias.measured is None or abs(bias.measured) < 1e-4:
         return ""
-    return f", on average {100 * abs(bias.measured):.2f} % {'below' if bias.measured < 0 else 'above'} it"
+    return f", on average {per_cent(abs(bias.measured))} {'below' if bias.measured < 0 else 'above'} it"
 
 
 def _frame(span: tuple[float, float], omega: Array, clock: Clock) -> Panel:
@@ -208,7 +208,11 @@ def level_plane(
                     names.append(_name_of(words, x, y, last))
     marks += [panel.zooming(moving), group(names, "halo nz")]
     marks += _axes(panel, clock, image.name) + _bar(
-        f"{key}-g", [(v, decibels(v)) for v in np.linspace(image.floor_db, 0, 5)], image.floor_db, 0.0, "of the maximum"
+        f"{key}-g",
+        [(v, decibels(v)) for v in round_values(image.floor_db, 0.0, 5)],
+        image.floor_db,
+        0.0,
+        "of the maximum",
     )
     return drawing(*SIZE, "one", f"{image.name}, level in decibels of its maximum", marks)
 

@@ -41,6 +41,16 @@ class Band:
     over: tuple[tuple[str, Array, str], ...] = ()
     """Name, values and style of each."""
 
+    @property
+    def name(self) -> str:
+        """The title without its unit."""
+        return self.title.partition(", ")[0]
+
+    @property
+    def unit(self) -> str:
+        """The unit that the title ends with."""
+        return self.title.partition(", ")[2]
+
 
 def side_by_side(key: str, bands: Sequence[Band], *, x_title: str, caption: str, label: str, unit: str = "") -> Figure:
     """Two curves over the same amplitude beside each other, below each other on a phone.
@@ -62,6 +72,8 @@ def side_by_side(key: str, bands: Sequence[Band], *, x_title: str, caption: str,
     names = _named(bands[0])
     series = [Series(band.title, band.x, band.y) for band in bands]
     series += [Series(name, band.x, y) for band in bands for name, y, _ in band.over]
+    series = [Series(band.name, band.x, band.y, band.unit) for band in bands]
+    series += [Series(name, band.x, y, band.unit) for band in bands for name, y, _ in band.over]
     return Figure(
         key=key,
         wide=drawing(WIDE, height[0], "wide", label, [*_bands(bands, wide, x_title), _key(bands[0], wide[0])]),
@@ -257,7 +269,7 @@ def tracks_figure(recording: RecordingComparison) -> Figure:
     values = [np.asarray(shown(c)) * f for c in drawn]
     spread = [np.quantile(v[np.isfinite(v)], [0.01, 0.99]) for v in values if np.isfinite(v).any()]
     panels = tuple(_time_panel(recording, spread, narrow=n, height=230.0) for n in (False, True))
-    wide = Panel(Scale(panels[0].x.low, panels[0].x.high, 64.0, 730.0), panels[0].y)
+    wide = Panel(Scale(panels[0].x.low, panels[0].x.high, 64.0, 700.0), panels[0].y)
     series = [Series(c.label, c.time, v, CLOCK.unit) for c, v in zip(drawn, values, strict=True)]
 
     def marks(panel: Panel, narrow: bool) -> list[str]:

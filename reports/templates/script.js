@@ -18,7 +18,10 @@
     const e = Math.floor(Math.log10(v)), up = Math.ceil(v / 10 ** (e - 1) * (1 - 1e-9)) * 10 ** (e - 1);
     return percent(up);
   };
-  const short = v => { const t = v.toPrecision(5); return t.includes("e") ? v.toExponential(3) : String(+t); };
+  const short = v => {
+    const t = v.toPrecision(5), [m, e] = v.toExponential(3).split("e");
+    return (t.includes("e") ? +m + " × 10" + sup(+e) : String(+t)).replace("-", "−");
+  };
 
   // contents: mark the section whose heading was passed last
   const links = $$(".toc a"), parts = links.map(a => $(a.hash));
@@ -141,8 +144,9 @@
   const place = (r, e) => {
     const all = laid(r), found = all.find(([svg]) => svg.contains(e.target)) ?? all[0];
     if (!found) return [null];
-    const [svg, boxes] = found, b = boxes[0], p = inside(svg, e), [low, high] = span(r, b);
-    return [svg, boxes, p.x, low + (p.x - b[0]) / (b[2] - b[0]) * (high - low)];
+    const [svg, boxes] = found, p = inside(svg, e);
+    const b = boxes.find(([x0, , x1]) => p.x >= x0 - 8 && p.x <= x1 + 8) ?? boxes[0], [low, high] = span(r, b);
+    return [svg, b, p.x, low + (p.x - b[0]) / (b[2] - b[0]) * (high - low), boxes];
   };
   // what a pointer is dragged across is stretched to the whole width
   readers.filter(zooms).forEach(r => {
@@ -151,9 +155,9 @@
     const end = () => { mark?.remove(); from = mark = null; };
     const across = e => Math.min(from.b[2], Math.max(from.b[0], inside(from.svg, e).x));
     box.addEventListener("pointerdown", e => {
-      const [svg, boxes, p] = place(r, e);
-      if (!svg || e.button !== 0 || p < boxes[0][0] || p > boxes[0][2]) return;
-      from = {svg, p, b: boxes[0], bottom: boxes[boxes.length - 1][3]};
+      const [svg, b, p, , boxes] = place(r, e);
+      if (!svg || e.button !== 0 || p < b[0] || p > b[2]) return;
+      from = {svg, p, b, bottom: boxes[boxes.length - 1][3]};
       box.setPointerCapture(e.pointerId);
     });
     box.addEventListener("pointermove", e => {
@@ -177,8 +181,8 @@
   readers.filter(r => r.d.at).forEach(r => {
     const box = $(".drawing", r.figure);
     reading(box, e => {
-      const [svg, boxes, p, x] = place(r, e);
-      if (svg) move(r, p < boxes[0][0] - 8 || p > boxes[0][2] + 8 ? null : x);
+      const [svg, b, p, x] = place(r, e);
+      if (svg) move(r, p < b[0] - 8 || p > b[2] + 8 ? null : x);
     }, () => move(r, null));
     box.addEventListener("keydown", e => {
       const grid = r.d.at, n = grid.length, step = grid[1] - grid[0], [low, high] = r.range ?? [grid[0], grid[n - 1]];
@@ -328,15 +332,22 @@
       return [Math.min(d.orders.length - 1, Math.floor((low[3] - p.y) / (low[3] - low[1]) * d.orders.length)), j];
     };
     const drawing = $(".drawing", figure), out = $(".out", figure);
-    reading(drawing, e => {
-      const at = cell(e);
+    const tell = at => {
       out.textContent = at ? "order " + d.orders[at[0]] + "   " + d.letter + " = " + unit(d.amplitudes[at[1]]) + "   error " + size(...at) : "";
-    }, () => { out.textContent = ""; });
-    drawing.addEventListener("pointerdown", e => {
-      const at = cell(e);
-      if (!at) return;
-      [so.value, sa.value] = at;
-      set();
+    };
+    const go = at => { [so.value, sa.value] = at; set(); };
+    reading(drawing, e => tell(cell(e)), () => tell(null));
+    drawing.addEventListener("pointerdown", e => { const at = cell(e); if (at) go(at); });
+    // the keys move the chosen cell and read it
+    drawing.addEventListener("keydown", e => {
+      if (e.key === "Escape") { tell(null); return; }
+      const i = +so.value, j = +sa.value, last = d.amplitudes.length - 1;
+      const to = {ArrowLeft: [i, j - 1], ArrowRight: [i, j + 1], ArrowUp: [i + 1, j], ArrowDown: [i - 1, j],
+        Home: [i, 0], End: [i, last]}[e.key];
+      if (!to) return;
+      e.preventDefault();
+      go([Math.min(d.orders.length - 1, Math.max(0, to[0])), Math.min(last, Math.max(0, to[1]))]);
+      tell([+so.value, +sa.value]);
     });
     $(".slid", figure).hidden = false;
     $(".read", figure).hidden = false;
@@ -417,13 +428,20 @@
       (navigator.clipboard ? navigator.clipboard.writeText(text) : Promise.reject()).then(() => done("Copied"), () => done("Not allowed"));
     });
   });
-  const sizes = {ns: 1e-9, "µs": 1e-6, ms: 1e-3};
-  const worth = cell => {
-    const t = cell.textContent.replace(/[\u2007\u2008]/g, "").replace("−", "-").replace("≤", "").trim(), v = parseFloat(t);
-    if (Number.isNaN(v)) return Infinity;
-    const power = t.match(/10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)/), unit = t.match(/ (ns|µs|ms)/);
-    const raised = power ? [...power[1]].map(c => c === "⁻" ? "-" : "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).join("") : 0;
-    return Math.abs(v) * (t.includes("%") ? .01 : 1) * 10 ** +raised * (unit ? sizes[unit[1]] : 1);
+  const units = {"%": .01, ns: 1e-9, "µs": 1e-6, ms: 1e-3};
+  // the size of the number that a cell begins with; NaN where it holds none
+  const sized = cell => {
+    const t = cell.textContent.replace(/[\u2007\u2008]/g, "").replaceAll("−", "-").replace("≤", "").trim();
+    const [, v, power, unit] = t.match(/^([+-]?[\d.]+)(?: × 10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?: (%|ns|µs|ms))?(?!\S)/) ?? [];
+    const raised = [...power ?? "⁰"].map(c => c === "⁻" ? "-" : "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).join("");
+    return v === undefined ? NaN : Math.abs(v) * (units[unit] ?? 1) * 10 ** raised;
+  };
+  // by number, then by name; what is neither comes last either way
+  const ordered = (groups, column, down) => {
+    const keyed = groups.map(g => [sized(g[0].cells[column]), g[0].cells[column].textContent.trim(), g]);
+    const bare = ([v, t]) => Number.isNaN(v) && (!t || t === "–"), sign = down ? -1 : 1;
+    const worded = ([v]) => Number.isNaN(v), compared = (a, b) => worded(a) ? a[1].localeCompare(b[1], "en") : a[0] - b[0];
+    return keyed.sort((a, b) => bare(a) - bare(b) || worded(a) - worded(b) || sign * compared(a, b)).map(k => k[2]);
   };
   $$("table[id] thead th").forEach((head, i, all) => {
     const table = head.closest("table"), body = $("tbody", table), column = [...head.parentElement.children].indexOf(head);
@@ -438,9 +456,7 @@
       head.setAttribute("aria-sort", down ? "descending" : "ascending");
       const groups = [];
       for (const row of [...body.rows]) row.className === "remark" ? groups[groups.length - 1].push(row) : groups.push([row]);
-      const key = g => worth(g[0].cells[column]);
-      groups.sort((a, b) => down ? key(b) - key(a) : key(a) - key(b));
-      body.append(...groups.flat());
+      body.append(...ordered(groups, column, down).flat());
     });
   });
 })();

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
-from ridgeback.common.numbers import NONE, number, per_cent, rounded_down, threshold
+from ridgeback.common.numbers import NONE, alike, number, per_cent, rounded_down, threshold
 from ridgeback.common.quantities import measured_time, symbol
 from ridgeback.compare.benchmark.contenders import Reference
 from ridgeback.compare.benchmark.contenders import Row as Contender
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.motion.results import BudgetRow
-from ridgeback.compare.report.naming import at_most, capital, floor_words, refused_names, short_name
+from ridgeback.compare.report.naming import at_most, capital, floor_words, refused_names, short_name, written_of
 from ridgeback.compare.study.results import Certified, Range
 from ridgeback.reports.text.align import aligned
 
@@ -76,6 +76,9 @@ def contender_table(found: Benchmark) -> Table:
     heads = [f"rms, A(t) by {named[s]}" for s in sources] if both else ["rms error"]
     timed = any(r.time_ns_per_value is not None for r in found.contenders)
     ordered = sorted(ranked.items(), key=lambda item: min(_error(r) for r in item[1]))
+    every = [row for _, rows in ordered for row in rows]
+    columns = ([_rms(r) for r in every], [r.largest for r in every], [r.mean for r in every])
+    written = [written_of(values, found.reference) for values in columns]
     low, high = (number(x, 3) for x in found.support)
     span = f"{low} to {high} {found.case.time_unit}".strip()
     caption = f"Relative error of ω₀(t), t = {span}; mean is signed, negative means low."
@@ -90,7 +93,10 @@ def contender_table(found: Benchmark) -> Table:
         caption,
         ("contender", *heads, "largest", "mean", *(("a value", "a track") if timed else ())),
         (
-            *(_contender(name, rows, sources if both else [], found.reference, timed=timed) for name, rows in ordered),
+            *(
+                _contender(name, rows, sources if both else [], found.reference, timed=timed, written=written)
+                for name, rows in ordered
+            ),
             *(
                 Row(
                     (capital(refused_names(rows)), *(NONE,) * (len(heads) + 2 + 2 * timed)),
@@ -103,12 +109,22 @@ def contender_table(found: Benchmark) -> Table:
     )
 
 
+def _rms(row: Contender | None) -> float | None:
+    return None if row is None else row.relative_rms_error
+
+
 def _error(row: Contender) -> float:
     return float("inf") if row.relative_rms_error is None else row.relative_rms_error
 
 
 def _contender(
-    name: str, rows: Sequence[Contender], sources: Sequence[str], reference: Reference, *, timed: bool
+    name: str,
+    rows: Sequence[Contender],
+    sources: Sequence[str],
+    reference: Reference,
+    *,
+    timed: bool,
+    written: Sequence[Callable[..., str]],
 ) -> Row:
     best = min(rows, key=_error)
     by_source = {r.amplitude_from: r for r in reversed(rows)}
@@ -123,14 +139,18 @@ def _contender(
         scatter, track = (None, None) if cheapest is None else (cheapest.time_scatter, cheapest.time_s_per_track)
         cost = (measured_time(value, scatter), measured_time(track, scatter))
     remark = "" if best.ranked else f"Not ranked: covers {100 * best.coverage:.0f} % of the interior."
-    texts = [at_most(None if e is None else e.relative_rms_error, reference, "≤ ", missing="") for e in errors]
-    texts += [at_most(best.largest, reference, "≤ "), at_most(best.mean, reference, "≤ ", signed=True)]
+    rms, largest, mean = written
+    texts = [at_most(_rms(e), reference, "≤ ", missing="", written=rms) for e in errors]
+    texts.append(at_most(best.largest, reference, "≤ ", written=largest))
+    texts.append(at_most(best.mean, reference, "≤ ", signed=True, written=mean))
     return Row((capital(name), *texts, *cost), remark)
 
 
 def budget_table(rows: Sequence[BudgetRow], reference: Reference | None = None) -> Table:
     """Where each curve's distance from the reference comes from."""
     below = floor_words((error for row in rows for error in (row.total, row.closure)), reference)
+    parts = [(name, alike(getattr(row, name) for row in rows)) for name in ("truncation", "averaging", "estimator")]
+    total, closure = (written_of([getattr(row, name) for row in rows], reference) for name in ("total", "closure"))
     return Table(
         "budget-table",
         "Parts of the relative error, rms over the interior. Closure is the rms of what the named parts leave "
@@ -140,9 +160,9 @@ def budget_table(rows: Sequence[BudgetRow], reference: Reference | None = None) 
             Row(
                 (
                     capital(row.label),
-                    *(per_cent(v, missing="") for v in (row.truncation, row.averaging, row.estimator)),
-                    at_most(row.total, reference, "≤ "),
-                    at_most(row.closure, reference, "≤ "),
+                    *(written(getattr(row, name), missing="") for name, written in parts),
+                    at_most(row.total, reference, "≤ ", written=total),
+                    at_most(row.closure, reference, "≤ ", written=closure),
                 ),
                 row.note,
             )
@@ -188,6 +208,7 @@ def _reach(reach: dict[tuple[int, float], float | None], order: int, target: flo
 def certified_table(found: Certified, unit: str) -> Table:
     """The series beside its resummations, one column per amplitude."""
     largest = max((row.radius for row in found.rows), default=0.0)
+    written = [alike(column) for column in zip(*(row.errors for row in found.rows), strict=True)]
     where = "peak amplitudes" if found.variable == "A" else f"values of {symbol(found.variable)}"
     return Table(
         "certified",
@@ -197,7 +218,12 @@ def certified_table(found: Certified, unit: str) -> Table:
         "A dash means that the formula does not hold there.",
         ("formula", *(f"{symbol(found.variable)} = {number(a)}" for a in found.amplitudes)),
         tuple(
-            Row((capital(row.method).replace("Pade", "Padé"), *(per_cent(e, signed=True) for e in row.errors)))
+            Row(
+                (
+                    capital(row.method).replace("Pade", "Padé"),
+                    *(said(e, signed=True) for said, e in zip(written, row.errors, strict=True)),
+                )
+            )
             for row in found.rows
         ),
     )

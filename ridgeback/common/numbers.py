@@ -6,7 +6,7 @@ Text is Unicode (a true minus, superscripts).  A missing number is a dash unless
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 
 NONE = "–"
@@ -124,6 +124,26 @@ def per_cent(value: float | None, *, signed: bool = False, missing: str = NONE) 
         return relative(value, signed=signed, missing=missing)
     sign = "+" if signed and value > 0 else ""
     return sign + (f"{two_digits(100 * value)} %" if abs(value) >= _LEAST_PER_CENT else scientific(value))
+
+
+def powers(value: float | None, *, signed: bool = False, missing: str = NONE) -> str:
+    """A relative error as two digits and a power of ten, however large.
+
+    >>> powers(0.0019), powers(-2.3e-8, signed=True), powers(None), powers(0.0)
+    ('1.9 × 10⁻³', '−2.3 × 10⁻⁸', '–', '0')
+    """
+    if value is None or not math.isfinite(value) or value == 0:
+        return relative(value, signed=signed, missing=missing)
+    return ("+" if signed and value > 0 else "") + scientific(value)
+
+
+def alike(values: Iterable[float | None]) -> Callable[..., str]:
+    """How the relative errors of one column are written: in per cent, or all as powers of ten where one is below those.
+
+    >>> alike([0.5, 1e-3]) is per_cent, alike([0.5, None, 1e-9]) is powers
+    (True, True)
+    """
+    return powers if any(value and abs(value) < _LEAST_PER_CENT for value in values) else per_cent
 
 
 def offset(value: float | None) -> str:

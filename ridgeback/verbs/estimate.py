@@ -154,7 +154,7 @@ def command(
     if backbone_wanted:
         check_backbones(found)
     if plot is not None:
-        from ridgeback.reports.figures.measurement import plot_file
+        from ridgeback.reports.figures.recordings.measurement import plot_file
 
         with showing(True) as progress:
             progress(0.0, "figure")

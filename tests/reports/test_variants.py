@@ -27,12 +27,14 @@ from ridgeback.reports.drawing.figure import Series, _read
 from ridgeback.reports.drawing.marks import needed
 from ridgeback.reports.drawing.ticks import round_duration
 from ridgeback.reports.figures import benchmark as cost_figure
-from ridgeback.reports.figures import identification, in_time, noise, order_map
-from ridgeback.reports.figures.accuracy_cost import accuracy_cost, shown
+from ridgeback.reports.figures import in_time, noise, order_map
+from ridgeback.reports.figures.accuracy_cost import accuracy_cost
 from ridgeback.reports.figures.answer import answer_figure
 from ridgeback.reports.figures.budget import _ruling, budget_figure
+from ridgeback.reports.figures.contending import shown
 from ridgeback.reports.figures.motion import motion
 from ridgeback.reports.figures.planes import planes, signed_plane
+from ridgeback.reports.figures.recordings import identification
 from ridgeback.reports.figures.recordings.sample_fit import line_sentence
 from ridgeback.reports.parts import Section
 from ridgeback.reports.runs_sections import runs_sections

@@ -12,7 +12,7 @@ from ridgeback.compare.recording.measurements import Measurements, measure_recor
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.reports.drawing.canvas import Canvas
 from ridgeback.reports.drawing.labels import measured
-from ridgeback.reports.figures.measurement import PAGE, drawn, plot_file
+from ridgeback.reports.figures.recordings.measurement import PAGE, drawn, plot_file
 
 RATE = 20.0
 T = np.arange(500) / RATE

@@ -11,7 +11,7 @@ import pytest
 
 from ridgeback.compare.recording.measurements import measure_recordings
 from ridgeback.numeric.recording.recording import Recording
-from ridgeback.reports.figures.measurement import plot_file
+from ridgeback.reports.figures.recordings.measurement import plot_file
 
 ACTING = "\x00\x07\x1b\x9f\u202e\u2066\ufffe\udcff"
 
