@@ -102,7 +102,7 @@ def pooled(**more: Any) -> Pooled:
         (lambda: slope(curve(), 0.0, 9.0), None),
         (lambda: slope(curve(~NOWHERE), 0.0, 9.0), pytest.approx(1.0)),
         (lambda: distance(curve(), curve()), None),
-        (lambda: _estimate_row(STUB(), Outcome(STUB(), None, "no"), None, print), None),
+        (lambda: _estimate_row(STUB(time=TIME), Outcome(STUB(), None, "no"), None, print), None),
         (lambda: BackboneFit(np.array([2.0, -0.5]), np.zeros(2), 1.0)(np.array([2.0])).tolist(), [0.0]),
         (
             lambda: sorted(size_columns(STUB(amplitude=TIME, standard_deviation=None, interval=None, time=TIME), TIME)),
@@ -122,7 +122,7 @@ def pooled(**more: Any) -> Pooled:
         (lambda: best_estimator.best_of([pooled(rms=None)])["best"], "none"),
         (lambda: list(crossings.duels_of([pooled(rms=None)])), []),
         (lambda: list(error_budget.sentences([pooled()])), []),
-        (lambda: study_report._spread(STUB(rows=lambda: [])), ""),
+        (lambda: study_report._spread(STUB(rows=lambda: []), {}), ""),
         (lambda: list(study_report._files(STUB(answers=(), cells=10**9))), []),
         (lambda: list(study_report._files(STUB(answers=(), cells=0, rows=lambda: []))), []),
         (lambda: derivation.harmonic_table(energy_integral(find("pendulum"), 2)), None),
@@ -233,7 +233,8 @@ def test_rows_of_the_budget_without_a_value(monkeypatch: pytest.MonkeyPatch) -> 
     assert _model_row(STUB(reference=None), curve()) is None
     outcome = Outcome(STUB(name="x", label="x", bare=STUB(velocity=False)), STUB())
     monkeypatch.setattr(Outcome, "curve", property(lambda self: None if self.track is None else curve()))
-    assert _estimate_row(STUB(reference=None), outcome, None, print) is None
+    monkeypatch.setattr(budget, "_sampled", lambda *_: curve())
+    assert _estimate_row(STUB(reference=None, time=TIME), outcome, None, print) is None
     monkeypatch.setattr(budget, "attempt", lambda *_, **__: Outcome(STUB(), None, "too short"))
     known = STUB(velocity=TIME, signal=TIME)
     assert estimator_error(STUB(trajectory=STUB(rate=1.0)), outcome, known) is None
