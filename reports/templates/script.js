@@ -432,7 +432,7 @@
   // the size of the number that a cell begins with; NaN where it holds none
   const sized = cell => {
     const t = cell.textContent.replace(/[\u2007\u2008]/g, "").replaceAll("−", "-").replace("≤", "").trim();
-    const [, v, power, unit] = t.match(/^([+-]?[\d.]+)(?: × 10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?: (%|ns|µs|ms))?(?!\S)/) ?? [];
+    const [, v, power, unit] = t.match(/^([+-]?[\d.]+)(?: ± [\d.]+)?(?: × 10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?: (%|ns|µs|ms))?(?!\S)/) ?? [];
     const raised = [...power ?? "⁰"].map(c => c === "⁻" ? "-" : "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(c)).join("");
     return v === undefined ? NaN : Math.abs(v) * (units[unit] ?? 1) * 10 ** raised;
   };

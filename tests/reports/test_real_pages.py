@@ -182,7 +182,7 @@ def test_check_boxes_hide_their_series_and_show_them_again(look: Look, kind: str
 def size(cell: str) -> float | None:
     """The size of the number that a cell begins with; None where it holds none."""
     text = cell.replace("\u2007", "").replace("\u2008", "").replace("−", "-").strip().removeprefix("≤ ").strip()
-    found = re.match(r"([+-]?[\d.]+)(?: × 10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?: (%|ns|µs|ms|s))?(?: |$|\()", text)
+    found = re.match(r"([+-]?[\d.]+)(?: ± [\d.]+)?(?: × 10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?(?: (%|ns|µs|ms|s))?(?: |$|\()", text)
     if found is None:
         return None
     power = int((found[2] or "0").translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")))
