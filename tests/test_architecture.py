@@ -79,7 +79,7 @@ BY_NAME: dict[str, frozenset[str]] = {
     "ridgeback/common/show/picture.py": frozenset({"ridgeback.reports.pictures"}),
     "ridgeback/common/show/page.py": frozenset({"ridgeback.reports.page"}),
     "compare/binding/heyoka.py": frozenset({"heyoka"}),
-    "numeric/late.py": frozenset({"scipy.signal"}),
+    "numeric/late.py": frozenset({"scipy.signal", "scipy.io.wavfile"}),
 }
 OF_THE_HOUSE = frozenset({"faults", "fuzz", "kill", "mutants", "packaging"})
 """Folders of tests/ that stand for no folder of a room: what they try goes through the whole house."""

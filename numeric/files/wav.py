@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.io import wavfile
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.files.columns import DAMAGE, Columns, first_line
+from ridgeback.numeric.late import wavfile
 
 ORDERS = {b"RIFF": "<", b"RF64": "<", b"RIFX": ">"}
 MOST_BITS = 64
