@@ -15,6 +15,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.recording.measurement import Measurement, estimated, measure, measured
+from ridgeback.numeric.components.shared_error import shared_error
 from ridgeback.numeric.components.tones import Tone
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.tracking.request import Request
@@ -105,6 +106,8 @@ def of_tone(recording: Recording, request: Request, tone: Tone, number: int) -> 
         facts=recording.facts,
     )
     band = (tone.omega / NEAR, min(tone.omega * NEAR, 0.999 * np.pi * signal.rate))
-    note = f"Component {number}, {tone.said()}: measured in what the others leave of the samples."
-    found = measure(here, band=band, components=1)
+    how = "measured in what the others leave of the samples; their error is in its own"
+    note = f"Component {number}, {tone.said()}: {how}."
+    beside = tuple(other for other in signal.tones if other is not tone)
+    found = measure(here, band=band, components=1, shared=shared_error(tone, beside, model))
     return replace(found, notes=(note, *found.notes), component=number)

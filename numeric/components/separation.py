@@ -63,6 +63,7 @@ def separated(
     most: int = MOST_TONES,
     band: tuple[float, float] | None = None,
     beyond: tuple[Tone, ...] = (),
+    shared: float = 1.0,
 ) -> Separated:
     """Model one oscillation and what is beside it.
 
@@ -86,6 +87,8 @@ def separated(
         Where the oscillation is, rad per time unit.
     beyond : tuple of Tone
         Tones in the samples that are known to be there, about; they do not count among ``most``.
+    shared : float
+        Variance of the oscillation's parameters beside components that are off the samples, over that without them.
 
     Raises
     ------
@@ -129,7 +132,7 @@ def separated(
         models, tones = with_tones(given, tones, most)
     left = residual(given.x, models.best, tones)
     omega = float(np.average(models.best.omega, weights=models.best.size**2))
-    known = models.coloured(colour(left, rate, omega, models.best.basis.count))
+    known = models.coloured(shared * colour(left, rate, omega, models.best.basis.count))
     single = np.where(given.sound, given.x - total(tones, given.time), models.best.samples())
     reason = off_the_band(models.best, band) or doubt(
         known, given.x, left, rate, given.guided(tones).guide, given.sound
@@ -148,6 +151,7 @@ def separated_once(
     most: int,
     band: tuple[float, float] | None,
     beyond: tuple[Tone, ...],
+    shared: float,
 ) -> Separated:
     """``separated`` of arrays as their bytes, kept for the next method that asks for the same of the same samples."""
     return separated(
@@ -160,6 +164,7 @@ def separated_once(
         most=most,
         band=band,
         beyond=beyond,
+        shared=shared,
     )
 
 

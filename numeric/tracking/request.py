@@ -56,6 +56,8 @@ class Options:
     bias: bool = True
     components: int | None = None
     """Oscillations to tell apart; None for those that the samples show."""
+    shared: float = 1.0
+    """Variance of the oscillation's parameters beside components that are off the samples, over that without them."""
     deviations: bool = True
     """Whether what noise does to a track is found, which takes about as long as the track itself."""
 
@@ -70,7 +72,9 @@ class Options:
     def given(self) -> list[str]:
         """Names of the settings that differ from their defaults."""
         return [
-            item.name for item in fields(self) if getattr(self, item.name) != item.default and item.name != "deviations"
+            item.name
+            for item in fields(self)
+            if getattr(self, item.name) != item.default and item.name not in ("deviations", "shared")
         ]
 
     @property
@@ -195,6 +199,7 @@ class Request:
                 self.options.most_tones,
                 self.options.band,
                 signal.tones,
+                self.options.shared,
             )
         except InputError:
             return self

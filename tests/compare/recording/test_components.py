@@ -9,6 +9,7 @@ import pytest
 
 from ridgeback.answers.measurements_text import measurements_text
 from ridgeback.compare.recording.components import measured_components
+from ridgeback.compare.recording.measurement import measure
 from ridgeback.compare.recording.measurements import measure_recordings
 from ridgeback.numeric.recording.recording import Recording
 
@@ -97,3 +98,14 @@ def test_a_component_of_a_band_is_in_it() -> None:
     found = measured_components(two_modes(2), components=2, band=(100.0, 130.0))
     assert [one.component for one in found] == [1]
     assert found[0].notes[0].startswith("1 of 2 components that were asked for stand out in the band")
+
+
+def test_what_a_close_mode_leaves_open_widens_the_intervals_of_the_other() -> None:
+    t, noise = np.arange(480) / 60.0, 0.01 * np.random.default_rng(3).normal(size=480)
+    first, second = (a * np.exp(-0.4 * t) * np.cos(w * np.pi * t) for a, w in ((1.0, 20.0), (0.5, 20.6)))
+    alone = measure(Recording.from_arrays(second + noise, 60.0)).backbone
+    beside = measured_components(Recording.from_arrays(first + second + noise, 60.0), components=2)[1].backbone
+    assert alone is not None
+    assert beside is not None
+    assert np.median(beside.growth_rate_sd) > 1.05 * np.median(alone.growth_rate_sd)
+    assert abs(np.median((beside.growth_rate + 0.4) / beside.growth_rate_sd)) < 2.5
