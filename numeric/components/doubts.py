@@ -13,6 +13,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.components.jumps import jump
 from ridgeback.numeric.components.lines import LEAST, clearest_line
+from ridgeback.numeric.components.wander import wandering
 from ridgeback.numeric.harmonics.local_fit import harmonic_fit
 from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.harmonics.spline_model import SplineModel
@@ -49,6 +50,7 @@ def doubt(models: SignalModels, x: Array, left: Array, rate: float, guide: Array
     """
     return (
         jump(models, left, sound)
+        or wandering(models, sound)
         or in_the_way(left, rate, models.best)
         or unfinished(models, left)
         or uneven(models.best, x, rate, guide)

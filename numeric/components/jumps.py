@@ -156,8 +156,8 @@ def jump(models: SignalModels, left: Array, sound: Mask) -> str:
     if bent > min(others) - GAIN:
         return ""
     return (
-        f"the frequency jumps near {at:.4g} after the first sample: a bend of the phase there explains with few "
-        "parameters what takes smooth models many; give a --span on one side of it"
+        f"the frequency jumps near {at:.4g} after the first sample, or wanders at random: a bend of the phase there "
+        "explains with few parameters what takes smooth models many; give a --span on one side of it"
     )
 
 

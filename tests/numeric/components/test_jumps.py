@@ -7,6 +7,7 @@ import pytest
 
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.components.jumps import OFFSET, jump, left_over, moments
+from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.harmonics.signal_model import signal_models
 
 T = np.arange(800) / 40.0
@@ -72,3 +73,12 @@ def test_many_turns_do_not_hide_the_noise_in_rounding(jumps: float, seed: int) -
     said = jump(models, x - models.best.samples(), np.ones(x.size, dtype=np.bool_))
     assert bool(said) == bool(jumps)
     assert not said or abs(float(said.split()[4]) - 3.0) < 0.1
+
+
+@pytest.mark.parametrize("of_frequency", [True, False])
+def test_a_frequency_that_wanders_at_random_is_not_claimed(of_frequency: bool) -> None:
+    t, rng = np.arange(1200) / 20.0, np.random.default_rng(4)
+    steps = 0.02 * rng.normal(size=t.size)
+    walk = np.cumsum(np.cumsum(steps) / 20.0) if of_frequency else np.cumsum(steps)
+    reason = str(estimate(np.cos(9.0 * t + walk) + 0.01 * rng.normal(size=t.size), 20.0).no_interval)
+    assert "wanders at random" in reason
