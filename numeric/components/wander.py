@@ -60,6 +60,6 @@ def wandering(models: SignalModels, sound: Mask) -> str:
         return ""
     return (
         "the frequency wanders at random, jumps, or is that of several components: models on more and more knots do "
-        f"not converge, of which {len(at)} in turn change the phase, the last still by {last:.2g} rad; give a --band or "
-        "a --span in which it goes on smoothly"
+        f"not converge, of which {len(at)} in turn change the phase, the last still by {last:.2g} rad; give a "
+        "--band or a --span in which it goes on smoothly"
     )
