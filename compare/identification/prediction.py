@@ -190,7 +190,7 @@ def rehearsed(first: Recording, track: Track, kept: Weighted) -> Array:
     cut = int(np.searchsorted(phase - phase[0], REHEARSAL * (phase[-1] - phase[0]))) + 1
     try:
         early = part_of(first, slice(cut))
-        data = prepare(early, local_track(early), kept=~early.clipped)
+        data = prepare(early, local_track(early), kept=~early.unsound)
         rest = measured_rest(first, track, phase, float(early.time[-1]) - start)
         again = Weighted(tuple(refit(f.model, data, fit(f.model, data).theta) for f in kept.fits), kept.weights)
         mean, deviation = again.ahead(data, rest.time)

@@ -98,7 +98,7 @@ def prepared(recording: Recording, *, span: Pair | None = None, band: Pair | Non
             f"the displacement; give --quantity {named}, which converts it, or --quantity displacement if it is one"
         )
     used, notes = usable(recording, span, band)
-    wrong = used.clipped if used.clipped.any() else None
+    wrong = used.unsound if used.unsound.any() else None
     start = float(used.time[0])
     try:
         found = estimation(used.values, used.rate, method="harmonic-least-squares", start=start, wrong=wrong, band=band)
@@ -117,8 +117,8 @@ def prepared(recording: Recording, *, span: Pair | None = None, band: Pair | Non
     said = (*where, *beside_notes((), track.used.spikes), *notes)
     told = (*where, *beside_notes(track.used.tones, track.used.spikes), *notes)
     models = found.claimed_models
-    left = None if models is None else np.where(alone.clipped, 0.0, alone.values - models.best.samples())
-    bare = Prepared(alone, here, told, ~alone.clipped, models, track.used.noise, left=left)
+    left = None if models is None else np.where(alone.unsound, 0.0, alone.values - models.best.samples())
+    bare = Prepared(alone, here, told, ~alone.unsound, models, track.used.noise, left=left)
     if not track.used.tones or track.used.spikes or band is not None:
         return bare
     together = in_its_span(used, track, used.values)[0]
@@ -127,7 +127,7 @@ def prepared(recording: Recording, *, span: Pair | None = None, band: Pair | Non
 
 def in_windows(recording: Recording, notes: tuple[str, ...], doubt: str = "") -> Prepared:
     """All samples of a recording, with a track of short windows."""
-    return Prepared(recording, local_track(recording).of_oscillation(), notes, ~recording.clipped, doubt=doubt)
+    return Prepared(recording, local_track(recording).of_oscillation(), notes, ~recording.unsound, doubt=doubt)
 
 
 def in_its_span(recording: Recording, track: Track, values: Array) -> tuple[Recording, tuple[str, ...]]:
@@ -160,7 +160,7 @@ def usable(recording: Recording, span: Pair | None, band: Pair | None = None) ->
             values=thinned(recording, factor),
             rate=recording.rate / factor,
             clipped=maximum_filter1d(recording.clipped, 2 * factor + 1)[::factor],
-            filled=recording.filled[::factor],
+            filled=maximum_filter1d(recording.filled, 2 * factor + 1)[::factor],
         )
         notes.append(f"Every {factor}th sample was used, after a low-pass filter.")
     if recording.values.size > MOST_SAMPLES:

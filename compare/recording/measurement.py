@@ -264,5 +264,5 @@ def overlapping(recording: Recording, found: HalfCycles) -> Mask:
 
 
 def marked(recording: Recording) -> Mask | None:
-    """The clipped samples, None where there are none."""
-    return recording.clipped if recording.clipped.any() else None
+    """The samples that count in no fit, clipped ones and those filled in; None where there are none."""
+    return recording.unsound if recording.unsound.any() else None

@@ -122,7 +122,7 @@ def read_recordings(
         they are refused, unless they are nearly even.
     fill : float, optional
         Where values or times are missing (an empty cell, NaN) the signal is cut; ``fill`` interpolates instead where
-        neighbouring samples are at most so many time units apart.
+        neighbouring samples are at most so many time units apart; what is interpolated so enters no fit.
     detrend : str
         ``"none"``, ``"linear"`` or ``"slow"``.
     span : (float, float), optional

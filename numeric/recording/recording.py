@@ -180,6 +180,11 @@ class Recording(ShownRecording):
         )
 
     @property
+    def unsound(self) -> Mask:
+        """The samples that enter no fit: clipped ones, and those interpolated across missing ones."""
+        return self.clipped | self.filled
+
+    @property
     def channel(self) -> str:
         """The name with its unit."""
         return f"{self.name} [{self.units}]" if self.units else self.name

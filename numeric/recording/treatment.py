@@ -46,6 +46,8 @@ SCATTERED = 0.02
 GUESS = 0.3
 """Interpolation error, relative to the rms of the signal, from which on it is refused."""
 ROUNDS = 100
+SHORT_GAP, ROOM = 6.0, 1.01
+"""Usual steps up to which it is advised to fill a gap, and times its length that are to be given for that."""
 PLACES = 4
 """Places that a note lists."""
 
@@ -247,7 +249,8 @@ def piece_notes(samples: Uniform, treatment: Treatment) -> list[str]:
     notes = []
     if samples.how:
         error = f"; the interpolation errs by about {samples.error:.1e} of the rms" if samples.error else ""
-        notes.append(f"{samples.how[0].upper()}{samples.how[1:]}{error}.")
+        apart = "; they enter no fit" if samples.filled.any() and "uneven" not in samples.how else ""
+        notes.append(f"{samples.how[0].upper()}{samples.how[1:]}{apart}{error}.")
         if "uneven" in samples.how:
             notes.append("Standard deviations take noise as white, which interpolation makes it a little less.")
     if treatment.detrend != "none":
@@ -265,7 +268,7 @@ def signal_notes(samples: Stamped, header: str, gaps: Sequence[Gap], lost: Seque
     if gaps:
         notes.append(
             f"{len(gaps)} {'gap' if len(gaps) == 1 else 'gaps'}: {places([gap_text(gap) for gap in gaps])}; each "
-            "stretch between is taken by itself."
+            f"stretch between is taken by itself{advice(gaps, samples.usual)}."
         )
     if lost:
         spans = [f"t = {part.time[0]:.6g} to {part.time[-1]:.6g}" for part in lost]
@@ -278,6 +281,19 @@ def signal_notes(samples: Stamped, header: str, gaps: Sequence[Gap], lost: Seque
             "enter no fit of the motion."
         )
     return notes
+
+
+def advice(gaps: Sequence[Gap], usual: float) -> str:
+    """What keeps a signal together across its short gaps; empty where there are none.
+
+    >>> advice([Gap(2.0, 5.0, 2), Gap(7.0, 99.0, 91)], 1.0), advice([Gap(7.0, 99.0, 91)], 1.0)
+    ('; --fill 3.03 keeps it together across 1 of them, and what is missing enters no fit', '')
+    """
+    short = [gap.end - gap.begin for gap in gaps if gap.end - gap.begin <= SHORT_GAP * usual]
+    if not short:
+        return ""
+    across = "it" if len(gaps) == 1 else "them" if len(short) == len(gaps) else f"{len(short)} of them"
+    return f"; --fill {ROOM * max(short):.3g} keeps it together across {across}, and what is missing enters no fit"
 
 
 def gap_text(gap: Gap) -> str:

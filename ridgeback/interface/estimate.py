@@ -109,7 +109,7 @@ def estimate(
     parameters : mapping, optional
         Values of its other parameters.
     fill, resample : float, optional
-        Longest gap to interpolate across; rate to interpolate uneven times to.
+        Longest gap to interpolate across, with samples that enter no fit; rate to interpolate uneven times to.
     detrend : {"none", "linear", "slow"}
         What is taken off the samples.
     span : (float, float), optional

@@ -40,7 +40,7 @@ def as_recording(
     column : str or int, optional
         The signal of a table or a file with several.
     resample, fill : float, optional
-        Rate to interpolate uneven times to; longest gap to interpolate across.
+        Rate to interpolate uneven times to; longest gap to interpolate across, with samples that enter no fit.
     detrend : {"none", "linear", "slow"}
         What is taken off.
     span : (float, float), optional

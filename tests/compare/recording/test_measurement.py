@@ -1,7 +1,10 @@
 """Recordings measured: what is measured, left out, failed and combined."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
 from ridgeback.common.errors import InputError
 from ridgeback.compare.recording.measurement import amplitude_columns, measure
@@ -149,3 +152,20 @@ def test_a_measurement_says_how_far_it_is() -> None:
     assert (shares[0], shares[-1]) == (0.0, pytest.approx(0.9))
     assert {step.rpartition(": ")[0] for _, step in told} == {one.label for one in signals}
     assert len(told) >= 8
+
+
+def test_missing_samples_that_are_filled_enter_no_fit() -> None:
+    """20 of 400 samples are missing: whatever is put there changes nothing, and the note of the gaps names --fill."""
+    t, w, draw = np.arange(400) / 40.0, 10.0 * np.pi, np.random.default_rng(3)
+    x = np.exp(-0.01 * w * t) * np.cos(w * t + 1.0) + 0.01 * draw.normal(size=t.size)
+    x[draw.choice(np.arange(1, 399), 20, replace=False)] = np.nan
+    assert any("--fill 0.05" in note for note in Recording.from_arrays(x, 40.0).notes)
+    filled = Recording.from_arrays(x, 40.0, fill=0.1)
+    assert np.count_nonzero(filled.filled) == 20
+    other = replace(filled, values=filled.values + 0.03 * filled.filled)
+    found, again = measure(filled).backbone, measure(other).backbone
+    assert found is not None
+    assert again is not None
+    assert_allclose(again.growth_rate, found.growth_rate, rtol=1e-4)
+    assert found.omega_sd is not None
+    assert np.all(np.abs(found.omega - w) < 4.0 * found.omega_sd)
