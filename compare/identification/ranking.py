@@ -128,9 +128,14 @@ def in_units(text: str, unit: str) -> str:
 
     >>> in_units("1/(T^2 U)", "mm"), in_units("rad/T", "mm"), in_units("U", "")
     ('1/(s^2 mm)', 'rad/s', '')
+    >>> in_units("rad/(T U^2)", "V s^2")
+    'rad/(s (V s^2)^2)'
     """
     named = text.replace("T", "s")
-    return named.replace("U", unit if unit else "u") if named != "U" else unit
+    if named == "U":
+        return unit
+    own = f"({unit})" if any(sign in unit for sign in " /*^") else unit
+    return named.replace("U", own or "u")
 
 
 def candidate(fit: Fit, data: Data, unit: str, score: float, best: float, total: float) -> Candidate:

@@ -100,6 +100,8 @@ ESTIMATORS: Mapping[str, Callable[[Request], Track]] = MappingProxyType(
 METHODS = ("auto", *ESTIMATORS)
 MODEL_FIT = "model-fit"
 """The method that needs an oscillator beside the signal."""
+FAR = 0.03
+"""Bias, relative to omega, beyond which a value outside its own interval is that of something else: a cross term."""
 HARDLY_KNOWN = 0.1
 """Half width of a 95 % interval, relative to omega, beyond which a value is not counted as valid."""
 MORE_PER_CYCLE, VERY_LONG = 12.0, 65_536
@@ -338,6 +340,8 @@ def known_well(track: Track) -> Track:
     interval, reach = track.interval, None
     if interval is not None:
         reach = 0.5 * (interval.high - interval.low)
+        far = np.zeros_like(track.omega) if track.bias is None else np.abs(track.bias)
+        track = replace(track, valid=track.valid & ((far <= reach) | (far <= FAR * track.omega)))
     elif track.no_interval is not None and track.standard_deviation is not None:
         reach = NORMAL_95 * track.standard_deviation
     return track if reach is None else replace(track, valid=track.valid & (reach <= HARDLY_KNOWN * track.omega))

@@ -39,6 +39,10 @@ NAMED = {
     ),
 }
 """Names and units of columns that say what was measured."""
+STANDARD_GRAVITY = {"g": 9.80665, "mg": 9.80665e-3}
+"""In m/s^2."""
+AN_A = re.compile(r"a[ _]?[xyz]?[ _]?\d*")
+"""Names of a column in g, that could be grams, by which it is of an acceleration."""
 
 
 def named_quantity(recording: Recording) -> str:
@@ -50,10 +54,14 @@ def named_quantity(recording: Recording) -> str:
     >>> named_quantity(Recording.from_arrays(x, rate, name="v", units="mm/s")), named_quantity(
     ...     Recording.from_arrays(x, rate, name="accuracy", units="mm"))
     ('velocity', '')
+    >>> [named_quantity(Recording.from_arrays(x, rate, name=n, units="g")) for n in ("az", "mass")]
+    ['acceleration', '']
     """
     if GIVEN in recording.facts:
         return ""
-    name, unit = recording.name.lower(), recording.units.lower()
+    name, unit = recording.name.lower().strip(), recording.units.lower()
+    if unit in STANDARD_GRAVITY and AN_A.fullmatch(name):
+        return "acceleration"
     for quantity, (names, units) in NAMED.items():
         if names.search(name.replace("_", " ")) or units.fullmatch(unit):
             return quantity
@@ -91,8 +99,8 @@ def as_displacement(recording: Recording, quantity: str) -> Recording:
     Returns
     -------
     Recording
-        The same times, in the unit of the samples times the second, or its square, and named as what it is.  Its mean
-        is 0: a constant is nothing that a derivative shows.
+        The same times, in the unit of the samples times the second, or its square, and named as what it is; an
+        acceleration in g, standard gravity, in metres.  Its mean is 0: a constant is nothing that a derivative shows.
 
     Raises
     ------
@@ -113,7 +121,9 @@ def as_displacement(recording: Recording, quantity: str) -> Recording:
     facts = {**recording.facts, GIVEN: quantity}
     if order == 0:
         return replace(recording, facts=facts)
-    x, rate = recording.values, recording.rate
+    unit, scale = recording.units, STANDARD_GRAVITY.get(recording.units, 1.0) if order == 2 else 1.0
+    unit = "m/s^2" if scale != 1.0 else unit
+    x, rate = scale * recording.values, recording.rate
     wrong = recording.clipped if recording.clipped.any() else None
     samples = replace(checked(x, rate, start=0.0, what="quantity", at_least=FEWEST_SAMPLES), wrong=wrong)
     try:
@@ -122,7 +132,7 @@ def as_displacement(recording: Recording, quantity: str) -> Recording:
     except InputError as error:
         raise InputError(f"{recording.label}: the {quantity} cannot be converted to a displacement: {error}") from None
     values = displaced(request.signal.x, model, quantity)
-    unit = integrated_unit(recording.units, order)
+    unit = integrated_unit(unit, order)
     note = (
         f"The {quantity} was converted to a displacement{f' ({unit})' if unit else ''}, harmonic by harmonic along a "
         "model of the signal; its mean is not known."
@@ -152,8 +162,8 @@ def displaced(x: Array, model: SplineModel, quantity: str) -> Array:
 def integrated_unit(unit: str, order: int) -> str:
     """The unit of an integral over time.
 
-    >>> integrated_unit("mm/s", 1), integrated_unit("m/s^2", 2), integrated_unit("g", 2), integrated_unit("", 2)
-    ('mm', 'm', 'g s^2', '')
+    >>> integrated_unit("mm/s", 1), integrated_unit("m/s^2", 2), integrated_unit("V", 2), integrated_unit("", 2)
+    ('mm', 'm', 'V s^2', '')
     """
     seconds = "s" if order == 1 else "s^2"
     return unit.removesuffix(f"/{seconds}") if unit.endswith(f"/{seconds}") or not unit else f"{unit} {seconds}"

@@ -203,9 +203,11 @@ class Request:
             )
         except InputError:
             return self
-        alone = replace(
-            signal, x=found.x, z=analytic_of(found.x), tones=found.tones, spikes=found.spikes, doubt=found.reason
-        )
+        # where no model of the oscillation can be trusted, a tone that was found beside it cannot, but hum of the mains
+        tones = found.tones if not found.reason else tuple(tone for tone in found.tones if tone.mains)
+        back = tuple(tone for tone in found.tones if tone not in tones)
+        x = found.x + total(back, signal.time - signal.start)
+        alone = replace(signal, x=x, z=analytic_of(x), tones=tones, spikes=found.spikes, doubt=found.reason)
         return replace(self, signal=alone, known_models=found.models)
 
     @cached_property

@@ -278,11 +278,15 @@ class AmplitudeTrack(Estimated):
 
 
 def rows_of(columns: dict[str, Array], track: Estimated, unit: str) -> list[dict[str, float | bool]]:
-    """Rows of ``columns``, then those of its uncertainty; ``unit`` ends the names of the latter."""
+    """Rows of ``columns``, then those of its uncertainty; ``unit`` ends the names of the latter.
+
+    Where an interval was asked for and none is claimed there is no deviation either: that of white noise alone would be
+    taken for the error.
+    """
     known = dict(columns)
     for name in ("standard_deviation", "bias", "bias_deviation"):
         value = getattr(track, name)
-        if value is not None:
+        if value is not None and track.no_interval is None:
             known[name + unit] = value
     if track.interval is not None:
         known |= {"low_95" + unit: track.interval.low, "high_95" + unit: track.interval.high}
