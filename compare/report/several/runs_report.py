@@ -157,16 +157,18 @@ def _growth(found: Measurements) -> tuple[Array, Array, Array, Array] | None:
 
 
 def between(found: Measurements) -> tuple[float, float] | None:
-    """Median scatter of omega0 between the runs beyond their errors, and the median error; relative.
+    """Median scatter of omega0 between the runs beyond their own errors, and the median of those; relative.
 
-    None where no amplitude is reached by two of them.
+    The deviation of the combined backbone is no measure of it: the scatter is a part of that.  None where no amplitude
+    is reached by two of them.
     """
+    own = [one.backbone.curve_omega_sd / one.backbone.curve_omega for one in found.measured if one.backbone is not None]
     for common in found.combined:
         known = np.isfinite(common.curve.omega_between)
         if known.any():
             c = common.curve
             scatter = float(np.median(c.omega_between[known] / c.omega[known]))
-            return scatter, float(np.median(c.omega_sd[known] / c.omega[known]))
+            return scatter, float(np.nanmedian(np.concatenate(own)))
     return None
 
 

@@ -9,9 +9,10 @@ import pytest
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import silent
-from ridgeback.compare.recording.measurements import Measurements
+from ridgeback.compare.recording.measurements import Measurements, measure_recordings
 from ridgeback.compare.report.several import runs_report
-from ridgeback.compare.report.several.runs import Named, Runs
+from ridgeback.compare.report.several.runs import Named, Runs, facts
+from ridgeback.numeric.recording.recording import Recording
 from tests.reports import synthetic_several
 
 
@@ -40,11 +41,24 @@ def test_signals_that_agree_and_signals_that_scatter(runs: Runs) -> None:
     assert "they agree within their own errors" in " ".join(runs_report._sentences(runs))
     assert [card.value for card in runs_report._cards(runs)][2] == "within errors"
     apart = replace(runs, found=scattered(runs.found, 5.0))
-    relative, own = runs_report.between(apart.found) or (0.0, 0.0)
-    assert relative == pytest.approx(5.0 * own)
+    relative, _ = runs_report.between(apart.found) or (0.0, 0.0)
+    curve = runs.found.combined[0].curve
+    assert relative == pytest.approx(5.0 * np.median(curve.omega_sd / curve.omega))
     assert "2 signals differ by" in runs_report.runs_title(apart)
     assert "scatters by" in " ".join(runs_report._sentences(apart))
     assert [card.text for card in runs_report._cards(apart)][2] == "scatter of ω₀ between runs"
+
+
+def test_two_signals_of_other_frequencies_do_not_agree() -> None:
+    """Their scatter widens the combined deviation, against which any two would agree."""
+    t, rng = np.arange(640) / 32.0, np.random.default_rng(1)
+    recordings = [
+        Recording(t, np.exp(-0.05 * t) * np.cos(w * t) + 0.001 * rng.normal(size=640), 32.0, "u", "mm", f"{w}.csv", "")
+        for w in (6.0, 6.3)
+    ]
+    apart = Runs(measure_recordings(recordings, method="zero-crossing"), ("6.0", "6.3"), None, ())
+    assert runs_report.runs_title(apart).startswith("2 signals differ by 3.")
+    assert "scatters by" in " ".join(runs_report._sentences(apart))
 
 
 def test_signals_that_share_no_amplitude_stand_alone(runs: Runs) -> None:
@@ -59,13 +73,13 @@ def test_signals_that_share_no_amplitude_stand_alone(runs: Runs) -> None:
     assert np.array_equal(found[1], curve.curve_omega)
     assert len(list(runs_report._cards(second))) == 2
     assert dict(runs_report._files(second))["backbones.csv"].count("first") == 0
-    assert runs_report.facts(second.found.measured[0])["damping ratio"] == ""
+    assert facts(second.found.measured[0])["damping ratio"] == ""
 
 
 def test_signals_without_an_amplitude_have_no_cards(runs: Runs) -> None:
     bare = replace(runs, found=alone(runs.found))
     assert runs_report.runs_title(bare) == "2 signals: none has an amplitude clear of the noise"
-    assert list(runs_report._cards(bare)) == list(runs_report._named(bare.found, silent)) == []
+    assert list(runs_report._cards(bare)) == list(runs_report._named(bare.found, None, silent)) == []
 
 
 def test_a_signal_that_no_class_fits_is_named_with_the_reason(runs: Runs, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -73,5 +87,5 @@ def test_a_signal_that_no_class_fits_is_named_with_the_reason(runs: Runs, monkey
         raise InputError("too few cycles")
 
     monkeypatch.setattr(runs_report, "identify", refused)
-    named = list(runs_report._named(runs.found, silent))
+    named = list(runs_report._named(runs.found, None, silent))
     assert named == [Named(label, None, "too few cycles") for label in ("first", "second")]
