@@ -20,7 +20,7 @@ from ridgeback.numeric.components.tones import beside_notes
 from ridgeback.numeric.estimators.amplitude import amplitude_of, estimate_amplitude
 from ridgeback.numeric.estimators.estimate import Estimation, estimation
 from ridgeback.numeric.recording.recording import Recording
-from ridgeback.numeric.signal.decimation import Samples, every, every_flag
+from ridgeback.numeric.signal.decimation import Samples, decimation_notes, every, every_flag
 from ridgeback.numeric.tracking.track import NORMAL_95, AmplitudeTrack, Track
 
 Row = dict[str, float | bool]
@@ -185,7 +185,8 @@ def measured(recording: Recording, found: Estimation, harmonic: int, band: objec
     track = found.track
     if harmonic > 1:
         return of_harmonic(recording, found, harmonic, band)
-    own = (*recording.drift_notes(track.used.span), *recording.notes)
+    few = decimation_notes(found.samples, float(recording.time[0]), float(recording.time[-1]))
+    own = (*few, *recording.drift_notes(track.used.span), *recording.notes)
     told = (*beside_notes(track.used.tones, track.used.spikes), *own)
     if track.used.doubt:
         said = f"No interval and no amplitude: {track.used.doubt}."

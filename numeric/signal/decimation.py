@@ -20,8 +20,8 @@ PER_CYCLE = 10.0
 """Samples per fastest cycle that are kept: room for the search band and the third harmonic."""
 RINGING = 10
 """Samples at each end, after decimation, that the filter reaches beyond the record for: they are cut off."""
-FLAT = 8.0
-"""Shape of the filter's Kaiser window: its gain is 1 to 1e-4 up to three quarters of the new Nyquist frequency."""
+FLAT, PASSED = 8.0, 0.75
+"""Shape of the filter's Kaiser window: its gain is 1 to 1e-4 up to so much of the new Nyquist frequency."""
 
 
 @dataclass(frozen=True)
@@ -103,3 +103,22 @@ def every_flag(flags: Mask, factor: int) -> Mask:
     [0, 1]
     """
     return np.asarray(maximum_filter1d(flags, 2 * factor + 1)[::factor][RINGING:-RINGING], dtype=np.bool_)
+
+
+def decimation_notes(samples: Samples, first: float, last: float) -> tuple[str, ...]:
+    """What decimation left out of a record from one time to another; nothing where it was not decimated.
+
+    >>> few = every(Samples(np.ones(400), 100.0, 0.0), 5)
+    >>> decimation_notes(few, 0.0, 3.99)[0][:61]
+    'Of the low-passed samples one in 5 is used: nothing above 7.5'
+    >>> decimation_notes(Samples(np.ones(4), 1.0, 0.0), 0.0, 3.0)
+    ()
+    """
+    if samples.factor < 2:
+        return ()
+    highest, end = 0.5 * PASSED * samples.rate, float(samples.time[-1])
+    return (
+        f"Of the low-passed samples one in {samples.factor} is used: nothing above {highest:.4g} cycles per unit is "
+        f"looked for, and of the time the first {samples.start - first:.3g} and the last {max(0.0, last - end):.3g} "
+        "are left out.",
+    )
