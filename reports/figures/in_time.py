@@ -21,7 +21,7 @@ from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
 from ridgeback.reports.drawing.ticks import error_ticks
 from ridgeback.reports.figures.clock import Clock, shown
-from ridgeback.reports.figures.contending import LETTERS, STYLE, brief, least_drawn
+from ridgeback.reports.figures.contending import LETTERS, PER_CENT_ENDS, STYLE, brief, least_drawn
 from ridgeback.reports.figures.contending import shown as contending
 
 DASHES = ("", "d1", "d2", "d3")
@@ -118,9 +118,12 @@ def _caption(found: Benchmark, decay: MotionComparison, drawn: Sequence[Drawn], 
 
 
 def _off(drawn: Sequence[Drawn], panels: tuple[Panel, Panel]) -> str:
-    """Which curves leave a panel, if any does."""
-    lower = [brief(d.row) for d in drawn if np.nanmax(d.error, initial=0.0) > panels[1].y.high * (1 + 1e-9)]
-    return f" At the upper edge: off scale ({listing(lower)})." if lower else ""
+    """Which curves leave the panel of errors above, and whether some do below."""
+    y = panels[1].y
+    above = [brief(d.row) for d in drawn if np.nanmax(d.error, initial=0.0) > y.high * (1 + 1e-9)]
+    cut = y.low == PER_CENT_ENDS and any(np.nanmin(d.error, initial=np.inf) < y.low for d in drawn)
+    text_ = f" At the upper edge: off scale ({listing(above)})." if above else ""
+    return f"{text_} At the lower edge: below {per_cent(y.low)}." if cut else text_
 
 
 def _panels(
