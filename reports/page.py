@@ -98,7 +98,7 @@ def tied(text: str) -> str:
     2
     """
     held = re.sub(r"(?<=[0-9π⁻⁰¹²³⁴⁵⁶⁷⁸⁹]) (?=(?:%|ns|µs|ms|s|Hz|rad|dB|terms)(?![a-z]))", "\u00a0", text)
-    return held.replace(" × 10", "\u00a0×\u00a010")
+    return held.replace(" × 10", "\u00a0×\u00a010").replace(" ± ", "\u00a0±\u00a0")
 
 
 def _source(name: str) -> str:

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from ridgeback.common.numbers import number, per_cent, power_of_ten, threshold
+from ridgeback.common.numbers import listing, number, per_cent, power_of_ten, threshold
 from ridgeback.compare.benchmark.contenders import WAYS, Row
 from ridgeback.compare.benchmark.results import Benchmark
 from ridgeback.compare.report.naming import refused_names, short_name, told
@@ -71,6 +71,8 @@ def _caption(which: Shown, target: float) -> str:
         parts.append("At the upper edge: off scale.")
     if which.expansions and which.expansions[0].amplitude_from == "action":
         parts.append("Expansions and series take A(t) from the averaged action, whose own cost is not counted.")
+    if which.resummed:
+        parts.append(f"Dots apart: resummed ({listing([brief(row) for row in which.resummed])}).")
     if which.corrected:
         parts.append("Open, and corr.: an estimate with the bias of its own track removed.")
     missing = [row for row in found.contenders if row.refused]

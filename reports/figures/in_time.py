@@ -19,7 +19,7 @@ from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, reado
 from ridgeback.reports.drawing.marks import drawing, group, line, places, rect, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
-from ridgeback.reports.drawing.ticks import error_ticks
+from ridgeback.reports.drawing.ticks import error_ticks, per_cent_tick
 from ridgeback.reports.figures.clock import Clock, shown
 from ridgeback.reports.figures.contending import LETTERS, PER_CENT_ENDS, STYLE, brief, least_drawn
 from ridgeback.reports.figures.contending import shown as contending
@@ -123,7 +123,7 @@ def _off(drawn: Sequence[Drawn], panels: tuple[Panel, Panel]) -> str:
     above = [brief(d.row) for d in drawn if np.nanmax(d.error, initial=0.0) > y.high * (1 + 1e-9)]
     cut = y.low == PER_CENT_ENDS and any(np.nanmin(d.error, initial=np.inf) < y.low for d in drawn)
     text_ = f" At the upper edge: off scale ({listing(above)})." if above else ""
-    return f"{text_} At the lower edge: below {per_cent(y.low)}." if cut else text_
+    return f"{text_} At the lower edge: below {per_cent_tick(y.low)}." if cut else text_
 
 
 def _panels(
