@@ -15,7 +15,7 @@ import numpy as np
 from ridgeback.numeric.arrays import Array
 
 REPEATS, FEWEST = 7, 2
-PATIENCE = 0.1
+PATIENCE = 0.03
 """Seconds of runs after which no more than FEWEST are made."""
 TIMED = 2**15
 """Values in a timed call: enough that the call itself costs nothing."""
