@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ridgeback.numeric.components.tones import Tone
+from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.signal.decimation import Samples
 from ridgeback.numeric.signal.search_band import MARGIN, SearchBand, guide_path
 from ridgeback.numeric.tracking.clear_stretch import clear_stretch, followed_stretch
@@ -22,6 +22,7 @@ from ridgeback.numeric.tracking.followed import along, lengthened
 from ridgeback.numeric.tracking.request import Request, prepared
 
 FOLLOWED = "one smooth oscillation can be followed"
+CLEAR_THERE = "the amplitude stands above the noise"
 FEWEST_CYCLES = 8.0
 """Of a record, from which on a part of it is looked for in which a frequency can be followed."""
 
@@ -44,10 +45,27 @@ def in_its_stretch(request: Request, samples: Samples) -> Request:
     """The request for the samples whose amplitude stands above the noise."""
     stretch = clear_stretch(request)
     if stretch is not None:
-        return part_of(request, samples, stretch, "the amplitude stands above the noise")
+        part = part_of(request, samples, stretch, CLEAR_THERE)
+        return without_steady_tones(request, part, samples) if request.options.bias else part
     if not request.options.bias or request.options.band is not None or has_model(request):
         return request
     return near_its_line(request) or along_what_is_followed(request, samples)
+
+
+def without_steady_tones(request: Request, part: Request, samples: Samples) -> Request:
+    """The request for a longer part, where steady tones beside the oscillation hid its end; else for the same part."""
+    signal, alone = request.signal, part.separated()
+    steady = tuple(tone for tone in alone.signal.tones if tone.growth == 0.0)
+    if not steady or signal.tones or alone.signal.doubt:
+        return part
+    bare = signal.x - total(steady, signal.time - part.signal.start)
+    stretch = clear_stretch(replace(request, signal=replace(signal, x=bare))) or slice(0, bare.size)
+    if stretch.stop - stretch.start <= part.signal.x.size:
+        return part
+    longer = part_of(request, samples, stretch, CLEAR_THERE)
+    found = longer.separated()
+    as_many = sum(tone.growth == 0.0 for tone in found.signal.tones) >= len(steady)
+    return longer if found.known_models is not None and not found.signal.doubt and as_many else part
 
 
 def near_its_line(request: Request) -> Request | None:
