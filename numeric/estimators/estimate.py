@@ -29,7 +29,7 @@ from ridgeback.numeric.signal.decimation import LONG, PER_CYCLE, Samples, checke
 from ridgeback.numeric.signal.presence import presence
 from ridgeback.numeric.signal.search_band import SearchBand
 from ridgeback.numeric.tracking.choices import Scope
-from ridgeback.numeric.tracking.own_stretch import after_its_start, has_model, in_its_stretch
+from ridgeback.numeric.tracking.own_stretch import after_its_start, doubting_steps, has_model, in_its_stretch
 from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, Request, prepared, refuse_cross_term
 from ridgeback.numeric.tracking.settings import refuse_unused
 from ridgeback.numeric.tracking.track import NORMAL_95, Track
@@ -277,6 +277,7 @@ def estimation(
     if request.options.bias:
         request = after_its_start(request.separated(), samples)
     if request.options.bias or request.signal.tones:
+        request = doubting_steps(request, samples)
         samples = with_motion_of(request, samples)
     progress(0.1, "choosing an estimator" if method == "auto" else method)
     name, request = for_auto(request) if method == "auto" else (method, request)

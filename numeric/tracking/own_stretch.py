@@ -14,8 +14,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from ridgeback.numeric.components.steps import rounding_doubt
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.signal.decimation import Samples
+from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import MARGIN, SearchBand, guide_path
 from ridgeback.numeric.tracking.clear_stretch import clear_stretch, followed_stretch
 from ridgeback.numeric.tracking.followed import along, lengthened
@@ -170,3 +172,13 @@ def part_of(request: Request, samples: Samples, stretch: slice, why: str, search
     )
     part = prepared(replace(samples, x=samples.x[stretch], start=first, wrong=wrong), request.options, search=there)
     return replace(part, signal=replace(part.signal, span_why=why))
+
+
+def doubting_steps(request: Request, samples: Samples) -> Request:
+    """The request with a doubt where the samples come in steps that make no interval hold."""
+    signal = request.signal
+    if signal.doubt or not has_model(request):
+        return request
+    best = request.models.best
+    per_cycle = TWO_PI * signal.rate / float(np.median(best.omega))
+    return replace(request, signal=replace(signal, doubt=rounding_doubt(samples.x, best.noise, per_cycle)))
