@@ -14,11 +14,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from ridgeback.numeric.components.steps import rounding_doubt
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.signal.decimation import Samples
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import MARGIN, SearchBand, guide_path
+from ridgeback.numeric.signal.steps import rounding_doubt
 from ridgeback.numeric.tracking.clear_stretch import clear_stretch, followed_stretch
 from ridgeback.numeric.tracking.followed import along, lengthened
 from ridgeback.numeric.tracking.request import Request, prepared

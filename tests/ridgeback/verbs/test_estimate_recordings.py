@@ -286,7 +286,7 @@ def test_a_backbone_that_is_refused_has_the_reason_and_no_other_note(ridgeback: 
     done = ridgeback("estimate", written(tmp_path / "a.csv", t=T, u=x), "--backbone")
     assert done.code == 2
     assert "a.csv, u: no backbone, " in done.err
-    assert "wanders" not in done.err
+    assert "local mean wanders" not in done.err
     assert len(done.err.splitlines()) == 1
 
 
