@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.numeric.arrays import Mask
+from ridgeback.numeric.components.tones import total
 from ridgeback.numeric.estimators.auto import for_auto, for_least_squares
 from ridgeback.numeric.estimators.global_harmonics import by_harmonic_splines, with_spline_interval
 from ridgeback.numeric.estimators.higher_harmonics import harmonic_with_interval, locked_track
@@ -30,7 +31,14 @@ from ridgeback.numeric.signal.presence import presence
 from ridgeback.numeric.signal.search_band import SearchBand
 from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.own_stretch import after_its_start, doubting_steps, has_model, in_its_stretch
-from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, Request, prepared, refuse_cross_term
+from ridgeback.numeric.tracking.request import (
+    FEWEST_SAMPLES,
+    Options,
+    Request,
+    beyond_band,
+    prepared,
+    refuse_cross_term,
+)
 from ridgeback.numeric.tracking.settings import refuse_unused
 from ridgeback.numeric.tracking.track import NORMAL_95, Track
 from ridgeback.numeric.tracking.uncertainty import trial_of, with_interval
@@ -259,7 +267,7 @@ def estimation(
     options = Options(scope=None if scope is None else Scope(scope), bias=bias or remove_bias, **words)
     samples = replace(checked(x, rate, start=start, what="estimate", at_least=FEWEST_SAMPLES), wrong=wrong)
     if family is not None or method == MODEL_FIT:
-        return Estimation(of_model(samples, options, method, family, harmonic), samples, None)
+        return of_model(samples, options, method, family, harmonic)
     if method not in METHODS:
         raise InputError(f"method {method!r} is unknown; use one of {', '.join((*METHODS, MODEL_FIT))}")
     refuse_unused(method, options.given)
@@ -372,17 +380,20 @@ def in_its_band(track: Track, band: tuple[float, float] | None) -> Track:
     return replace(track, valid=track.valid & inside)
 
 
-def of_model(samples: Samples, options: Options, method: str, family: Family | None, harmonic: int) -> Track:
-    """The frequency of an oscillator fitted to the signal."""
+def of_model(samples: Samples, options: Options, method: str, family: Family | None, harmonic: int) -> Estimation:
+    """The frequency of an oscillator fitted to the signal, without what is stronger beyond a band that is given."""
     if family is None or method != MODEL_FIT:
         raise InputError(f"method {method!r} and an oscillator do not go together: {MODEL_FIT} needs one, others none")
     refuse_unused(method, options.given)
+    beyond = beyond_band(samples.x - samples.x.mean(), samples, options.band)
+    samples = replace(samples, x=samples.x - total(beyond, samples.time - samples.start))
     track = model_track(fitted(samples, family, band=options.band))
+    track = replace(in_its_band(track, options.band), used=replace(track.used, tones=beyond))
     noise = presence(samples.x, samples.rate, limits=options.band, whole=options.band is None)
     if harmonic > 1:
         x = samples.x - samples.x.mean()
         track = locked_track(x, samples.rate, track, multiple=harmonic, start=samples.start)
-    return track.held_against(noise)
+    return Estimation(track.held_against(noise), samples, None)
 
 
 def of_harmonic(multiple: int, request: Request, fundamental: Track, remove_bias: bool) -> Track:
