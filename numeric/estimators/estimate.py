@@ -30,6 +30,7 @@ from ridgeback.numeric.signal.decimation import LONG, PER_CYCLE, Samples, checke
 from ridgeback.numeric.signal.presence import presence
 from ridgeback.numeric.signal.search_band import SearchBand
 from ridgeback.numeric.tracking.choices import Scope
+from ridgeback.numeric.tracking.in_band import in_its_band
 from ridgeback.numeric.tracking.own_stretch import after_its_start, doubting_steps, has_model, in_its_stretch
 from ridgeback.numeric.tracking.request import (
     FEWEST_SAMPLES,
@@ -354,30 +355,6 @@ def known_well(track: Track) -> Track:
     elif track.no_interval is not None and track.standard_deviation is not None:
         reach = NORMAL_95 * track.standard_deviation
     return track if reach is None else replace(track, valid=track.valid & (reach <= HARDLY_KNOWN * track.omega))
-
-
-def in_its_band(track: Track, band: tuple[float, float] | None) -> Track:
-    """The track, valid only in the band that was asked for; refused where most of it is beyond.
-
-    >>> import numpy as np
-    >>> track = Track(np.arange(3.0), np.array([5.0, 6.0, 9.0]), np.ones(3, bool), "example")
-    >>> in_its_band(track, (4.0, 8.0)).valid.tolist()
-    [True, True, False]
-    >>> in_its_band(track, (8.0, 12.0))
-    Traceback (most recent call last):
-        ...
-    ridgeback.common.errors.InputError: example: the band 8 to 12 rad per time unit holds no ...
-    """
-    if band is None:
-        return track
-    inside = (track.omega >= band[0]) & (track.omega <= band[1])
-    if 2 * np.count_nonzero(track.valid & inside) < np.count_nonzero(track.valid):
-        beyond = float(np.median(track.omega[track.valid & ~inside]))
-        raise InputError(
-            f"{track.method}: the band {band[0]:.4g} to {band[1]:.4g} rad per time unit holds no oscillation that "
-            f"stands out beside one near {beyond:.4g} beyond it; give another --band"
-        )
-    return replace(track, valid=track.valid & inside)
 
 
 def of_model(samples: Samples, options: Options, method: str, family: Family | None, harmonic: int) -> Estimation:
