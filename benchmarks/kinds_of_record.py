@@ -334,6 +334,14 @@ def beside_mains(mains: float, frequency: float, size: float) -> Kind:
     )
 
 
+def any_outlasted(rng: np.random.Generator) -> Kind:
+    """A mode beside a hum of 1 to 10 % that lasts when the mode is gone."""
+    f, off = rng.uniform(2.0, 60.0), rng.uniform(0.05, 0.2) * rng.choice([-1, 1])
+    spoil = hum(rng.uniform(0.01, 0.1), f * (1.0 + off))
+    noise = rng.uniform(0.001, 0.006)
+    return any_decay(rng, rng.uniform(0.02, 0.08), rng.uniform(15.0, 40.0), spoil, noise=noise, frequency=f)
+
+
 def any_pair(apart: float) -> Kind:
     """Two modes so far apart, over 2.5 to 5 of their beats."""
 
@@ -451,6 +459,7 @@ DRAWN: dict[str, Kind] = {
     "hum of 10 % at 50 Hz beside 47.5 Hz": beside_mains(50.0, 47.5, 0.1),
     "hum of 5 % at 60 Hz beside 66 Hz": beside_mains(60.0, 66.0, 0.05),
     "hum of 40 % at 60 Hz beside 57 Hz": beside_mains(60.0, 57.0, 0.4),
+    "a hum of 1 to 10 % that outlasts the mode": drawn(any_outlasted),
     "two modes 2 % apart": any_pair(0.02),
     "two modes 3 % apart": any_pair(0.03),
     "two modes 5 % apart": any_pair(0.05),

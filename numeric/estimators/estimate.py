@@ -41,6 +41,7 @@ from ridgeback.numeric.tracking.request import (
     refuse_cross_term,
 )
 from ridgeback.numeric.tracking.settings import refuse_unused
+from ridgeback.numeric.tracking.strongest import of_most_energy
 from ridgeback.numeric.tracking.track import NORMAL_95, Track
 from ridgeback.numeric.tracking.uncertainty import trial_of, with_interval
 
@@ -284,7 +285,7 @@ def estimation(
         refuse_cross_term(request, method)
     request = in_its_stretch(request, samples) if noise.found else without_bias_of(request)
     if request.options.bias:
-        request = after_its_start(request.separated(), samples)
+        request = after_its_start(of_most_energy(request.separated(), samples), samples)
     if request.options.bias or request.signal.tones:
         request = doubting_steps(request, samples)
         samples = with_motion_of(request, samples)
