@@ -64,7 +64,7 @@ def test_what_cannot_be_done_is_refused(call: Callable[[], object], said: str) -
 
 
 COLUMNS: Any = STUB(values=lambda _: np.arange(2.0), source="x.csv", names=("u", "run"))
-SHORT: Any = STUB(plan=STUB(lag_seconds=0.05), signal=STUB(rate=10.0, search=STUB(centre=6.0)))
+SHORT: Any = STUB(lag_given=True, plan=STUB(lag_seconds=0.05), signal=STUB(rate=10.0, search=STUB(centre=6.0)))
 
 
 def test_values_at_the_ends() -> None:
