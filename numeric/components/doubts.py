@@ -13,7 +13,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.components.jumps import jump
 from ridgeback.numeric.components.lines import LEAST, clearest_line
-from ridgeback.numeric.components.wander import wandering
+from ridgeback.numeric.components.wander import EXACT, wandering
 from ridgeback.numeric.harmonics.local_fit import harmonic_fit
 from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.harmonics.spline_model import SplineModel
@@ -26,8 +26,6 @@ STEADY = 0.05
 """Of the logarithm of an amplitude, that it may swing by in a model of many knots."""
 ABOVE = 3.0
 """Times the noise, of the amplitudes whose swing is told."""
-EXACT = 2e-3
-"""Noise over amplitude below which knots follow what is there: what a model of the whole still misses is in view."""
 MANY, CLOSE = 8, 5.0
 """Intervals between knots and cycles in each, from which on models that gain by them may be following beats."""
 NEAR = 1.45

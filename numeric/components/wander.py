@@ -19,6 +19,8 @@ from ridgeback.numeric.harmonics.signal_model import SignalModels
 STEPS, LAST, SLOPE = 6, 4, -2.0
 """Steps from one number of knots to the next that change the phase clearly, from which on it may wander; and the power
 of the number of coefficients with which the last of these changes fall at least where it does not."""
+EXACT = 2e-3
+"""Noise over amplitude below which knots follow what is there: what a model of the whole still misses is in view."""
 CLEARLY = 3.0
 """Deviations of what noise explains."""
 
@@ -45,6 +47,8 @@ def wandering(models: SignalModels, sound: Mask) -> str:
     <BLANKLINE>
     the frequency wanders at random,
     """
+    if models.best.noise < EXACT * float(models.best.size.max()):
+        return ""
     noise, at, changes, last = models.best.band_noise, [], [], 0.0
     tried = [model for model in models.others if model.basis.count <= models.fine.basis.count]
     for model, more in pairwise(tried):  # beyond the finer one they follow the noise

@@ -183,7 +183,7 @@ def test_raw_wigner_peak_at_a_harmonic_is_that_of_the_harmonic(method: str) -> N
     assert np.abs(here.omega / (9 * np.pi) - 1.0).max() < 1e-2
     request = prepared(Samples(x, RATE, 0.0), Options())
     with pytest.raises(
-        InputError, match=r"round 3 times the strongest component.*harmonics 1 and 5 falls; use harmonic 3"
+        InputError, match=r"round 3 times the strongest component.*harmonics 1 and 5 falls; use --harmonic 3"
     ):
         refuse_cross_term(with_search(request, 9 * np.pi), method)
     alone = estimate(x, RATE, method="spectrogram", band=band, lag_seconds=3.0, bias=False).inside()
