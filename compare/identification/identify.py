@@ -225,7 +225,8 @@ def misfit(ready: Prepared, data: Data, best: Fit) -> Misfit:
         if (beside.agrees and not beside.better) or beside.out:
             return beside
     omega = best.model.motion(best.theta, data.time).omega
-    elsewhere = over_elsewhere(whole, count, data.rate, (float(omega.min()), float(omega.max())), colour)
+    band, floor = (float(omega.min()), float(omega.max())), ROUNDING * data.length
+    elsewhere = over_elsewhere(whole, count, data.rate, band, colour, floor)
     return elsewhere if elsewhere.out or elsewhere.agrees else beside
 
 

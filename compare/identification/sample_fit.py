@@ -122,11 +122,17 @@ def in_band(x: Array, first: int, last: int) -> float:
 
 
 def over_elsewhere(
-    residual: Array, parameters: int, rate: float, band: tuple[float, float], colour: float = 1.0
+    residual: Array,
+    parameters: int,
+    rate: float,
+    band: tuple[float, float],
+    colour: float = 1.0,
+    floor: float = 0.0,
 ) -> Misfit:
     """Hold what a class leaves near the oscillation, the ``band`` in rad per time unit, against what it does elsewhere.
 
-    ``colour`` is the noise's power there over its mean power, as far as it is known.
+    ``colour`` is the noise's power there over its mean power, as far as it is known; ``floor`` the root mean square
+    below which nothing is told.
 
     >>> t, noise = np.arange(640) / 32.0, 0.01 * np.random.default_rng(1).normal(size=640)
     >>> [over_elsewhere(x, 5, 32.0, (6.0, 6.5)).out for x in (noise, noise + 0.01 * np.cos(6.2 * t))]
@@ -138,9 +144,11 @@ def over_elsewhere(
     near = (omega > band[0] - AROUND * middle) & (omega < band[1] + AROUND * middle)
     freedom = 2 * int(near.sum()) - parameters
     far = 2 * int((~near).sum())
-    if freedom < FEWEST or far < FEWEST or not power[~near].sum() > 0.0:
+    least = 0.5 * residual.size * floor**2
+    if freedom < FEWEST or far < FEWEST or not power[~near].sum() + least > 0.0:
         return UNKNOWN
-    ratio = float(power[near].sum() / freedom / (power[~near].sum() / far)) / max(colour, 1.0)
+    here, beyond = float(power[near].sum()) / freedom, float(power[~near].sum()) / far
+    ratio = max(here, least) / max(beyond, least) / max(colour, 1.0)
     return Misfit(math.sqrt(ratio), float(fdtrc(freedom, far, ratio)), Against.ELSEWHERE)
 
 
