@@ -22,8 +22,8 @@ STRONGER = 1.5
 """Times the energy of the hum, of an oscillation that it outlasts."""
 APART, AS_GOOD = 0.02, 1.1
 """Relative distance of a hum's frequency from the mean one of an oscillation, and a ratio of what two models leave."""
-DEAD = 0.3
-"""Of its largest amplitude: the last one of an oscillation that a hum outlasts."""
+DEAD, WEAKER = 0.3, 0.3
+"""Of its largest amplitude: the last one of an oscillation that a hum outlasts, and that of the hum."""
 ELSE = 0.03
 """Of the square of a hum's amplitude: the mean square of what else may be where it has outlasted the oscillation."""
 AT_THE_END = 1.0 / 3.0, 1.0 / 6.0
@@ -32,8 +32,6 @@ AT_THE_END = 1.0 / 3.0, 1.0 / 6.0
 
 def of_most_energy(request: Request, samples: Samples) -> Request:
     """The request for the component of the most energy, alone: a mode that a steady hum outlasts.
-
-    Where no model of another holds, the mode is taken though the hum has more energy.
 
     Parameters
     ----------
@@ -76,9 +74,14 @@ def ends_in(hum: Tone, request: Request) -> bool:
 
 
 def outlasts(hum: Tone, found: Request) -> bool:
-    """Whether a hum is as large beside an oscillation as after it, and that dies: else the motion only jumped."""
+    """Whether a hum is as large beside an oscillation as after it, and that is larger and dies.
+
+    A motion that jumps to another frequency is a hum and the beats of both that end at the jump, of the same size.
+    """
     size = found.models.best.size
-    return float(size[-1]) < DEAD * float(size.max()) and any(
+    if max(float(size[-1]) / DEAD, hum.amplitude / WEAKER) >= float(size.max()):
+        return False
+    return any(
         abs(tone.omega / hum.omega - 1.0) < 0.5 * APART and 0.5 * hum.amplitude < tone.amplitude < 2.0 * hum.amplitude
         for tone in found.signal.tones
     )
