@@ -158,13 +158,15 @@ def iterated(left: Array, time: Array, tone: Tone, sound: Array, *, free: bool) 
         tone = Tone(omega, growth if growth else (1e-300 if free else 0.0), complex(re, im))
         jacobian = tone.tangent(time) * sound[:, None]
         residual = (left - tone.samples(time)) * sound
-        step, reach = np.linalg.lstsq(jacobian, residual, rcond=None)[0], STEP_OF_GROWTH * abs(growth)
+        unit = np.array([1.0, 1.0, span, span])[: jacobian.shape[1]]
+        step, reach = np.linalg.lstsq(jacobian / unit, residual, rcond=None)[0] / unit, STEP_OF_GROWTH * abs(growth)
         omega += float(np.clip(step[2], -max(0.5 / span, reach), max(0.5 / span, reach)))
         if free:
             growth += float(np.clip(step[3], -max(1.0 / span, reach), max(1.0 / span, reach)))
             growth = float(np.clip(growth, -STEEPEST * omega, 2.0 / span))
-            inverse = np.linalg.pinv(jacobian.T @ jacobian)
-            deviation = float(np.sqrt(inverse[3, 3] * np.mean(residual**2)))
+            size = np.maximum(np.linalg.norm(jacobian, axis=0), np.finfo(float).tiny)
+            inverse = np.linalg.pinv((jacobian / size).T @ (jacobian / size))
+            deviation = float(np.sqrt(max(float(inverse[3, 3]), 0.0) * np.mean(residual**2)) / size[3])
     return Tone(omega, growth if free else 0.0, tone.size), deviation
 
 
