@@ -257,9 +257,9 @@ def by_samples(model: Model, data: Data, theta: Array, tolerance: float) -> Fit:
     try:
         begin = np.clip(theta, *limits)
         fine = least_squares(samples, begin, bounds=limits, x_scale="jac", max_nfev=STEPS, ftol=tolerance)
+        jacobian = seen(samples, np.asarray(fine.x), np.asarray(fine.jac), limits)
     except (InputError, ValueError, FloatingPointError, np.linalg.LinAlgError):
         return failed(model, data, theta)
-    jacobian = seen(samples, np.asarray(fine.x), np.asarray(fine.jac), limits)
     return Fit(model, np.asarray(fine.x), np.asarray(fine.fun), spread_of(jacobian))
 
 

@@ -222,12 +222,12 @@ def misfit(ready: Prepared, data: Data, best: Fit) -> Misfit:
     if ready.models is not None and ready.left is not None:
         model = ready.models.best
         beside, colour = over_model(whole, ready.left, count, model, ROUNDING * data.length), model.colour
-        if (beside.agrees and not beside.better) or beside.out:
+        if beside.known and not beside.better:
             return beside
     omega = best.model.motion(best.theta, data.time).omega
     band, floor = (float(omega.min()), float(omega.max())), ROUNDING * data.length
     elsewhere = over_elsewhere(whole, count, data.rate, band, colour, floor)
-    return elsewhere if elsewhere.out or elsewhere.agrees else beside
+    return elsewhere if elsewhere.known else beside
 
 
 def over_samples(recording: Recording, data: Data, best: Fit) -> SampleFit:

@@ -82,10 +82,10 @@ def described_as(
 def fits_as(ready: Prepared, measured: Backbone, quantity: str, others: list[Model]) -> Iterator[Fit]:
     """The models fitted to the displacement behind the samples, taken for this quantity; not those that cannot be."""
     assert ready.models is not None  # noqa: S101 - it is only asked for where there are
-    x = ready.recording.values - ready.recording.values.mean()
-    turned = replace(ready.recording, values=displaced(x, ready.models.best, quantity))
     if measured.omega.size < 2:
         return
+    x = ready.recording.values - ready.recording.values.mean()
+    turned = replace(ready.recording, values=displaced(x, ready.models.best, quantity))
     with suppress(InputError):
         data = prepare(turned, ready.track, kept=ready.kept, measured=behind(measured, ORDERS[quantity]))
         for model in others:

@@ -305,7 +305,7 @@ class Identification(ShownIdentification, _Values):
             case Standing.NONE:
                 return f"the best candidate leaves {self.unexplained:.0%} of the signal's rms"
             case Standing.HUM:
-                return f"the strongest component is no decay: {self.hum}"
+                return f"what is measured is no decay: {self.hum}"
             case Standing.DOUBTED:
                 return self.doubt
             case Standing.NEAREST:
@@ -336,8 +336,8 @@ class Identification(ShownIdentification, _Values):
                 return f"No class comes down to the noise; the nearest: {self.best.title}"
             case Standing.UNTOLD:
                 fit = "other class fits" if others == 1 else "other classes fit"
-                return f"Nearest class: {self.best.title}; {others} {fit} as well"
-        return f"Nearest class: {self.best.title}"
+                return f"{self.best.title}; {others} {fit} as well"
+        return self.best.title
 
     @property
     def verdict(self) -> str:
@@ -346,7 +346,7 @@ class Identification(ShownIdentification, _Values):
         named = f"{best.title}, damping {best.damping_law}"
         match self.standing:
             case Standing.HUM:
-                return f"No class is claimed: {self.unclaimed}; give a --band round the oscillation that you mean."
+                return f"No class is claimed: {self.unclaimed}; give a --band round another oscillation."
             case Standing.NONE:
                 return f"No candidate describes this recording: {self.unclaimed}. The nearest is {named}."
             case Standing.DOUBTED:
@@ -354,7 +354,8 @@ class Identification(ShownIdentification, _Values):
             case Standing.NEAREST:
                 why = f"No candidate comes down to the noise: {self.unclaimed}"
                 return f"{why}. The nearest is {named}{self._next()}. {left}"
-        return f"{named}{self._next()}. {left}"
+        still = ", though no model without an oscillator in mind holds" if self.doubt else ""
+        return f"{named}{still}{self._next()}. {left}"
 
     def _next(self) -> str:
         """What comes behind the best candidate."""

@@ -20,6 +20,7 @@ from enum import Enum
 import numpy as np
 from scipy.special import chdtrc, fdtrc
 
+from ridgeback.common.numbers import number
 from ridgeback.common.show.brief import Brief
 from ridgeback.numeric.arrays import Array, freeze
 from ridgeback.numeric.harmonics.spline_model import SplineModel
@@ -62,6 +63,11 @@ class Misfit:
     against: Against = Against.NOTHING
 
     @property
+    def known(self) -> bool:
+        """Whether anything tells."""
+        return not math.isnan(self.chance)
+
+    @property
     def out(self) -> bool:
         """Whether the class is out."""
         return self.chance < OUT
@@ -78,7 +84,7 @@ class Misfit:
 
     def sentence(self) -> str:
         """The judgement in words, without a full stop."""
-        chance = f"does once in {1 / self.chance:.1g} times" if self.chance > NEVER else "never does"
+        chance = f"would once in {number(1.0 / self.chance, 1)} records" if self.chance > NEVER else "never does"
         where = " near the oscillation" if self.against is Against.ELSEWHERE else ""
         return f"leaves{where} {self.ratio:.3g} times the noise that {self.against.value}, as noise alone {chance}"
 

@@ -80,8 +80,8 @@ class Measurement(Brief):
         if found.interval is not None:
             low, high = (np.where(found.valid, end, np.nan) for end in found.interval)
             return Along(found.time, values, low, high)
-        claimed = found.no_interval is None and found.standard_deviation is not None
-        deviation = found.standard_deviation if claimed and found.standard_deviation is not None else np.nan
+        sd = found.standard_deviation
+        deviation = np.nan if sd is None or found.no_interval is not None else sd
         return Along(found.time, values, values - NORMAL_95 * deviation, values + NORMAL_95 * deviation)
 
     def rows(self) -> list[Row]:
@@ -215,8 +215,9 @@ def measured(recording: Recording, found: Estimation, harmonic: int, band: objec
 def hum_notes(curve: Backbone) -> tuple[str, ...]:
     """That the oscillation is no decay but mains hum: of constant amplitude, at a multiple of 50 or 60 Hz."""
     tone = hum_of(curve)
-    said = "" if tone is None else f"The strongest component is no decay: {tone.said()}"
-    return (f"{said}; give a --band round the oscillation that you mean.",) if said else ()
+    if tone is None:
+        return ()
+    return (f"What is measured is no decay: {tone.said()}; give a --band round another oscillation.",)
 
 
 def samples_behind(track: Track, recording: Recording) -> Samples:

@@ -184,7 +184,8 @@ def remarks(track: Track, recording: Recording) -> Iterable[str]:
     yield from used.span_notes()
     if clipped:
         what = "sample is clipped or lies" if clipped == 1 else "samples are clipped or lie"
-        yield f"{clipped} {what} beside one that is; they enter no fit of the motion."
+        them = "it enters" if clipped == 1 else "they enter"
+        yield f"{clipped} {what} beside one that is; {them} no fit of the motion."
 
 
 def _notes(curves: tuple[Curve, ...], said: list[str]) -> Iterable[str]:

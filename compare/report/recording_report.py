@@ -12,7 +12,7 @@ from ridgeback.compare.recording.recording import compare_recording
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.report import csv_tables as tables
 from ridgeback.compare.report.identification_part import identification_part
-from ridgeback.compare.report.noise_part import TRIALS, noise_part
+from ridgeback.compare.report.noise_part import TRIALS, NoisePart, noise_part
 from ridgeback.compare.report.provenance import provenance
 from ridgeback.compare.report.recording_summary import recording_cards, recording_sentences, recording_title
 from ridgeback.compare.report.results import Report
@@ -24,6 +24,7 @@ from ridgeback.symbolic.systems.oscillator import Oscillator
 
 MOST_SAMPLES = 2000
 """Of a recording, whose smooth model the estimators are tried on in noise: a longer one tells no more of them."""
+NO_NOISE_IN_A_BAND = "No noise study: with --band no estimators are tried in noise; leave it out for one."
 
 
 def recording_report(
@@ -86,8 +87,11 @@ def recording_report(
     with watch.stage("what made it", 0.3, 0.7) as inner:
         made = identification_part(recording, found, cycles, inner, band=band)
     with watch.stage("estimators in noise", 0.7, 1.0) as inner:
-        noisy = trials if band is None else 0
-        noise = noise_part(lambda: truth_of(part_of(recording, slice(MOST_SAMPLES))), noisy, inner)
+        noise = (
+            NoisePart(None, NO_NOISE_IN_A_BAND)
+            if band is not None and trials
+            else noise_part(lambda: truth_of(part_of(recording, slice(MOST_SAMPLES))), trials, inner)
+        )
     progress(1.0, "done")
     left_out = tuple(reason for reason in (made.left_out, noise.left_out) if reason)
     settings = _settings(found, theory, {"cycles": cycles, "trials": trials, "band": band})

@@ -73,7 +73,7 @@ def recording_sentences(found: RecordingComparison, made: Identification | None)
 
 def _sentences(found: RecordingComparison, made: Identification | None) -> Iterator[str]:
     if found.hum:
-        yield f"The strongest component is no decay: {found.hum}."
+        yield f"What is measured is no decay: {found.hum}."
     if found.doubt:
         yield f"{found.doubt}."
     told = made is not None and made.prediction is not None
@@ -81,6 +81,7 @@ def _sentences(found: RecordingComparison, made: Identification | None) -> Itera
         yield forecast(made)
     if found.over is not None:
         yield found.over.sentence()
+    yield from found.remarks
     if made is not None:
         yield _what_made_it(made)
         if told and held(made):

@@ -67,8 +67,9 @@ def _caption(which: Shown, target: float) -> str:
     low, high = (number(x, 3) for x in found.support)
     span = f"{low} to {high} {found.case.time_unit}".strip()
     parts = [f"Rms error relative to the {found.reference.label}, t = {span}."]
-    if any(error(row) > _panel(which, target).y.high for row in which.all if math.isfinite(which.cost(row))):
-        parts.append("At the upper edge: off scale.")
+    top = _panel(which, target).y.high
+    if any(error(row) > top for row in which.all if math.isfinite(which.cost(row))):
+        parts.append("At the edge of the largest errors: off scale.")
     if which.expansions and which.expansions[0].amplitude_from == "action":
         parts.append("Expansions and series take A(t) from the averaged action, whose own cost is not counted.")
     if which.resummed:

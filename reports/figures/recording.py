@@ -70,8 +70,6 @@ def side_by_side(key: str, bands: Sequence[Band], *, x_title: str, caption: str,
     narrow = [_band_panel(band, i, len(bands), narrow=True) for i, band in enumerate(bands)]
     height = (356.0, 300.0 * len(bands) - 28.0)
     names = _named(bands[0])
-    series = [Series(band.title, band.x, band.y) for band in bands]
-    series += [Series(name, band.x, y) for band in bands for name, y, _ in band.over]
     series = [Series(band.name, band.x, band.y, band.unit) for band in bands]
     series += [Series(name, band.x, y, band.unit) for band in bands for name, y, _ in band.over]
     return Figure(

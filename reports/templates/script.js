@@ -381,7 +381,7 @@
   const curves = d => [[d.name, ...d.series.map(s => s[0])].map(quoted), ...d.at.map((x, i) => [d.log ? +abscissa(d, x).toPrecision(5) : x, ...d.series.map(s => s[2][i] ?? "")])];
   const cells = d => [["order", d.letter, "bound", "sign"].map(quoted),
     ...d.orders.flatMap((n, i) => d.amplitudes.map((a, j) => [n, a, d.bounds[i][j] ?? "", quoted(d.signs[i][j])]))];
-  const plain = cell => quoted(cell.textContent.replace(/[\u2007\u2008]/g, "").replaceAll("−", "-").trim());
+  const plain = cell => quoted(cell.textContent.replace(/[\u2007\u2008()]/g, "").replaceAll("−", "-").trim());
   const typed = table => [...table.rows].filter(row => row.className !== "remark").map(row => [...row.cells].map(plain));
   const matrix = (d, figure) => d.planes.flatMap((plane, i) => {
     const svg = drawings(figure)[i], g = grey($("mask image", svg));

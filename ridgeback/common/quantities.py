@@ -116,7 +116,7 @@ def measured_time(seconds: float | None, scatter: float | None) -> str:
     """
     if seconds is None:
         return NONE
-    if scatter is None:
+    if scatter is None or math.isnan(scatter) or not seconds > 0.0:
         return about(seconds)
     size, unit = _unit_of(seconds)
     spread = float(f"{max(scatter, LEAST_SCATTER) * seconds / size:.1g}")

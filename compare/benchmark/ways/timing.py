@@ -50,7 +50,7 @@ def cost_of(laps: Sequence[float]) -> Cost:
     if len(laps) < FEWEST:
         return Cost(middle, math.nan)
     scatter = float(high - low) / OF_QUARTILES if len(laps) > FEWEST + 1 else float(np.std(laps, ddof=1))
-    return Cost(middle, scatter / middle)
+    return Cost(middle, scatter / middle if middle > 0.0 else math.nan)
 
 
 def lap(run: Callable[[], object]) -> float:

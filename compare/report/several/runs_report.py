@@ -17,7 +17,7 @@ from ridgeback.compare.identification.preparation import prepared
 from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.recording.measurement import Measurement
 from ridgeback.compare.recording.measurements import Measurements, measure_recordings
-from ridgeback.compare.recording.theory import MeasuredCurve, TheoryBackbone, over_curve
+from ridgeback.compare.recording.theory import MeasuredCurve, TheoryBackbone, curve_of, over_curve
 from ridgeback.compare.report.provenance import provenance
 from ridgeback.compare.report.results import Card, Report
 from ridgeback.compare.report.several.runs import Named, Runs
@@ -80,7 +80,7 @@ def runs_report(
     labels = labels_of([one.recording for one in found.measured])
     over = None if theory is None else _theory(found, theory)
     runs = Runs(found, labels, over, named)
-    settings = {"signals": len(recordings), "theory": "" if theory is None else theory.equation}
+    settings = {"signals": len(recordings), "theory": "" if theory is None else theory.equation, "band": band}
     hashes = ", ".join(dict.fromkeys(r.sha256[:16] for r in recordings if r.sha256))
     return Report(
         title=runs_title(runs),
@@ -130,8 +130,11 @@ def labels_of(recordings: Sequence[Recording]) -> tuple[str, ...]:
 
 
 def _theory(found: Measurements, oscillator: Oscillator) -> TheoryBackbone | None:
-    curve, growth = _leading(found), _growth(found)
-    return None if curve is None or growth is None else over_curve(oscillator, MeasuredCurve(*curve, growth[1]))
+    for common in found.combined:
+        c = common.curve
+        return over_curve(oscillator, MeasuredCurve(c.amplitude, c.omega, c.omega_sd, c.growth_rate))
+    own = next((one.backbone for one in found.measured if one.backbone is not None), None)
+    return None if own is None else over_curve(oscillator, curve_of(own))
 
 
 def _leading(found: Measurements) -> tuple[Array, Array, Array] | None:
@@ -219,7 +222,7 @@ def _sentences(runs: Runs) -> Iterator[str]:
     if kinds:
         same = len({title for _, title in kinds}) == 1
         yield (
-            f"Nearest class of {'all that were tried' if same else 'each'}: "
+            f"What made {'all that were tried' if same else 'each'}: "
             f"{kinds[0][1] if same else '; '.join(f'{label}: {title}' for label, title in kinds)}."
         )
     yield from (f"{failed}." for failed in runs.found.failed[:2])
