@@ -131,10 +131,10 @@ def test_a_report_claims_no_uncertainty_where_no_model_of_one_oscillation_holds_
 
 
 def test_what_was_taken_off_and_left_out_is_among_the_findings(tmp_path):
-    """A decay clipped at 0.8 with a hum beside it: both stand in the summary."""
+    """A decay clipped at 0.6 with a hum beside it: both stand in the summary."""
     time = np.arange(900) / 15.0
     x = np.exp(-0.06 * time) * np.cos(12.6 * time) + 0.05 * np.cos(14.5 * time)
-    x = np.clip(x + 2e-3 * np.random.default_rng(3).standard_normal(900), -0.8, 0.8)
+    x = np.clip(x + 2e-3 * np.random.default_rng(3).standard_normal(900), -0.6, 0.6)
     file = tmp_path / "clipped.csv"
     file.write_text("t,x\n" + "".join(f"{a!r},{b!r}\n" for a, b in zip(time.tolist(), x.tolist(), strict=True)))
     said = " ".join(recording_sentences(compare_recording(file, methods=("harmonic-least-squares",)), None))
