@@ -44,7 +44,7 @@ def with_bends(left: Array, rate: float, tone: Tone, sound: Array, *, floor: flo
 def score_beside(left: Array, rate: float, tone: Tone | None, sound: Array, *, floor: float, near: float) -> float:
     """The criterion of what is left of samples in the band about a frequency, less a tone if there is one."""
     time, band = np.arange(left.size) / rate, (AROUND[0] * near / rate, AROUND[1] * near / rate)
-    parameters = 0 if tone is None else tone.tangent(time[:2]).shape[1]
+    parameters = 0 if tone is None else tone.parameters
     off = (left if tone is None else left - tone.samples(time)) * sound
     score = akaike(off, band, count=int(sound.sum()), parameters=parameters, floor=floor)
     return float(score + STRICTER * parameters)

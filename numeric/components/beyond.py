@@ -16,7 +16,7 @@ from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.components.bends import with_bends
 from ridgeback.numeric.components.tones import Tone, fitted_tone, total
 from ridgeback.numeric.signal.samples import TWO_PI
-from ridgeback.numeric.signal.search_band import half_tapers
+from ridgeback.numeric.signal.search_band import tapers
 
 MOST = 8
 """Tones that are fitted, those in the band included."""
@@ -125,8 +125,7 @@ def highest(x: Array, rate: float, band: tuple[float, float], *, beyond: bool = 
     usable = (inside != beyond) & (omega > TWO_PI * rate * LOWEST_CYCLES / x.size)
     if not usable.any():
         return None
-    tapers = (np.hanning(x.size), *half_tapers(x.size))
-    heights = np.max([np.abs(fft.rfft(x * w, 2 * x.size)) * 2.0 / float(w.sum()) for w in tapers], axis=0)
+    heights = np.max([np.abs(fft.rfft(x * w, 2 * x.size)) * 2.0 / float(w.sum()) for w in tapers(x.size)], axis=0)
     at = int(np.where(usable, heights, 0.0).argmax())
     return Line(float(omega[at]), float(heights[at]))
 

@@ -165,7 +165,7 @@ def in_turns(x: Array, model: SplineModel, found: tuple[Tone, ...], known: Known
 
 def scored(x: Array, model: SplineModel, tones: tuple[Tone, ...], known: Known) -> float:
     """The criterion of a model and tones beside it."""
-    parameters = model.parameters - model.basis.count + sum(tone.tangent(model.time[:2]).shape[1] for tone in tones)
+    parameters = model.parameters - model.basis.count + sum(tone.parameters for tone in tones)
     off, floor = residual(x, model, tones) * known.sound_of(x.size), 1e-14 * float(model.size.max())
     score = akaike(off, known.band or model.band, count=model.count, parameters=parameters, floor=floor)
     return float(score + STRICTER * parameters)

@@ -41,24 +41,26 @@ ROUGH = 3.0
 """Times the noise of short stretches, that a model of the whole leaves which is not that of one smooth oscillation."""
 
 
-def doubt(models: SignalModels, x: Array, left: Array, rate: float, guide: Array, sound: Mask) -> str:
+def doubt(
+    models: SignalModels, x: Array, left: Array, rate: float, guide: Array, sound: Mask, *, start: float = 0.0
+) -> str:
     """Why models cannot be trusted that leave ``left`` of samples ``x``, tones in them; empty where they can.
 
-    ``sound`` are the samples that count.
+    ``sound`` are the samples that count, ``start`` the time of the first one in the record.
     """
     return (
-        jump(models, left, sound)
+        jump(models, left, sound, start=start)
         or wandering(models, sound)
         or in_the_way(left, rate, models.best)
         or unfinished(models, left)
         or uneven(models.best, x, rate, guide)
-        or somewhere(models.best, left, rate, sound)
+        or somewhere(models.best, left, rate, sound, start=start)
     )
 
 
 # In white noise the energy of a window of L samples in a band of width B, rad per sample, over the noise's variance is
 # distributed as chi^2 with L B / pi degrees of freedom.
-def somewhere(model: SplineModel, left: Array, rate: float, sound: Mask) -> str:
+def somewhere(model: SplineModel, left: Array, rate: float, sound: Mask, *, start: float = 0.0) -> str:
     """Why a model on its finest knots cannot be trusted that leaves far more in one stretch than elsewhere: a jump.
 
     >>> from ridgeback.numeric.harmonics.signal_model import signal_models
@@ -77,7 +79,7 @@ def somewhere(model: SplineModel, left: Array, rate: float, sound: Mask) -> str:
     clear = model.size > LEAST * float(model.size.max())
     low, high = AROUND[0] * float(model.omega[clear].min()), AROUND[1] * float(model.omega[clear].max())
     width = min(high, math.pi * rate) - low
-    length = round(STRETCH_CYCLES * TWO_PI * rate / float(np.average(model.omega, weights=model.size**2)))
+    length = round(STRETCH_CYCLES * TWO_PI * rate / model.mean_omega)
     power, there = (
         in_windows(within(left * sound, low / rate, high / rate) ** 2, length),
         in_windows(sound.astype(float), length),
@@ -90,10 +92,10 @@ def somewhere(model: SplineModel, left: Array, rate: float, sound: Mask) -> str:
     rare = chdtri(freedom, CHANCE / power.size) / chdtri(freedom, 0.5)
     if power[at] <= max(rare * usual, (LEAST * float(model.size.max())) ** 2):
         return ""
-    begin = float(model.time[at * (length // 2)])
+    begin = start + float(model.time[at * (length // 2)])
     return (
         f"a model of the whole leaves {math.sqrt(power[at] / usual) if usual else math.inf:.2g} times as much from "
-        f"{begin:.4g} to {begin + length / rate:.4g} after the first sample as elsewhere, as it does where the motion "
+        f"t = {begin:.6g} to {begin + length / rate:.6g} as elsewhere, as it does where the motion "
         "jumps; give a --span in which it goes on smoothly"
     )
 

@@ -35,7 +35,7 @@ def harmonic_zones(model: SplineModel) -> tuple[Zone, ...]:
     [(13.6, 15.2), (20.6, 22.6)]
     """
     step = float(model.time[1] - model.time[0])
-    mean = float(np.average(model.omega, weights=model.size**2))
+    mean = model.mean_omega
     reach = RANGE * math.sqrt(float(np.average((model.omega - mean) ** 2, weights=model.size**2)))
     near = ASIDE * TWO_PI / (step * model.time.size)
     highest = max(FEWEST, max(model.multiples, default=1) + FURTHER)

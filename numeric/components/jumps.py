@@ -113,7 +113,7 @@ def left_over(found: Moments, degree: int, bends: tuple[int, ...] = ()) -> Array
     return np.asarray(np.maximum(0.0, found.square[degree] - gained), dtype=float)
 
 
-def jump(models: SignalModels, left: Array, sound: Mask) -> str:
+def jump(models: SignalModels, left: Array, sound: Mask, *, start: float = 0.0) -> str:
     """Why models cannot be trusted where the frequency jumps; empty where it does not.
 
     Parameters
@@ -124,6 +124,8 @@ def jump(models: SignalModels, left: Array, sound: Mask) -> str:
         What the best of them leaves of the samples.
     sound : array of bool, shape (N,)
         Samples that count.
+    start : float
+        Time of the first sample in the record.
 
     Examples
     --------
@@ -156,7 +158,7 @@ def jump(models: SignalModels, left: Array, sound: Mask) -> str:
     if bent > min(others) - GAIN:
         return ""
     return (
-        f"the frequency jumps near {at:.4g} after the first sample, or wanders at random: a bend of the phase there "
+        f"the frequency jumps near t = {start + at:.6g}, or wanders at random: a bend of the phase there "
         "explains with few parameters what takes smooth models many; give a --span on one side of it"
     )
 

@@ -16,7 +16,7 @@ from scipy.ndimage import median_filter
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.components.harmonic_zones import Zone, in_zones
 from ridgeback.numeric.signal.samples import TWO_PI
-from ridgeback.numeric.signal.search_band import half_tapers
+from ridgeback.numeric.signal.search_band import tapers
 
 SURE = 8.0
 """A line that is none has a probability of e^-8, 3 in 10,000."""
@@ -49,7 +49,7 @@ def clearest_line(left: Array, rate: float, least: float = 0.0, taken: tuple[Zon
     usable = (omega >= TWO_PI * rate * LOWEST_CYCLES / left.size) & ~in_zones(omega, taken)
     width = max(FEWEST_NEIGHBOURS, round(NEIGHBOURS * omega.size)) | 1
     best, beyond = None, 1.0
-    for taper in (np.hanning(left.size), *half_tapers(left.size)):
+    for taper in tapers(left.size):
         spectrum = np.abs(fft.rfft(left * taper)) ** 2
         level = median_filter(spectrum, min(width, omega.size), mode="mirror") / math.log(2.0)
         large = usable & (2.0 * np.sqrt(spectrum) > least * float(taper.sum()))

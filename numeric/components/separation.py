@@ -32,6 +32,8 @@ from ridgeback.numeric.signal.samples import TWO_PI
 MOST_TONES = 6
 SAME = 0.1
 """Of the noise, by which tones may differ between two models."""
+KEPT = 6
+"""Records that are kept separated: a method asks for a few parts of one, and so does the next."""
 ROUNDS, FEW = 3, 0.01
 """In which spikes, and other modes among the harmonics, are looked for; and the share of samples that are few."""
 
@@ -64,6 +66,7 @@ def separated(
     band: tuple[float, float] | None = None,
     beyond: tuple[Tone, ...] = (),
     shared: float = 1.0,
+    start: float = 0.0,
 ) -> Separated:
     """Model one oscillation and what is beside it.
 
@@ -89,6 +92,8 @@ def separated(
         Tones in the samples that are known to be there, about; they do not count among ``most``.
     shared : float
         Variance of the oscillation's parameters beside components that are off the samples, over that without them.
+    start : float
+        Time of the first sample in the record, in which a doubt is told.
 
     Raises
     ------
@@ -131,16 +136,16 @@ def separated(
         given = replace(given, x=filled, sound=sound)
         models, tones = with_tones(given, tones, most)
     left = residual(given.x, models.best, tones)
-    omega = float(np.average(models.best.omega, weights=models.best.size**2))
+    omega = models.best.mean_omega
     known = models.coloured(shared * colour(left, rate, omega, models.best.basis.count))
     single = np.where(given.sound, given.x - total(tones, given.time), models.best.samples())
     reason = off_the_band(models.best, band) or doubt(
-        known, given.x, left, rate, given.guided(tones).guide, given.sound
+        known, given.x, left, rate, given.guided(tones).guide, given.sound, start=start
     )
     return Separated(single, known, given.sound, tones, count, reason)
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=KEPT)
 def separated_once(
     x: bytes,
     rate: float,
@@ -152,6 +157,7 @@ def separated_once(
     band: tuple[float, float] | None,
     beyond: tuple[Tone, ...],
     shared: float,
+    start: float,
 ) -> Separated:
     """``separated`` of arrays as their bytes, kept for the next method that asks for the same of the same samples."""
     return separated(
@@ -165,12 +171,13 @@ def separated_once(
         band=band,
         beyond=beyond,
         shared=shared,
+        start=start,
     )
 
 
 def off_the_band(model: SplineModel, band: tuple[float, float] | None) -> str:
     """Why a model cannot be trusted that left the band it was to be in; empty where it did not, or there is none."""
-    omega = float(np.average(model.omega, weights=model.size**2))
+    omega = model.mean_omega
     if band is None or band[0] <= omega <= band[1]:
         return ""
     return (

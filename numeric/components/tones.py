@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.signal.samples import TWO_PI
 
-ITERATIONS = 12
+ITERATIONS, SETTLED = 12, 1e-10
+"""Steps of a fit: most of them, and radians over the record below which one is the last."""
 STEADY = 3.0
 """Of its deviation, that g must exceed to be one."""
 STEEPEST = 0.5
@@ -81,6 +82,11 @@ class Tone:
         )
 
     @property
+    def parameters(self) -> int:
+        """How many real numbers it has."""
+        return 3 + (self.growth != 0.0) + 2 * len(self.bends)
+
+    @property
     def mains(self) -> bool:
         """Whether it is steady and at a multiple of 50 or 60 cycles per unit."""
         f = self.omega / TWO_PI
@@ -118,11 +124,13 @@ def fitted_tone(left: Array, time: Array, omega: float, sound: Array, start: Ton
     if start is not None and start.bends:
         return bent_tone(left, time, start, sound)
     tone = Tone(omega, 0.0, 0j) if start is None else start
-    steady, _ = iterated(left, time, tone, sound, free=False)
-    begins = (start,) if start is not None else (steady, steep_start(left, time, omega, sound))
+    steady = None if start is not None and start.growth else iterated(left, time, tone, sound, free=False)[0]
+    begins = (start,) if start is not None else (steady or tone, steep_start(left, time, omega, sound))
     tried = [iterated(left, time, begin, sound, free=True) for begin in begins]
     damped, deviation = min(tried, key=lambda one: float(np.sum(((left - one[0].samples(time)) * sound) ** 2)))
-    return damped if abs(damped.growth) > STEADY * deviation else steady
+    if abs(damped.growth) > STEADY * deviation:
+        return damped
+    return steady or iterated(left, time, tone, sound, free=False)[0]
 
 
 def steep_start(left: Array, time: Array, omega: float, sound: Array) -> Tone:
@@ -139,7 +147,8 @@ def steep_start(left: Array, time: Array, omega: float, sound: Array) -> Tone:
         count = max(8, int(np.searchsorted(time, BEYOND / fall)))
         for aside in ASIDE:
             tone = Tone(omega + aside * fall, -fall, 1.0 + 0j)
-            wave = tone.tangent(time[:count])[:, :2] * sound[:count, None]
+            turning = tone.wave(time[:count])
+            wave = np.stack([turning.real, -turning.imag], axis=1) * sound[:count, None]
             size, right = np.linalg.lstsq(wave, left[:count], rcond=None)[0], wave.T @ left[:count]
             if float(size @ right) > most:
                 most, found = float(size @ right), replace(tone, size=complex(*size.tolist()))
@@ -161,12 +170,15 @@ def iterated(left: Array, time: Array, tone: Tone, sound: Array, *, free: bool) 
         unit = np.array([1.0, 1.0, span, span])[: jacobian.shape[1]]
         step, reach = np.linalg.lstsq(jacobian / unit, residual, rcond=None)[0] / unit, STEP_OF_GROWTH * abs(growth)
         omega += float(np.clip(step[2], -max(0.5 / span, reach), max(0.5 / span, reach)))
+        still = float(np.abs(step[2 : 3 + free]).max()) * span < SETTLED
         if free:
             growth += float(np.clip(step[3], -max(1.0 / span, reach), max(1.0 / span, reach)))
             growth = float(np.clip(growth, -STEEPEST * omega, 2.0 / span))
             size = np.maximum(np.linalg.norm(jacobian, axis=0), np.finfo(float).tiny)
             inverse = np.linalg.pinv((jacobian / size).T @ (jacobian / size))
             deviation = float(np.sqrt(max(float(inverse[3, 3]), 0.0) * np.mean(residual**2)) / size[3])
+        if still:
+            break
     return Tone(omega, growth if free else 0.0, tone.size), deviation
 
 

@@ -21,7 +21,7 @@ from ridgeback.numeric.harmonics.signal_model import shown_multiples, signal_mod
 from ridgeback.numeric.harmonics.spline_fit import Known
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
-from ridgeback.numeric.signal.search_band import half_tapers
+from ridgeback.numeric.signal.search_band import tapers
 
 AROUND = 0.3
 """Distance from a multiple, in the oscillation's frequency, within which a line is looked for."""
@@ -90,8 +90,7 @@ def begin(left: Array, time: Array, turn: ComplexArray, reach: float) -> Riding:
     """Where a fit begins: at the highest line of any taper, with the growth rate that explains most."""
     turned, size = left * turn.conj(), 2 * time.size
     omega = TWO_PI * fft.fftfreq(size, float(time[1] - time[0]))
-    tapers = (np.hanning(time.size), *half_tapers(time.size))
-    heights = np.max([np.abs(fft.fft(turned * w, size)) / float(w.sum()) for w in tapers], axis=0)
+    heights = np.max([np.abs(fft.fft(turned * w, size)) / float(w.sum()) for w in tapers(time.size)], axis=0)
     at = float(omega[np.where(np.abs(omega) < reach, heights, 0.0).argmax()])
     growths, fall = [0.0], SHALLOWEST / float(time[-1])
     while fall < reach:
@@ -110,7 +109,7 @@ def slipping(left: Array, model: SplineModel, multiples: tuple[int, ...], sound:
 
     ``left`` is what a model of the oscillation without harmonics leaves of the samples.
     """
-    time, omega = model.time, float(np.average(model.omega, weights=model.size**2))
+    time, omega = model.time, model.mean_omega
     turns = {h: np.exp(1j * h * model.phase) for h in multiples}
     sizes = {h: abs(riding(left, time, turns[h], AROUND * omega, sound).size) for h in multiples}
     found = dict[int, Tone]()

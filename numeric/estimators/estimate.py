@@ -301,6 +301,7 @@ def estimation(
     progress(0.5, f"bias and interval of {name}")
     found = in_its_band(found, options.band)
     track = known_well(without_bias(with_bias(found, ESTIMATORS[name], request), remove_bias))
+    track = in_its_band(track, options.band)
     track = replace(track, used=replace(track.used, span=span_of(request, samples), span_why=request.signal.span_why))
     progress(1.0, "done")
     if harmonic > 1:

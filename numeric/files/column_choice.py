@@ -94,7 +94,12 @@ def counts(columns: Columns, index: int) -> bool:
     >>> counts(Columns(("frame", "u"), (4, 4), lambda i: (i + 1) * np.arange(4.0), str, "run.csv"), 0)
     True
     """
-    steps = np.diff(columns.values(index))
+    if index in columns.words:
+        return False
+    try:
+        steps = np.diff(columns.values(index))
+    except InputError:
+        return False
     return steps.size > 0 and bool((steps == 1.0).all())
 
 
@@ -115,7 +120,7 @@ def signal_indices(
         others = [i for i in others if i not in columns.words] or others
         others = [i for i in others if is_signal(columns.names[i], i, beside=clock is not None)] or others
         if clock is None and len(others) > 1:
-            others = [i for i in others if not counts(columns, i)] or others
+            others = others[counts(columns, others[0]) :]  # a number of the row comes first
     if wanted is None:
         if len(others) == 1:
             return tuple(others)

@@ -91,6 +91,11 @@ class SplineModel:
         """phi' at the samples, rad per time unit."""
         return self.tone(1)[0]
 
+    @cached_property
+    def mean_omega(self) -> float:
+        """The mean of omega, weighted by the power, rad per time unit."""
+        return float(np.average(self.omega, weights=self.size**2))
+
     @property
     def amplitude(self) -> Array:
         """a at the samples."""

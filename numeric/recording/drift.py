@@ -75,6 +75,6 @@ def said_of(drift: float) -> tuple[str, ...]:
     if drift <= NOTABLE:
         return ()
     return (
-        f"The local mean wanders by {drift:.2g} of the rms; it is left in (--detrend removes it; in an asymmetric "
+        f"The local mean wanders by {drift:.2g} of the rms; it is left in (--detrend slow removes it; in an asymmetric "
         "oscillator it belongs to the motion).",
     )

@@ -123,7 +123,7 @@ def check_agreement(signal: Signal, rate: float) -> None:
     times = columns.values(clock)[signal.rows] * time_unit(name)[1]
     steps = np.diff(times[np.isfinite(times)])
     usual = float(np.median(steps)) if steps.size else 0.0
-    if usual == 1.0 or not steps.size or np.any(steps < 0.0):
+    if usual == 1.0 or not steps.any() or np.any(steps < 0.0):
         return
     even = usual > 0.0 and bool(np.mean(np.abs(steps - usual) <= ALIKE * usual) > MOSTLY)
     mean = float(steps.mean())

@@ -121,7 +121,7 @@ def as_displacement(recording: Recording, quantity: str) -> Recording:
     facts = {**recording.facts, GIVEN: quantity}
     if order == 0:
         return replace(recording, facts=facts)
-    unit, scale = recording.units, STANDARD_GRAVITY.get(recording.units, 1.0) if order == 2 else 1.0
+    unit, scale = recording.units, STANDARD_GRAVITY.get(recording.units.lower(), 1.0) if order == 2 else 1.0
     unit = "m/s^2" if scale != 1.0 else unit
     x, rate = scale * recording.values, recording.rate
     wrong = recording.clipped if recording.clipped.any() else None
@@ -154,7 +154,7 @@ def displaced(x: Array, model: SplineModel, quantity: str) -> Array:
     """
     order = ORDERS[quantity]
     wave = sum((converted(model, h, order) for h in (1, *model.multiples)), np.zeros(x.size, dtype=np.complex128))
-    omega = float(np.average(model.omega, weights=model.size**2))
+    omega = model.mean_omega
     rest = (x - model.samples(keep=lambda h: h > 0)) / (omega if order == 1 else -(omega**2))
     return np.asarray(wave.real + rest - rest.mean(), dtype=np.float64)
 

@@ -88,7 +88,7 @@ def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | No
     low, high = band or (TWO_PI * rate * FEWEST_CYCLES / x.size, math.pi * rate)
     within = (omega >= low) & (omega <= high)
     best, clearest = 0.0, 0.0
-    for taper in (np.hanning(x.size), *half_tapers(x.size)):
+    for taper in tapers(x.size):
         power = power_of(x - x.mean(), taper, padded)
         spectrum = np.where(within, power, 0.0)
         at, typical = int(spectrum.argmax()), float(np.median(spectrum[within])) if within.any() else 0.0
@@ -127,12 +127,13 @@ def peak_below(power: Array, at: int, least: int) -> int:
     return peak
 
 
-def half_tapers(size: int) -> Iterator[Array]:
-    """The falling half of a Hann window, and the rising one, over the whole record: for a motion at one of its ends.
+def tapers(size: int) -> Iterator[Array]:
+    """A Hann window, and the falling and the rising half of one over the whole record: for a motion at one of its ends.
 
-    >>> [taper.round(2).tolist() for taper in half_tapers(3)]
-    [[1.0, 0.5, 0.0], [0.0, 0.5, 1.0]]
+    >>> [taper.round(2).tolist() for taper in tapers(3)]
+    [[0.0, 1.0, 0.0], [1.0, 0.5, 0.0], [0.0, 0.5, 1.0]]
     """
+    yield np.hanning(size)
     falling = np.hanning(2 * size - 1)[size - 1 :]
     yield falling
     yield falling[::-1]

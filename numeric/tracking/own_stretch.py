@@ -14,6 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ridgeback.common.errors import InputError
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.signal.decimation import Samples
 from ridgeback.numeric.signal.samples import TWO_PI
@@ -119,7 +120,10 @@ def after_its_start(request: Request, samples: Samples) -> Request:
     why = " and ".join(filter(None, (START_OVER, request.signal.span_why)))
 
     def without(begin: int) -> Request:
-        return part_of(request, samples, slice(first + begin, first + size), why).separated()
+        try:
+            return part_of(request, samples, slice(first + begin, first + size), why).separated()
+        except InputError:
+            return replace(request, known_models=None)
 
     for tried, begin in begins(request):
         if begin <= MOST_LEFT_OUT * size and is_one(without(tried)) and is_one(found := without(begin)):
@@ -150,7 +154,7 @@ def is_one(request: Request) -> bool:
 def untold(request: Request) -> tuple[Tone, ...]:
     """The tones that die and are above the noise, of nearly the frequency of the oscillation."""
     best = request.models.best
-    base = float(np.average(best.omega, weights=best.size**2))
+    base = best.mean_omega
     return tuple(
         tone
         for tone in request.signal.tones

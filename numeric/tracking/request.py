@@ -11,7 +11,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, ComplexArray, Mask
-from ridgeback.numeric.components.beyond import tones_beyond
+from ridgeback.numeric.components.beyond import tones_beyond, within
 from ridgeback.numeric.components.separation import MOST_TONES, separated_once
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.harmonics.noise import Level, measure_level
@@ -200,15 +200,21 @@ class Request:
                 self.options.band,
                 signal.tones,
                 self.options.shared,
+                signal.start,
             )
         except InputError:
             return self
-        # where no model of the oscillation can be trusted, a tone that was found beside it cannot, but hum of the mains
-        tones = found.tones if not found.reason else tuple(tone for tone in found.tones if tone.mains)
+        # where no model of the oscillation can be trusted, a tone that was found beside it cannot
+        tones = found.tones if not found.reason else tuple(filter(self.stays_off, found.tones))
         back = tuple(tone for tone in found.tones if tone not in tones)
         x = found.x + total(back, signal.time - signal.start)
         alone = replace(signal, x=x, z=analytic_of(x), tones=tones, spikes=found.spikes, doubt=found.reason)
         return replace(self, signal=alone, known_models=found.models)
+
+    def stays_off(self, tone: Tone) -> bool:
+        """Whether a tone stays off the samples whatever holds of the oscillation: hum, and what is beyond a band."""
+        band = self.options.band
+        return tone.mains or (band is not None and not within(tone.omega, band))
 
     @cached_property
     def models(self) -> SignalModels:
@@ -275,7 +281,7 @@ def prepared(samples: Samples, options: Options, *, search: SearchBand | None = 
     beyond = beyond_band(real, samples, options.band)
     if beyond:
         real = real - total(beyond, np.arange(real.size) / samples.rate)
-    if search is None or (beyond and options.band is not None):
+    if search is None or beyond:
         search = find_search_band(real, samples.rate, band=up_to_nyquist(options.band, samples))
     cycle, span = TWO_PI / search.centre, real.size / samples.rate
     if options.lag_seconds is None and FEWEST_CYCLES * cycle > span:

@@ -42,8 +42,11 @@ def of_most_energy(request: Request, samples: Samples) -> Request:
     """
     if request.options.band is not None or request.options.most_tones < 1:
         return request
-    hum = own_hum(request, samples) if has_larger(request) else outlasting(samples)
-    if hum is None or not (has_larger(request) or is_unsure(request) or ends_in(hum, request)):
+    larger, unsure = has_larger(request), is_unsure(request)
+    if not (larger or unsure) and any(tone.growth == 0.0 for tone in request.signal.tones):
+        return request
+    hum = own_hum(request, samples) if larger else outlasting(samples)
+    if hum is None or not (larger or unsure or ends_in(hum, request)):
         return request
     try:
         found = above(hum, request, samples)
@@ -51,7 +54,7 @@ def of_most_energy(request: Request, samples: Samples) -> Request:
         return request
     if found.known_models is None or found.signal.doubt or not outlasts(hum, found):
         return request
-    if is_unsure(request) or (ends_in(hum, request) and is_simpler(found, request)):
+    if unsure or (ends_in(hum, request) and is_simpler(found, request)):
         return found
     own = float(np.sum(found.models.best.size**2))
     return found if own > STRONGER * hum.amplitude**2 * samples.x.size else request
@@ -60,17 +63,17 @@ def of_most_energy(request: Request, samples: Samples) -> Request:
 def own_hum(request: Request, samples: Samples) -> Tone:
     """What was taken for the oscillation, as a steady tone at times from the first sample of the record on."""
     best, late = request.models.best, request.signal.start - samples.start
-    omega = float(np.average(best.omega, weights=best.size**2))
+    omega = best.mean_omega
     tone, _ = iterated(best.samples(), best.time, Tone(omega, 0.0, 0j), np.ones(best.time.size), free=False)
     return moved(tone, -late)
 
 
 def ends_in(hum: Tone, request: Request) -> bool:
     """Whether one oscillation without a steady tone beside it is APART in frequency from a hum at the end."""
-    if request.known_models is None or any(tone.growth == 0.0 for tone in request.signal.tones):
+    if request.known_models is None:
         return False
     best = request.models.best
-    return abs(float(np.average(best.omega, weights=best.size**2)) / hum.omega - 1.0) > APART
+    return abs(best.mean_omega / hum.omega - 1.0) > APART
 
 
 def outlasts(hum: Tone, found: Request) -> bool:
@@ -90,7 +93,7 @@ def outlasts(hum: Tone, found: Request) -> bool:
 def is_simpler(found: Request, request: Request) -> bool:
     """Whether a model of as much of the samples leaves as little with fewer parameters."""
     ours, theirs = found.models.best, request.models.best
-    count = ours.parameters + sum(tone.tangent(ours.time[:2]).shape[1] for tone in found.signal.tones)
+    count = ours.parameters + sum(tone.parameters for tone in found.signal.tones)
     return ours.noise < AS_GOOD * theirs.noise and count < theirs.parameters
 
 

@@ -128,5 +128,5 @@ def stated_mark(word: str) -> str:
     """
     mark = MARKS.get(word.strip().lower())
     if mark is None:
-        raise InputError(f"decimal mark {word!r} is unknown; use one of {', '.join(MARKS)}")
+        raise InputError(f"decimal mark {word!r} is unknown; use one of auto, point or comma")
     return mark

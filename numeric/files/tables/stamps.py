@@ -128,10 +128,12 @@ def day_number(text: str, *, day_first: bool) -> int:
 def since_first(cells: Sequence[str], *, day_first: bool) -> Array:
     """Seconds after the first stamp, NaN where one is missing.
 
-    Raises BadCell at the first that is none.
+    A time of day without a date that falls by more than half a day is that of the next one.
+
+    Raises BadCellError at the first that is none.
     """
     found = np.full(len(cells), np.nan)
-    start = None
+    start, before, days = None, 0.0, 0
     for at, cell in enumerate(cells):
         if is_missing(cell):
             continue
@@ -142,7 +144,9 @@ def since_first(cells: Sequence[str], *, day_first: bool) -> Array:
         start = here if start is None else start
         if here.zoned != start.zoned:
             raise BadCellError(at)
-        found[at] = DAY * (here.day - start.day) + (here.seconds - start.seconds)
+        days += here.day == 0 and here.seconds < before - 0.5 * DAY
+        before = here.seconds
+        found[at] = DAY * (days + here.day - start.day) + (here.seconds - start.seconds)
     return found
 
 

@@ -240,7 +240,7 @@ def parse_table(text: str, *, source: str, decimal: str = AUTO) -> TextTable:
         check_halves(heads, typical, source)
     width = max(len(cells_in(rows[0], delimiter)), len(heads[-1]) if heads else 0)
     places = beside or filled(rows, delimiter, width)
-    if delimiter == BLANKS:
+    if delimiter == BLANKS and not beside:
         heads, places = spaced(heads, lines[first - 1], len(cells_in(rows[0], delimiter)))
     elif heads and len(heads[-1]) == 1:
         heads = [otherwise(lines[first - 1], len(places)) or heads[-1]]

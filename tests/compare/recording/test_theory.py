@@ -40,7 +40,7 @@ def test_where_no_deviation_is_known_nothing_is_judged(measured):
     found = over_measured(find("linear").with_parameters({"k": "2.1"}), measured, known=False)
     assert found.agreement is Agreement.UNTOLD
     assert found.mean == pytest.approx(2 / 2.1 - 1, abs=1e-4)
-    assert "standard deviations" not in found.sentence()
+    assert "deviations" not in found.sentence()
     assert "differ" not in found.sentence()
 
 

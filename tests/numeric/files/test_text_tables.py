@@ -254,4 +254,6 @@ def test_a_rate_that_the_times_contradict_is_refused(tmp_path: Path, time: np.nd
 def test_a_rate_takes_the_place_of_times_that_count_are_coarse_or_begin_again(tmp_path: Path, time: np.ndarray) -> None:
     path = tmp_path / "run.csv"
     path.write_text("t,u\n" + "".join(f"{t!s},{v}\n" for t, v in zip(time, VALUES, strict=True)))
-    assert read_recording(path, rate=20.0).values.size == 40
+    found = read_recording(path, rate=20.0)
+    assert found.rate == 20.0
+    assert np.array_equal(found.values, VALUES)

@@ -280,7 +280,7 @@ def test_a_signal_without_a_backbone_is_named(ridgeback: Ridgeback, tmp_path: Pa
 
 
 def test_a_backbone_that_is_refused_has_the_reason_and_no_other_note(ridgeback: Ridgeback, tmp_path: Path) -> None:
-    """A second blow: no smooth oscillation, beside a drift that is a note."""
+    """A second blow beside a drift, which is a note elsewhere: one smooth oscillation is not there."""
     x = decay() + np.where(T > 10.0, np.sin(8.0 * (T - 10.0)), 0.0) + 0.02 * T
     x += 0.003 * np.random.default_rng(2).standard_normal(T.size)
     done = ridgeback("estimate", written(tmp_path / "a.csv", t=T, u=x), "--backbone")

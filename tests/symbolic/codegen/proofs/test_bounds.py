@@ -143,7 +143,7 @@ def test_a_wrong_constant_breaks_the_bound(tmp_path: Path) -> None:
 def test_ranges_without_a_relative_bound_say_so() -> None:
     """A slope smaller than any that a relative error is claimed for has none; a range of overflow is refused."""
     text = generate(lindstedt(find("duffing"), 12), "c", up_to=Fraction(1, 10**320))
-    assert "inf" not in re.findall(r"at most (\w+)", text)
+    assert "at most inf" not in " ".join(text.split())
     assert "as the value may be 0 near A = 0" in " ".join(text.replace("//", "").split())
     with pytest.raises(InputError, match=r"may divide by zero, overflow .* give a shorter range"):
         generate(lindstedt(find("duffing"), 12), "c", up_to=Fraction(10**30))
