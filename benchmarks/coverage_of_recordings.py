@@ -14,7 +14,9 @@ from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
-from kinds_of_record import DRAWN, KINDS, Kind
+from records.drawn import DRAWN
+from records.fixed import KINDS
+from records.motions import Kind
 from scipy.stats import beta
 
 from ridgeback.common.errors import InputError

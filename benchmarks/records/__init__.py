@@ -1,0 +1,1 @@
+"""Records with known truth, over which intervals are counted."""
