@@ -130,6 +130,18 @@ def highest(x: Array, rate: float, band: tuple[float, float], *, beyond: bool = 
     return Line(float(omega[at]), float(heights[at]))
 
 
+def nothing_in(band: tuple[float, float], beyond: float) -> str:
+    """Why nothing is given of a band beside which there is an oscillation, and what would work.
+
+    >>> nothing_in((8.0, 12.0), 5.0)[:50]
+    'the band 8 to 12 rad/s holds no oscillation that s'
+    """
+    return (
+        f"the band {band[0]:.4g} to {band[1]:.4g} rad/s holds no oscillation that stands out beside one near "
+        f"{beyond:.4g} rad/s; give a --band round that, or a narrower one further from it"
+    )
+
+
 def within(omega: float, band: tuple[float, float]) -> bool:
     """Whether a frequency lies in a band."""
     return band[0] <= omega <= band[1]

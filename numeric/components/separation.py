@@ -17,6 +17,7 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.components.bends import with_bends
+from ridgeback.numeric.components.beyond import nothing_in
 from ridgeback.numeric.components.candidates import first_tones, in_turns, more_tones
 from ridgeback.numeric.components.doubts import doubt
 from ridgeback.numeric.components.given import Given, residual
@@ -180,10 +181,7 @@ def off_the_band(model: SplineModel, band: tuple[float, float] | None) -> str:
     omega = model.mean_omega
     if band is None or band[0] <= omega <= band[1]:
         return ""
-    return (
-        f"the band {band[0]:.4g} to {band[1]:.4g} rad per time unit holds no oscillation that stands out beside a "
-        f"stronger one near {omega:.4g}; give another --band"
-    )
+    return nothing_in(band, omega)
 
 
 def with_tones(given: Given, here: tuple[Tone, ...], most: int) -> tuple[SignalModels, tuple[Tone, ...]]:

@@ -107,7 +107,7 @@ class Tone:
         >>> Tone(2 * np.pi * 50.0, 0.0, 0.02).said()
         'a steady tone at 50 Hz (mains hum), amplitude 0.02'
         """
-        kind = "a steady tone" if self.growth == 0.0 else f"a mode of growth rate {self.growth:.4g}"
+        kind = "a steady tone" if self.growth == 0.0 else f"a mode of growth rate {self.growth:.4g} 1/s"
         kind += " at first, changing along its decay," if self.bends else ""
         hum = " (mains hum)" if self.mains else ""
         return f"{kind} at {self.omega / TWO_PI:.6g} Hz{hum}, amplitude {self.amplitude:.3g}"

@@ -120,5 +120,5 @@ def decimation_notes(samples: Samples, first: float, last: float) -> tuple[str, 
     return (
         f"Of the low-passed samples one in {samples.factor} is used: nothing above {highest:.4g} cycles per unit is "
         f"looked for, and of the time the first {samples.start - first:.3g} and the last {max(0.0, last - end):.3g} "
-        "are left out.",
+        "time units are left out.",
     )

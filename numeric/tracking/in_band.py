@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ridgeback.common.errors import InputError
+from ridgeback.numeric.components.beyond import nothing_in
 from ridgeback.numeric.tracking.track import Track
 
 
@@ -19,15 +20,12 @@ def in_its_band(track: Track, band: tuple[float, float] | None) -> Track:
     >>> in_its_band(track, (8.0, 12.0))
     Traceback (most recent call last):
         ...
-    ridgeback.common.errors.InputError: example: the band 8 to 12 rad per time unit holds no ...
+    ridgeback.common.errors.InputError: example: the band 8 to 12 rad/s holds no ...
     """
     if band is None:
         return track
     inside = (track.omega >= band[0]) & (track.omega <= band[1])
     if 2 * np.count_nonzero(track.valid & inside) < np.count_nonzero(track.valid):
         beyond = float(np.median(track.omega[track.valid & ~inside]))
-        raise InputError(
-            f"{track.method}: the band {band[0]:.4g} to {band[1]:.4g} rad per time unit holds no oscillation that "
-            f"stands out beside one near {beyond:.4g} beyond it; give another --band"
-        )
+        raise InputError(f"{track.method}: {nothing_in(band, beyond)}")
     return replace(track, valid=track.valid & inside)

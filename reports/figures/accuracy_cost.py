@@ -46,7 +46,7 @@ def accuracy_cost(found: Benchmark, target: float) -> Figure:
         key="accuracy-cost",
         wide=_wide(which, target, label) if timed else ranked(WIDE, timed=False),
         narrow=ranked(NARROW, timed=timed),
-        caption=_caption(which, target),
+        caption=_caption(which, target, timed=timed),
         leads=_leads(found, timed=timed),
         toggles=toggles(*letters, series=bool(which.terms)),
         label=label,
@@ -62,13 +62,12 @@ def _leads(found: Benchmark, *, timed: bool) -> tuple[str, str]:
     return ("Further down is closer, further left is cheaper.", narrow) if timed else (f"Left is closer.{shaded}",) * 2
 
 
-def _caption(which: Shown, target: float) -> str:
+def _caption(which: Shown, target: float, *, timed: bool) -> str:
     found = which.found
     low, high = (number(x, 3) for x in found.support)
     span = f"{low} to {high} {found.case.time_unit}".strip()
     parts = [f"Rms error relative to the {found.reference.label}, t = {span}."]
-    top = _panel(which, target).y.high
-    if any(error(row) > top for row in which.all if math.isfinite(which.cost(row))):
+    if timed and _beyond_the_top(which, target):
         parts.append("At the edge of the largest errors: off scale.")
     if which.expansions and which.expansions[0].amplitude_from == "action":
         parts.append("Expansions and series take A(t) from the averaged action, whose own cost is not counted.")
@@ -80,6 +79,12 @@ def _caption(which: Shown, target: float) -> str:
     if missing:
         parts.append(f"No result: {refused_names(missing)}.")
     return " ".join(parts)
+
+
+def _beyond_the_top(which: Shown, target: float) -> bool:
+    """Whether an error is too large for the wide drawing, so that its mark stands at the edge."""
+    top = _panel(which, target).y.high
+    return any(error(row) > top for row in which.all if math.isfinite(which.cost(row)))
 
 
 # --- the wide drawing

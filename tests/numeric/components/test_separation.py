@@ -206,7 +206,7 @@ def test_a_frequency_that_jumps_by_a_few_per_cent_gets_no_interval_and_one_that_
     jumping = np.cos(6 * np.pi * (t + 0.035 * np.maximum(t - 11.75, 0.0)))
     swinging = np.cos(6 * np.pi * t + 0.3 * np.sin(0.5 * t))
     jumps, swings = (estimate(x + noise, 40.0).no_interval for x in (jumping, swinging))
-    assert (jumps or "").startswith("the frequency jumps near 11.7")
+    assert (jumps or "").startswith("the frequency jumps near t = 11.7")
     assert swings is None
 
 
