@@ -1,6 +1,6 @@
 """What is proved of generated code for every oscillator of the catalogue: units in the last place in every mode.
 
-    python benchmarks/bounds.py [ORDER] [NAME ...]
+    python -m benchmarks.bounds [ORDER] [NAME ...]
 
 Prints the table of docs/reference/generated-code.md: omega0 of each series that has a range, up to the end that the
 command line takes, with the single operations that it comes to.

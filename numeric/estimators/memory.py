@@ -1,7 +1,7 @@
 """What memory an estimate takes, said before it is begun.
 
 Measured as the peak of the process less what imports take, at 100,000 and 1,000,000 samples, 32 to the cycle
-(``python benchmarks/recordings.py --estimators``); meant to be right within a factor of three.
+(``python -m benchmarks.speed.recordings --estimators``); meant to be right within a factor of three.
 """
 
 from __future__ import annotations

@@ -22,7 +22,7 @@ STEPS_BEYOND = 1
 knots.  At the least criterion omega errs 1.3 to 1.9 times its bound on the paper's case, a step beyond 1.0 to 1.1."""
 STEPS_FINER = 1
 """From the least criterion to the model that intervals rest on: 92 to 98 % of them hold (measured, in
-benchmarks/coverage_of_recordings.py)."""
+benchmarks/trials/coverage_of_recordings.py)."""
 LEFT = 0.3
 """The same for polynomials of neighbouring degrees."""
 WINDOW_HALF = 64

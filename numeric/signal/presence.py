@@ -10,9 +10,9 @@ distribution with 2 and 2 m degrees of freedom,
 and among n ordinates the largest exceeds r with at most n times that probability (Fisher, Proc. R. Soc. A 125 (1929)
 54; Vaughan, Astron. Astrophys. 431 (2005) 391, for a fitted power law).  The fit takes the least absolute deviations of
 log I, which a line and its harmonics hardly move.  Since it is no mean, the m that makes the false alarms right was
-found by trials: one in ORDINATES ordinates counts (measured in benchmarks/false_alarms.py).  A frequency that moves
-spreads over the record's spectrum and not over that of a part: the halves, quarters and eighths are looked at as well,
-and all their ordinates count in n.
+found by trials: one in ORDINATES ordinates counts (benchmarks/trials/false_alarms.py).  A frequency that moves spreads
+over the record's spectrum and not over that of a part: the halves, quarters and eighths are looked at as well, and all
+their ordinates count in n.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 The laws are fits to measured runs on one core of a laptop-class machine (2026): time grows like a power of the order
 between the third and the fifth (orders x products x terms x digits), memory like the third, both times the number of
 monomials in the parameters left symbolic; reversion and composition of power series, all that the energy integral does,
-grow less.  They are empirical; ``python benchmarks/costs.py`` shows each within a factor of three of what happens.
+grow less.  They are empirical; ``python -m benchmarks.speed.costs`` shows each within a factor of three of what comes.
 With symbolic parameters it is up to six, on the dear side, because how many monomials occur depends on the equation.
 """
 

@@ -1,4 +1,4 @@
-"""The 95 % intervals of growth rate and amplitude hold the truth (widely: benchmarks/coverage_of_recordings.py)."""
+"""The 95 % intervals of growth rate and amplitude hold the truth (see benchmarks/trials/coverage_of_recordings.py)."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ def noisy(x: np.ndarray, decibel: float, seed: int) -> np.ndarray:
 
 
 # Neighbouring samples share their noise, so that a trial of 20 s tells about as much as ten independent values: six
-# trials know the share to some four percent.  benchmarks/test_coverage.py has the table of many.
+# trials know the share to some four percent.  benchmarks/trials/test_coverage.py has the table of many.
 @pytest.mark.parametrize("method", ["harmonic-least-squares", "pseudo-wigner", "hilbert"])
 def test_intervals_hold_the_truth(method: str, pendulum_decay: Source) -> None:
     shares, seed = [], 500

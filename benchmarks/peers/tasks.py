@@ -1,6 +1,6 @@
 """Ridgeback beside other packages on two tasks, measured in one run; prints the table of ``docs/results/peers.md``.
 
-    python benchmarks/peers.py --peers PYTHON
+    python -m benchmarks.peers.tasks --peers PYTHON
 
 PYTHON is an interpreter with ``pip install oscilate ssqueezepy tftb sympy scipy``, which need an older NumPy than
 Ridgeback does; what it does not have is left out.  Derivations are of u'' + u + eps u^3 = 0 to eps^n, and all must find

@@ -1,4 +1,4 @@
-"""How often the 95 % intervals of ``identify`` hold: ``python benchmarks/coverage_of_parameters.py``.
+"""How often the 95 % intervals of ``identify`` hold: ``python -m benchmarks.trials.coverage_of_parameters``.
 
 Seeded trials of equations of motion, integrated as they stand from a random phase, in white noise of a random level;
 the class and its law of damping are given, as ``--candidates`` and ``--damping`` do.  A row of the table that it prints

@@ -1,6 +1,6 @@
 """How often noise passes for an oscillation, and how often a tone is missed: trials behind numeric/signal/presence.py.
 
-    python benchmarks/false_alarms.py [TRIALS]
+    python -m benchmarks.trials.false_alarms [TRIALS]
 
 prints, for white and 1/f^a noise of 200 to 5000 samples, the share of records below each probability, and for tones at
 0 dB the share that is found.  With 10,000 trials of the shortest records it takes about ten minutes.

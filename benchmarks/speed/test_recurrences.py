@@ -7,26 +7,21 @@ the orders that take minutes.
 from __future__ import annotations
 
 import os
-import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
+from benchmarks.speed import recurrences, reversion
 from ridgeback.symbolic.expansion.cost import Budget
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.lindstedt import conservative_recursion, lindstedt
 from ridgeback.symbolic.series.spaces import space_for
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
-
-sys.path.insert(0, str(Path(__file__).parent))
-import recurrences
-import reversion
 
 SUPERSCRIPT = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 TITLES = {"pendulum": "pendulum", "van-der-pol": "van der Pol", "helmholtz-duffing": "Helmholtz-Duffing"}

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from records.motions import (
+from benchmarks.trials.records.motions import (
     Decay,
     Kind,
     Motion,

@@ -1,6 +1,6 @@
 """How fast generated code is, as ratios within one run; prints the table of docs/reference/generated-code.md.
 
-    python benchmarks/code.py
+    python -m benchmarks.speed.generated_code
 
 Times are medians of repeats on one core; on a shared machine the ratios say more than the nanoseconds.
 """

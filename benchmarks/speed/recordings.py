@@ -1,6 +1,6 @@
 """Processor time and memory of recordings on the command line, of every estimator, and the spectrogram beside SciPy's.
 
-``python benchmarks/recordings.py [--samples 100000 1000000] [--methods auto ...] [--report] [--spectrogram]
+``python -m benchmarks.speed.recordings [--samples 100000 1000000] [--methods auto ...] [--report] [--spectrogram]
 [--estimators]`` prints tables for docs/results/speed.md: without options those of 1e5 and 1e6 samples by every method,
 6e6 by auto, a report of 4643 samples, and the spectrogram.  Seconds are those of the processor, user and system
 together, on one thread.  With ``--estimators`` each method runs on samples in memory in a process of its own, and the

@@ -1,4 +1,4 @@
-"""What derivations take against what is predicted: ``python benchmarks/costs.py``.
+"""What derivations take against what is predicted: ``python -m benchmarks.speed.costs``.
 
 Seconds of one core for every method, and the gigabytes that a process of its own gains; each ratio of the prediction to
 what happened is to lie between a third and three, on a machine like that of ``expansion.cost``.

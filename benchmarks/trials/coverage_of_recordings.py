@@ -1,4 +1,6 @@
-"""How often the 95 % intervals hold on recordings as people have them: ``python benchmarks/coverage_of_recordings.py``.
+"""How often the 95 % intervals hold on recordings as people have them.
+
+    python -m benchmarks.trials.coverage_of_recordings
 
 Seeded trials of kinds of record: clean decays, tails, a few cycles, quadratic drag, hum, two modes, a release and a
 stop, clipping, spikes, 1/f noise, harmonics, a chirp.  A row of the table that it prints is a kind: the share of the
@@ -14,11 +16,11 @@ from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
-from records.drawn import DRAWN
-from records.fixed import KINDS
-from records.motions import Kind
 from scipy.stats import beta
 
+from benchmarks.trials.records.drawn import DRAWN
+from benchmarks.trials.records.fixed import KINDS
+from benchmarks.trials.records.motions import Kind
 from ridgeback.common.errors import InputError
 from ridgeback.compare.recording.measurement import measure
 from ridgeback.numeric.arrays import Array, Mask

@@ -1,4 +1,4 @@
-"""The wide confusion matrix: ``python benchmarks/confusion.py --trials 10 --snr 40 30 20``, about 3 s per trial.
+"""The wide confusion matrix: ``python -m benchmarks.trials.confusion --trials 10 --snr 40 30 20``, about 3 s per trial.
 
 Every class that can be drawn against every candidate; the same seed gives the same trials.
 """

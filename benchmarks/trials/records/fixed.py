@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from records.motions import (
+from benchmarks.trials.records.motions import (
     Decay,
     Kind,
     bent_mode,

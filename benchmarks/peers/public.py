@@ -1,7 +1,7 @@
 """Our estimators in the public benchmark ``mcsm-benchs`` (task ``inst_frequency``), beside ``ssqueezepy``'s ridges.
 
     pip install mcsm-benchs ssqueezepy
-    python -m benchmarks.public [--trials 20] [--signals LinearChirp,ToneDamped] [--plot public.svg]
+    python -m benchmarks.peers.public [--trials 20] [--signals LinearChirp,ToneDamped] [--plot public.svg]
 
 Signals are those of its bank, cut to where they are not zero; it adds noise, calls the methods and compares.  Prints
 the rms error of the frequency in cycles per sample, and the Cramer-Rao bound of a polynomial phase and amplitude of the
