@@ -24,6 +24,8 @@ APART, AS_GOOD = 0.02, 1.1
 """Relative distance of a hum's frequency from the mean one of an oscillation, and a ratio of what two models leave."""
 DEAD, WEAKER = 0.3, 0.3
 """Of its largest amplitude: the last one of an oscillation that a hum outlasts, and that of the hum."""
+LARGEST = 2.0
+"""Of the largest sample, that an oscillation may have as amplitude at the first one: it may fall and have harmonics."""
 ELSE = 0.03
 """Of the square of a hum's amplitude: the mean square of what else may be where it has outlasted the oscillation."""
 AT_THE_END = 1.0 / 3.0, 1.0 / 6.0
@@ -46,7 +48,7 @@ def of_most_energy(request: Request, samples: Samples) -> Request:
     if not (larger or unsure) and any(tone.growth == 0.0 for tone in request.signal.tones):
         return request
     hum = own_hum(request, samples) if larger else outlasting(samples)
-    if hum is None or not (larger or unsure or ends_in(hum, request)):
+    if hum is None or not (larger or unsure or ends_in(hum, request)) or is_all(hum, samples):
         return request
     try:
         found = above(hum, request, samples)
@@ -74,6 +76,16 @@ def ends_in(hum: Tone, request: Request) -> bool:
         return False
     best = request.models.best
     return abs(best.mean_omega / hum.omega - 1.0) > APART
+
+
+def is_all(hum: Tone, samples: Samples) -> bool:
+    """Whether a hum is too large for anything that it outlasts: a record of one even size is that of no mode that dies.
+
+    >>> t = np.arange(200) / 10.0
+    >>> is_all(Tone(6.0, 0.0, 1.0), Samples(np.cos(5.0 * t + 0.02 * t**2), 10.0, 0.0))
+    True
+    """
+    return hum.amplitude >= WEAKER * LARGEST * float(np.abs(samples.x - samples.x.mean()).max())
 
 
 def outlasts(hum: Tone, found: Request) -> bool:
