@@ -13,6 +13,8 @@ from ridgeback.numeric.files.columns import Columns
 ALL = "all"
 EVEN = 0.02
 """Share of the usual step by which one may differ in a column without a name that is taken for the time."""
+MOST_DAYS = 1e6
+"""Since whatever day they are counted from."""
 SHOWN = 12
 """Column names that a message lists."""
 
@@ -45,6 +47,7 @@ def time_index(columns: Columns, wanted: str | int | None, rate: float | None) -
             raise InputError(f"{columns.source} states its sampling rate and has no time column; leave {wanted} out")
         return find_column(columns, wanted)
     hits = [i for i, name in enumerate(columns.names) if is_time(name)]
+    hits = hits or [i for i, name in enumerate(columns.names) if is_date(name) and tells_time(columns, i)]
     if hits:
         return hits[0]
     if rate is None and columns.rate is None:
@@ -57,9 +60,34 @@ def time_index(columns: Columns, wanted: str | int | None, rate: float | None) -
     return None
 
 
+def tells_time(columns: Columns, index: int) -> bool:
+    """Whether a column of days is dates, or rising numbers of them: no months, nor years before months and days.
+
+    >>> def days(*values, **more):
+    ...     return Columns(("Day", "u"), (3, 3), lambda i: np.array(values), str, "run.csv", **more)
+    >>> tells_time(days(1.0, 2.0, 4.0), 0), tells_time(days(1.0, 1.0, 2.0), 0), tells_time(days(2e7, 2.1e7, 2.2e7), 0)
+    (True, False, False)
+    """
+    if index in columns.stamps:
+        return True
+    if index in columns.words or columns.rate is not None:
+        return False
+    values = columns.values(index)
+    return bool(values.size > 1 and values[0] < MOST_DAYS and (np.diff(values[np.isfinite(values)]) > 0.0).all())
+
+
 def unnamed(name: str, index: int) -> bool:
     """Whether a column has its number for a name."""
     return name == str(index + 1)
+
+
+def numbered(name: str, index: int) -> bool:
+    """Whether a column has its number for a name, or that of its matrix with its number.
+
+    >>> numbered("2", 1), numbered("x[2]", 1), numbered("u", 1)
+    (True, True, False)
+    """
+    return unnamed(name, index) or name.endswith(f"[{index + 1}]")
 
 
 def rises_evenly(columns: Columns) -> bool:
@@ -72,7 +100,7 @@ def rises_evenly(columns: Columns) -> bool:
     >>> rises_evenly(two(0.1)), rises_evenly(two(1.0)), rises_evenly(two(-0.1)), rises_evenly(two(0.1, hinted=True))
     (True, False, False, False)
     """
-    if columns.hinted or len(columns.names) < 2 or not all(map(unnamed, columns.names, range(len(columns.names)))):
+    if columns.hinted or len(columns.names) < 2 or not all(map(numbered, columns.names, range(len(columns.names)))):
         return False
     steps = np.diff(columns.values(0))
     usual = float(np.median(steps)) if steps.size and np.isfinite(steps).all() else 0.0
@@ -108,8 +136,8 @@ def signal_indices(
 ) -> tuple[int, ...]:
     """Indices of the signals: those asked for (a name, a number, several, or "all"), or the only one left.
 
-    ``taken`` are the columns of the time and the run.  No signal are a day beside a time, words, a column without a
-    name among some that have one, and one that numbers the rows where there is no time.
+    ``taken`` are the columns of the time and the run.  No signal are a day beside a time, words, dates, a column
+    without a name among some that have one, and one that numbers the rows where there is no time.
 
     Raises InputError for one that is not there or taken.
     """
@@ -117,7 +145,7 @@ def signal_indices(
     rows = None if clock is None else columns.sizes[clock]
     others = [i for i in range(len(columns.names)) if i not in taken and rows in (None, columns.sizes[i])]
     if wanted is None or (wanted == ALL and ALL not in columns.names):
-        others = [i for i in others if i not in columns.words] or others
+        others = [i for i in others if i not in (*columns.words, *columns.stamps)] or others
         others = [i for i in others if is_signal(columns.names[i], i, beside=clock is not None)] or others
         if clock is None and len(others) > 1:
             others = others[counts(columns, others[0]) :]  # a number of the row comes first

@@ -45,7 +45,8 @@ class Columns:
 
     ``values(i)`` gives the numbers of column i, missing ones as NaN; ``place(row)`` says where a row is.  ``hinted`` is
     whether something stands above columns without names that may say what they are, and was not understood;
-    ``words`` are the columns that hold no numbers.
+    ``words`` are the columns that hold no numbers, ``stamps`` those of dates and times of day, as seconds from the
+    first.
     """
 
     names: tuple[str, ...]
@@ -58,3 +59,4 @@ class Columns:
     note: str = ""
     hinted: bool = False
     words: tuple[int, ...] = ()
+    stamps: tuple[int, ...] = ()

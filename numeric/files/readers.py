@@ -6,7 +6,7 @@ import io
 import zipfile
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from datetime import datetime
+from datetime import datetime, timedelta
 from types import MappingProxyType
 
 from ridgeback.common.errors import InputError
@@ -46,6 +46,7 @@ def of_table(text: str, source: str, decimal: str) -> Columns:
         note=table.note,
         hinted=table.hinted,
         words=table.words,
+        stamps=table.stamps,
     )
 
 
@@ -83,11 +84,17 @@ def from_excel(data: bytes, source: str, decimal: str) -> Columns:
 def cell_text(cell: object, decimal: str) -> str:
     """A cell as text: dates as stamps, nothing for an empty one.
 
+    >>> cell_text(timedelta(days=1, seconds=1.5), ".")
+    '24:00:01.500000'
     >>> cell_text(1.5, "auto"), cell_text(1.5, ","), cell_text(None, "."), cell_text(datetime(2026, 1, 2, 3, 4), ".")
     ('1.5', '1,5', '', '2026-01-02T03:04:00')
     """
     if isinstance(cell, datetime):
         return cell.isoformat()
+    if isinstance(cell, timedelta):
+        hours, rest = divmod(cell, timedelta(hours=1))
+        minutes, rest = divmod(rest, timedelta(minutes=1))
+        return f"{hours}:{minutes:02d}:{rest.total_seconds():09.6f}"
     if isinstance(cell, float) and decimal == COMMA:
         return str(cell).replace(POINT, COMMA)
     return "" if cell is None else str(cell).replace("\t", " ").replace("\n", " ")

@@ -15,10 +15,11 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.files import check_regular, read_regular
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.files.column_choice import find_column, signal_indices, time_index
-from ridgeback.numeric.files.column_names import SECONDS, is_time, name_and_units, time_unit
+from ridgeback.numeric.files.column_names import is_date, is_time, name_and_units
 from ridgeback.numeric.files.columns import FILE_BUDGET, Columns
 from ridgeback.numeric.files.readers import SUFFIXES, columns_of_file
 from ridgeback.numeric.files.tables.numbers import stated_mark
+from ridgeback.numeric.recording.clock import Clock, clocks, only
 from ridgeback.numeric.recording.stretches import Rows
 from ridgeback.numeric.recording.uniform import MOST_SAMPLES
 from ridgeback.numeric.signal.samples import checked_rate
@@ -65,7 +66,7 @@ def signals(file: Path, places: Places, file_run: str) -> Iterator[Signal]:
     del data  # what columns need of it they hold
     columns = replace(columns, values=lru_cache(maxsize=2)(columns.values))  # the times, for channel after channel
     clock = time_index(columns, places.time_column, places.rate)
-    if clock is not None and places.time_column is None and not is_time(columns.names[clock]):
+    if clock is not None and places.time_column is None and not is_named_time(columns.names[clock]):
         columns = replace(columns, note=f"{columns.note} {TAKEN}".strip())
     by = None if places.run_column is None else find_column(columns, places.run_column)
     for index in signal_indices(columns, places.columns, (clock, by)):
@@ -76,6 +77,11 @@ def signals(file: Path, places: Places, file_run: str) -> Iterator[Signal]:
             )
         for name, rows in runs_of(columns, by, columns.sizes[index]):
             yield Signal(columns, index, clock, rows, ", ".join(text for text in (file_run, name) if text), digest)
+
+
+def is_named_time(name: str) -> bool:
+    """Whether a column's name is that of a time or of a day."""
+    return is_time(name) or is_date(name)
 
 
 def runs_of(columns: Columns, by: int | None, size: int) -> list[tuple[str, Rows]]:
@@ -98,8 +104,7 @@ def stamps(signal: Signal, size: int, rate: float | None) -> tuple[Array, str]:
         if stated is not None and clock is None and rate not in (None, stated):
             raise InputError(f"{columns.source} states {stated:g} samples per second, not {rate:g}; leave the rate out")
         used = checked_rate(rate if rate is not None else stated or 0.0)
-        if clock is not None:
-            check_agreement(signal, used)
+        check_agreement(signal, used)
         note = "" if clock is None else f"the time column {columns.names[clock]} was replaced by the given rate"
         return np.arange(signal.rows.size) / used, note
     if columns.sizes[clock] != size:
@@ -107,11 +112,17 @@ def stamps(signal: Signal, size: int, rate: float | None) -> tuple[Array, str]:
             f"{columns.source}: {columns.names[signal.index]} has {size} samples, the time column "
             f"{columns.names[clock]} {columns.sizes[clock]}; name columns of one length"
         )
-    unit, seconds = time_unit(columns.names[clock])
-    note = "" if seconds == 1.0 else f"times in {unit} were converted to seconds"
-    if unit and unit.lower() not in SECONDS:
-        note = f"the unit of time, {unit}, is not known: what is printed per second is per {unit}"
-    return seconds * columns.values(clock)[signal.rows], note
+    values = columns.values(clock)[signal.rows]
+    found = only(clocks_of(signal), columns.names[clock], values, columns.source)
+    return found.times(values), found.note
+
+
+def clocks_of(signal: Signal) -> tuple[Clock, ...]:
+    """What the numbers of a signal's time column can be."""
+    columns, clock = signal.columns, signal.clock
+    if clock is None:
+        return ()
+    return clocks(columns.names[clock], columns.values(clock)[signal.rows], stamps=clock in columns.stamps)
 
 
 def check_agreement(signal: Signal, rate: float) -> None:
@@ -119,20 +130,33 @@ def check_agreement(signal: Signal, rate: float) -> None:
     columns, clock = signal.columns, signal.clock
     if clock is None:
         return
-    name = columns.names[clock]
-    times = columns.values(clock)[signal.rows] * time_unit(name)[1]
-    steps = np.diff(times[np.isfinite(times)])
+    values = columns.values(clock)[signal.rows]
+    wrong = [contradiction(clock.times(values[np.isfinite(values)]), rate) for clock in clocks_of(signal)]
+    if all(wrong):
+        raise InputError(f"{columns.source}: the time column {columns.names[clock]} {wrong[0]}")
+
+
+def contradiction(times: Array, rate: float) -> str:
+    """How times contradict a rate; empty where they do not, or do not rise, or count the samples.
+
+    >>> contradiction(np.arange(9.0), 5.0), contradiction(0.5 * np.arange(9.0), 2.0)
+    ('', '')
+    >>> contradiction(0.5 * np.arange(9.0), 5.0)[:45]
+    'has steps of 0.5 s, 2 samples per second, not'
+    """
+    steps = np.diff(times)
     usual = float(np.median(steps)) if steps.size else 0.0
     if usual == 1.0 or not steps.any() or np.any(steps < 0.0):
-        return
+        return ""
     even = usual > 0.0 and bool(np.mean(np.abs(steps - usual) <= ALIKE * usual) > MOSTLY)
     mean = float(steps.mean())
     known = ALIKE + float(np.quantile(steps, MOSTLY)) / max(float(steps.sum()), usual)  # a clock's tick may be coarse
     if even and abs(usual * rate - 1.0) > ALIKE:
-        raise InputError(
-            f"{columns.source}: the time column {name} has steps of {usual:.6g} s, {1.0 / usual:.6g} samples per "
-            f"second, not {rate:g}; leave --rate out, or name another --time-column"
+        return (
+            f"has steps of {usual:.6g} s, {1.0 / usual:.6g} samples per second, not {rate:g}; leave --rate out, or "
+            "name another --time-column"
         )
     if mean > 0.0 and abs(mean * rate - 1.0) > known:
         why = "has gaps, which a rate would close" if even else f"has {1.0 / mean:.6g} samples per second, not {rate:g}"
-        raise InputError(f"{columns.source}: the time column {name} {why}; leave --rate out")
+        return f"{why}; leave --rate out"
+    return ""

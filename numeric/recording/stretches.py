@@ -86,9 +86,8 @@ def stamped(
     there = np.isfinite(values) & np.isfinite(time)
     if np.count_nonzero(there) < fewest:
         lost = f", {np.count_nonzero(~there)} of them without a value" if not there.all() else ""
-        raise InputError(
-            f"{columns.source}, column {name} has {values.size} samples{lost}; at least {fewest} are needed"
-        )
+        samples = f"{values.size} sample{'s' * (values.size != 1)}{lost}"
+        raise InputError(f"{columns.source}, column {name} has {samples}; at least {fewest} are needed")
     keep = slice(None) if there.all() else there
     kept = Stamped(time[keep], values[keep], rows[keep], int(np.count_nonzero(~there)))
     check_rising(kept, columns)

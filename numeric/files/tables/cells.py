@@ -17,6 +17,8 @@ BLANKS = " "
 NEVER = "\x1f"
 """Separates the cells of a table with one column."""
 OPENING = frozenset("([/")
+GAPS = re.compile(r"\s{2,}")
+"""What separates the names above a table of blanks where they hold single ones."""
 BEFORE_A_UNIT = re.compile(r"\s+(?![(\[/])")
 BEGUN = re.compile(r"[,|;\t]|[+\-\u2212]?[.,]?\d")
 """How a row of numbers begins."""

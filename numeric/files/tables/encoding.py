@@ -19,19 +19,25 @@ def decoded(data: bytes, source: str) -> tuple[str, str]:
 
     >>> decoded("t;u".encode("utf-16"), "run.csv"), decoded(b"\xb5m", "run.csv")[0]
     (('t;u', ''), 'µm')
+    >>> decoded(b"t;u" + bytes(9), "run.csv")
+    ('t;u', '9 bytes of 0 at the end were left out.')
     """
     if data[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
         return readable(data, "utf-16", source), ""
     if data[1:2] == b"\0" or data[:1] == b"\0":
         return readable(data, "utf-16-le" if data[1:2] == b"\0" else "utf-16-be", source), ""
-    if data[:LOOKED_AT].translate(None, CONTROL) != data[:LOOKED_AT]:
+    body = data.rstrip(b"\0")  # which a logger fills its last block with
+    if body[:LOOKED_AT].translate(None, CONTROL) != body[:LOOKED_AT]:
         raise no_text(source)
+    if b"\0" in body:
+        at = body.index(b"\0")
+        raise InputError(f"{source}: byte {at} is 0, which no text holds: the file is damaged; cut it before that byte")
+    unfilled = f"{len(data) - len(body)} bytes of 0 at the end were left out." if len(body) < len(data) else ""
     try:
-        return data.decode("utf-8-sig"), ""
-    except UnicodeDecodeError as error:
-        if b"\0" in data[:10_000]:
-            raise InputError(f"{source}: byte {error.start} is not UTF-8 text; save the table as UTF-8") from None
-    return data.decode("cp1252", "replace"), "The text is not UTF-8; it was read in the Latin alphabet of Windows-1252."
+        return body.decode("utf-8-sig"), unfilled
+    except UnicodeDecodeError:
+        latin = "The text is not UTF-8; it was read in the Latin alphabet of Windows-1252."
+        return body.decode("cp1252", "replace"), f"{latin} {unfilled}".strip()
 
 
 def readable(data: bytes, encoding: str, source: str) -> str:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from ridgeback.numeric.files.column_names import SECONDS, is_time
-from ridgeback.numeric.files.tables.cells import DELIMITERS, cells_in, is_value
+from ridgeback.numeric.files.tables.cells import BLANKS, DELIMITERS, GAPS, cells_in, is_value
 from ridgeback.numeric.files.tables.lines import COMMENTS
 
 MOST_HEADS = 4
@@ -94,10 +94,14 @@ def commented(comments: Sequence[str], delimiter: str, width: int) -> tuple[str,
 
     >>> commented(("% made by X", "% t, u"), " ", 2)
     ('t', 'u')
+    >>> commented(("% Time (s)   w (mm), Point: 5",), " ", 2)
+    ('Time (s)', 'w (mm), Point: 5')
     """
     text = comments[-1].lstrip("".join(COMMENTS)).strip() if comments else ""
-    for between in (delimiter, *reversed(DELIMITERS)):
-        cells = cells_in(text, between)
+    ways = [cells_in(text, between) for between in (delimiter, *reversed(DELIMITERS))]
+    if delimiter == BLANKS:
+        ways.insert(1, GAPS.split(text))
+    for cells in ways:
         if len(cells) == width and not any(is_value(cell) or cell.endswith(",") for cell in cells):
             return tuple(cells)
     return ()

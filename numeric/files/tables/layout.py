@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.files.tables.cells import (
     DELIMITERS,
+    GAPS,
     NEVER,
     cells_in,
     column_cells,
@@ -16,9 +16,6 @@ from ridgeback.numeric.files.tables.cells import (
 )
 from ridgeback.numeric.files.tables.lines import Lines
 from ridgeback.numeric.files.tables.numbers import COMMA, fits
-
-GAPS = re.compile(r"\s{2,}")
-"""What separates the names above a table of blanks where they hold single ones."""
 
 
 def otherwise(above: str, width: int) -> list[str]:
@@ -61,11 +58,15 @@ def check_halves(heads: Sequence[Sequence[str]], row: Sequence[str], source: str
     if not heads or any(map(is_value, heads[-1])) or len(row) != 2 * len(heads[-1]):
         return
     if all(cell.lstrip("+-").isdecimal() for cell in row):
-        remedy = "say --decimal comma, or point" if len(row) == 2 else "then separate the cells by ;"
-        raise InputError(
-            f"{source}: the header names {len(heads[-1])} column{'s' * (len(row) > 2)}, the rows have "
-            f"{len(row)} cells; is the comma the decimal mark (--decimal)? {remedy}"
+        one = len(row) == 2
+        names, cells = "1 column" if one else f"{len(heads[-1])} columns", f"the rows have {len(row)} cells"
+        remedy = (
+            "say by --decimal comma that it is, or by --decimal point that it separates two columns"
+            if one
+            else "then nothing tells it from what separates the cells: export the table with ; between them, or with "
+            "decimal points; where it is not, name every column"
         )
+        raise InputError(f"{source}: the header names {names}, {cells}; is the comma the decimal mark? {remedy}")
 
 
 def beside_remarks(lines: Lines, delimiter: str, last: list[str]) -> tuple[int, ...]:

@@ -1,4 +1,4 @@
-"""Dates with times of day, and times of day alone, as seconds after the first of a column.
+"""Dates, with times of day or without, and times of day alone, as seconds after the first of a column.
 
 Years of four digits may come first (ISO 8601) or last.  Behind points the day is first; behind slashes and dashes it is
 the day or the month, whichever every cell of the column allows.
@@ -20,7 +20,9 @@ from ridgeback.numeric.files.tables.numbers import is_missing
 
 CLOCK = r"(?P<h>\d+):(?P<m>[0-5]\d)(?::(?P<s>[0-6]\d(?:[.,]\d+)?))?"
 ZONE = r"(?P<zone>Z|[+-]\d\d:?\d\d)?"
-DATED = re.compile(rf"(?P<date>\d+[./-]\d+[./-]\d+)(?:[ T]+|, ){CLOCK}(?: ?(?P<half>[AaPp])\.?[Mm]\.?)? ?{ZONE}")
+DATED = re.compile(rf"(?P<date>\d+[./-]\d+[./-]\d+)(?:(?:[ T]+|, ){CLOCK}(?: ?(?P<half>[AaPp])\.?[Mm]\.?)? ?{ZONE})?")
+DAY_ALONE = re.compile(r"\d{4}[./-]\d{1,2}[./-]\d{1,2}|\d{1,2}[./-]\d{1,2}[./-](?:\d{4}|\d\d)")
+"""A date without a time of day, which has two or four digits of the year."""
 OF_DAY = re.compile(CLOCK)
 MINUTES = re.compile(r"(?P<m>\d+):(?P<s>[0-5]\d[.,]\d+)")
 PARTS = re.compile(r"[./-]")
@@ -37,14 +39,16 @@ class Moment:
 
 
 def is_stamp(cell: str) -> bool:
-    """Whether a cell is a date with a time of day, or a time of day with seconds.
+    """Whether a cell is a date, or a time of day with seconds.
 
     >>> is_stamp("2026-11-22T10:00:00.125"), is_stamp("22.11.2026 10:00:00"), is_stamp("20261122"), is_stamp("1.5")
     (True, True, False, False)
     >>> is_stamp("10:00:00.5"), is_stamp("00:01.5"), is_stamp("10:00")
     (True, True, False)
+    >>> is_stamp("2026-11-22"), is_stamp("22.11.26"), is_stamp("1.2.3"), is_stamp("1.234.567")
+    (True, True, False, False)
     """
-    if ":" not in cell:
+    if ":" not in cell and not DAY_ALONE.fullmatch(cell):
         return False
     try:
         moment(cell, day_first=True)
@@ -75,7 +79,7 @@ def moment(cell: str, *, day_first: bool) -> Moment:
     if found and found["s"]:
         return Moment(0, of_clock(found, ""), zoned=False)
     found = DATED.fullmatch(cell)
-    if found is None:
+    if found is None or (found["h"] is None and not DAY_ALONE.fullmatch(cell)):
         raise ValueError(cell)
     zone = found["zone"] or ""
     return Moment(
@@ -89,7 +93,9 @@ def seconds(text: str) -> float:
 
 
 def of_clock(found: re.Match[str], half: str) -> float:
-    """Seconds after midnight; ``half`` is the a or p of a clock with twelve hours."""
+    """Seconds after midnight, 0 without a clock; ``half`` is the a or p of a clock with twelve hours."""
+    if found["h"] is None:
+        return 0.0
     hour = int(found["h"])
     if half:
         hour = hour % HALF_DAY + (HALF_DAY if half in "pP" else 0)

@@ -75,6 +75,8 @@ class TextTable:
         Whether lines above numbers without names may say what they are.
     words : tuple of int
         The columns that hold no numbers.
+    stamps : tuple of int
+        The columns of dates and times of day.
     """
 
     names: tuple[str, ...]
@@ -86,6 +88,7 @@ class TextTable:
     note: str = ""
     hinted: bool = False
     words: tuple[int, ...] = ()
+    stamps: tuple[int, ...] = ()
 
     def holds(self, sign: str) -> bool:
         """Whether a sign stands in the rows."""
@@ -258,6 +261,7 @@ def parse_table(text: str, *, source: str, decimal: str = AUTO) -> TextTable:
         note=" ".join(part for part in (left_out(first - used), empty_columns(gone)) if part),
         hinted=not names and (first > used or may_say_times(comments)),
         words=tuple(i for i, place in enumerate(places) if place < len(typical) and is_word(typical[place])),
+        stamps=tuple(i for i, place in enumerate(places) if place < len(typical) and is_stamp(typical[place])),
     )
 
 
