@@ -89,7 +89,7 @@ def _line(chart: Chart) -> list[str]:
 
 
 def _unlimited(why: str) -> str:
-    from ridgeback.symbolic.singularities.limits import CONSTANT
+    from ridgeback.symbolic.singularities.stripped import CONSTANT
 
     return "none: omega0 is constant" if why == CONSTANT else f"not known: {why}"
 

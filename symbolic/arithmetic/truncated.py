@@ -47,7 +47,10 @@ def multiply(x: Sequence[Scalar], y: Sequence[Scalar]) -> Coefficients:
     n = min(len(x), len(y))
     if _rational(x, y):
         return _by_flint(n, lambda: fmpq_series(list(x[:n]), prec=n) * fmpq_series(list(y[:n]), prec=n))
-    return [sum((x[j] * y[i - j] for j in range(i + 1)), fmpq(0)) for i in range(n)]
+    if sum(c != 0 for c in y[:n]) < sum(c != 0 for c in x[:n]):
+        x, y = y, x
+    few = [(j, c) for j, c in enumerate(x[:n]) if c != 0]
+    return [sum((c * y[i - j] for j, c in few if j <= i), fmpq(0)) for i in range(n)]
 
 
 def reciprocal(x: Sequence[Scalar]) -> Coefficients:

@@ -29,7 +29,8 @@ from ridgeback.symbolic.arithmetic.rational_function import (
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.resummation.mapping import CutPlane, Euler, Identity, Mapping, Pair, padded, power
 from ridgeback.symbolic.resummation.resummation import Resummation
-from ridgeback.symbolic.singularities.limits import Limits, limits, stripped
+from ridgeback.symbolic.singularities.limits import Limits, limits
+from ridgeback.symbolic.singularities.stripped import stripped
 
 _DENOMINATOR: Final = 1000
 """Places of singularities are rounded to fractions with denominators up to this before an exact re-expansion."""

@@ -9,15 +9,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Final
 
-from flint import acb_poly, fmpq
+from flint import acb_poly, arb, ctx, fmpq
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
+from ridgeback.symbolic.arithmetic.ball_ring import midpoint
 from ridgeback.symbolic.arithmetic.rational_function import approximant, zeros
 from ridgeback.symbolic.singularities.darboux import Estimate, Point
 
 MOST_TERMS: Final = 25
 """Beyond it exact arithmetic costs more than the whole of ``darboux``, for a second opinion of three digits."""
+MOST_BITS: Final = 700
+"""Of a coefficient of f''/f': a quotient of irrational coefficients in decimals has fifty times the digits of each."""
 
 
 def dlog_singularities(series: Sequence[fmpq], first: Estimate) -> Estimate | None:
@@ -51,7 +54,14 @@ def _ratio(series: Sequence[fmpq]) -> list[fmpq]:
     while first and first[0] == 0:
         first = first[1:]  # a factor x^j of f' changes nothing but adds j/x to its logarithmic derivative
     second = [n * c for n, c in enumerate(first)][1:]
-    return truncated.multiply([c / first[0] for c in second], truncated.reciprocal([c / first[0] for c in first]))
+    exact = truncated.multiply([c / first[0] for c in second], truncated.reciprocal([c / first[0] for c in first]))
+    return [value if value.q.bit_length() <= MOST_BITS else _short(value) for value in exact]
+
+
+def _short(value: fmpq) -> fmpq:
+    with ctx.workprec(MOST_BITS):
+        mantissa, exponent = midpoint(arb(value))
+    return fmpq(mantissa) * fmpq(2) ** exponent
 
 
 def _poles(ratio: list[fmpq], degree: int, near: Sequence[Point]) -> tuple[Point, ...]:

@@ -18,8 +18,7 @@ from decimal import Decimal
 from html import escape
 from typing import Any, Final, TypeAlias
 
-import sympy
-from flint import arb, ctx, fmpq
+from flint import arb, ctx
 
 from ridgeback.common.errors import InputError
 from ridgeback.symbolic.arithmetic import truncated
@@ -28,12 +27,9 @@ from ridgeback.symbolic.expansion.ball_expansion import BallExpansion
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.singularities.darboux import Estimate, Point, nearest_singularities
 from ridgeback.symbolic.singularities.dlog_pade import dlog_singularities
+from ridgeback.symbolic.singularities.stripped import CONSTANT, Series, stripped
 from ridgeback.symbolic.singularities.zeros import zero_inside
 
-Series: TypeAlias = Expansion | BallExpansion
-
-DIGITS: Final = 200
-"""Of irrational coefficients."""
 TRUSTED: Final = 0.1
 """Largest relative uncertainty of a place that is still handed out."""
 
@@ -53,7 +49,6 @@ _LAST: Final = 4
 """How many coefficients, of the upper half, stand for the size of those left out."""
 
 
-CONSTANT = "every coefficient beyond the first is zero"
 ONE_POWER = "omega0 is one power of A through this order: no limit shows."
 _POWERS = {2: "²", 3: "³"}
 
@@ -216,62 +211,6 @@ def limits(expansion: Series, *, longer: Series | None = None) -> Limits:
 
 def _precision(expansion: Series) -> int:
     return expansion.bits if isinstance(expansion, BallExpansion) else int(ctx.prec)
-
-
-def stripped(expansion: Series) -> tuple[int, list[Any]]:
-    """Return the step of the powers that occur, and the coefficients of x = X^step.
-
-    Parameters
-    ----------
-    expansion : Expansion or BallExpansion
-        With rational coefficients or balls.
-
-    Returns
-    -------
-    step : int
-        1 or more.
-    coefficients : list
-        Rational numbers or balls.
-
-    Raises
-    ------
-    InputError
-        When there is nothing to examine: symbolic coefficients, all zero, or a polynomial.
-
-    Examples
-    --------
-    >>> from ridgeback.symbolic.expansion.energy_integral import energy_integral
-    >>> from ridgeback.symbolic.systems.catalogue import find
-    >>> stripped(energy_integral(find("pendulum"), 4))
-    (2, [1, -1/16, 1/3072])
-    """
-    c = expansion.coefficients
-    if not all(isinstance(value, fmpq | arb) for value in c):
-        names = ", ".join(getattr(expansion, "symbolic_names", ()))
-        if names:
-            raise InputError(f"the coefficients hold {names} as symbols; set them to numbers")
-        c = tuple(_decimal(expansion, value) for value in c)
-    present = [n for n, value in enumerate(c) if n and not _is_zero(value)]
-    if not present:
-        raise InputError(CONSTANT)
-    step = math.gcd(*present)
-    series = list(c[::step])
-    if len(series) > 2 * (present[-1] // step) + 4:
-        raise InputError(f"every coefficient beyond {expansion.variable}^{present[-1]} is zero, a polynomial so far")
-    return step, series
-
-
-def _decimal(expansion: Series, coefficient: Any) -> fmpq:
-    """An irrational coefficient to so many digits that what is estimated from it does not feel the rest."""
-    assert not isinstance(expansion, BallExpansion)  # noqa: S101 - their coefficients are balls
-    value = expansion.exact(coefficient)
-    near = value if value.is_Rational else sympy.Rational(str(value.evalf(DIGITS)))
-    return fmpq(int(near.p), int(near.q))
-
-
-def _is_zero(value: fmpq | arb) -> bool:
-    """Exactly zero; a ball that merely holds 0 is not."""
-    return bool(value.is_zero()) if isinstance(value, arb) else bool(value == 0)
 
 
 def _unknown(expansion: Series, why: str) -> Limits:

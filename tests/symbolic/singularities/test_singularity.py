@@ -9,10 +9,12 @@ from itertools import product
 
 import mpmath
 import pytest
+import sympy
 from flint import acb, fmpq
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from ridgeback.symbolic.expansion.each_side import energy_on_each_side
 from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.expansion.expansion import Expansion
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
@@ -20,6 +22,7 @@ from ridgeback.symbolic.resummation.mapping import padded, power
 from ridgeback.symbolic.singularities.darboux import Estimate, Point, nearest_singularities
 from ridgeback.symbolic.singularities.dlog_pade import dlog_singularities
 from ridgeback.symbolic.singularities.limits import TOLERANCE, TRUSTED, Limits, limits
+from ridgeback.symbolic.singularities.stripped import DIGITS, stripped
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
 
@@ -322,3 +325,14 @@ def test_dlog_pade_finds_a_power_and_never_claims_more_than_the_routes_agree() -
         assert abs(float(found.points[0].place.real) - 2) < tolerance
         assert abs(float(found.points[0].exponent.real) + 1 / 2) < 30 * tolerance
         assert found.place_error >= abs(float(found.points[0].place.real) - 2.01) / 2.02
+
+
+def test_irrational_coefficients_are_their_exact_values_to_many_digits() -> None:
+    """By balls, beside sympy's own evaluation."""
+    series = energy_on_each_side("u'' + u + u*abs(u) = 0", 8)
+    assert isinstance(series, Expansion)
+    step, found = stripped(series)
+    assert step == 1
+    for value, exact in zip(found, series.frequency, strict=True):
+        near = sympy.Rational(int(value.p), int(value.q))
+        assert abs((near / exact - 1).evalf(30, maxn=2 * DIGITS)) < 10.0 ** (1 - DIGITS)
