@@ -22,6 +22,7 @@ from ridgeback.numeric.components.candidates import first_tones, in_turns, more_
 from ridgeback.numeric.components.doubts import doubt
 from ridgeback.numeric.components.given import Given, residual
 from ridgeback.numeric.components.lines import LEAST, clearest_line, colour
+from ridgeback.numeric.components.overlap import overlap_doubt, overlapping, told
 from ridgeback.numeric.components.spikes import spikes
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.components.unlocked import locked_and_others, unlocked
@@ -126,6 +127,7 @@ def separated(
     models, tones = with_tones(given, beyond, most)
     if free and tones:
         given, models, tones = with_other_modes(given, models, tones, most)
+    models, tones = with_overlapping(given, models, tones, most) if most > len(beyond) else (models, tones)
     count = 0
     for _ in range(ROUNDS):
         left, cycle = residual(given.x, models.best, tones), TWO_PI * rate / float(np.median(guide))
@@ -140,8 +142,11 @@ def separated(
     omega = models.best.mean_omega
     known = models.coloured(shared * colour(left, rate, omega, models.best.basis.count))
     single = np.where(given.sound, given.x - total(tones, given.time), models.best.samples())
-    reason = off_the_band(models.best, band) or doubt(
-        known, given.x, left, rate, given.guided(tones).guide, given.sound, start=start
+    pair = overlapping(given, models, tones) if most > len(beyond) else None
+    reason = (
+        off_the_band(models.best, band)
+        or (overlap_doubt(pair[0]) if pair else "")
+        or doubt(known, given.x, left, rate, given.guided(tones).guide, given.sound, start=start)
     )
     return Separated(single, known, given.sound, tones, count, reason)
 
@@ -202,6 +207,19 @@ def with_tones(given: Given, here: tuple[Tone, ...], most: int) -> tuple[SignalM
         except InputError:
             break
     return models, here
+
+
+def with_overlapping(
+    given: Given, models: SignalModels, tones: tuple[Tone, ...], most: int
+) -> tuple[SignalModels, tuple[Tone, ...]]:
+    """The same with the lesser of two modes as a tone, where these explain more and can be told apart."""
+    found = overlapping(given, models, tones)
+    if found is None or not told(found[0]):
+        return models, tones
+    try:
+        return with_tones(given, (*found[1], found[0][1]), most)
+    except InputError:
+        return models, tones
 
 
 def with_other_modes(

@@ -108,6 +108,15 @@ def any_pair(apart: float) -> Kind:
     return drawn(made)
 
 
+def any_overlapping(rng: np.random.Generator) -> Kind:
+    """Two modes apart by half to twice the mean of their growth rates."""
+    f, ratio = rng.uniform(2.0, 80.0), log_uniform(rng, 0.005, 0.03)
+    second = ratio * rng.uniform(0.6, 1.6)
+    apart = 0.5 * (ratio + second) * rng.uniform(0.5, 2.0) * rng.choice([-1, 1])
+    other = second_mode(rng.uniform(0.2, 0.6), f * (1.0 + apart), second)
+    return any_decay(rng, ratio, rng.uniform(0.5, 1.0) / ratio, other, log_uniform(rng, 0.002, 0.02), f)
+
+
 def any_octave(rng: np.random.Generator) -> Kind:
     """Two modes near 1 : 2."""
     f = rng.uniform(2.0, 120.0)
@@ -217,6 +226,7 @@ DRAWN: dict[str, Kind] = {
     "two modes 3 % apart": any_pair(0.03),
     "two modes 5 % apart": any_pair(0.05),
     "two modes 10 % apart": any_pair(0.1),
+    "two modes apart by half to twice their damping": drawn(any_overlapping),
     "two modes 1 : 1.95 to 2.05": drawn(any_octave),
     "held, released, stopped": any_release,
     "silence before a blow": any_blow,
