@@ -23,13 +23,13 @@ from ridgeback.numeric.components.doubts import doubt
 from ridgeback.numeric.components.given import Given, residual
 from ridgeback.numeric.components.lines import LEAST, clearest_line, colour
 from ridgeback.numeric.components.overlap import overlap_doubt, overlapping, told
-from ridgeback.numeric.components.spikes import spikes
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.components.unlocked import locked_and_others, unlocked
 from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
 from ridgeback.numeric.harmonics.spline_fit import Known
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.signal.spikes import spikes
 
 MOST_TONES = 6
 SAME = 0.1
