@@ -72,14 +72,19 @@ class Tone:
         return np.stack([*columns, *(column for power in powers for column in (power.real, -power.imag))], axis=1)
 
     def changed(self, step: Array) -> Tone:
-        """The tone after steps along its tangent; it has a growth rate."""
+        """The tone after steps along its tangent."""
         bends = tuple(
             c + complex(re, im) for c, re, im in zip(self.bends, step[4::2].tolist(), step[5::2].tolist(), strict=True)
         )
         size = self.size + complex(float(step[0]), float(step[1]))
-        return replace(
-            self, omega=self.omega + float(step[2]), growth=self.growth + float(step[3]), size=size, bends=bends
-        )
+        growth = self.growth if self.growth == 0.0 else self.growth + float(step[3])
+        return replace(self, omega=self.omega + float(step[2]), growth=growth, size=size, bends=bends)
+
+    def turned_by(self, step: Array, time: Array) -> float:
+        """How far its exponent goes at most, in radians or logarithms, in a step along its tangent."""
+        growth = 0.0 if self.growth == 0.0 else float(step[3])
+        powers = (0.0, complex(growth, float(step[2])) * self.span, *(step[4::2] + 1j * step[5::2]))
+        return float(np.abs(np.polynomial.polynomial.polyval(time / self.span, powers)).max())
 
     @property
     def parameters(self) -> int:
@@ -147,9 +152,9 @@ def steep_start(left: Array, time: Array, omega: float, sound: Array) -> Tone:
         count = max(8, int(np.searchsorted(time, BEYOND / fall)))
         for aside in ASIDE:
             tone = Tone(omega + aside * fall, -fall, 1.0 + 0j)
-            turning = tone.wave(time[:count])
-            wave = np.stack([turning.real, -turning.imag], axis=1) * sound[:count, None]
-            size, right = np.linalg.lstsq(wave, left[:count], rcond=None)[0], wave.T @ left[:count]
+            turning = tone.wave(time[:count]) * sound[:count]
+            wave = np.stack([turning.real, -turning.imag])
+            size, right = least_squares(wave, left[:count])[0], wave @ left[:count]
             if float(size @ right) > most:
                 most, found = float(size @ right), replace(tone, size=complex(*size.tolist()))
         fall *= FALLS
@@ -159,27 +164,36 @@ def steep_start(left: Array, time: Array, omega: float, sound: Array) -> Tone:
 def iterated(left: Array, time: Array, tone: Tone, sound: Array, *, free: bool) -> tuple[Tone, float]:
     """Gauss-Newton for a tone, with a growth rate of its own if ``free``; and the deviation of that."""
     span, growth, omega = float(time[-1]), tone.growth if free else 0.0, tone.omega
-    deviation = np.inf
+    heard, size, deviation = left * sound, 0j, np.inf
     for _ in range(ITERATIONS):
-        wave = np.exp((growth + 1j * omega) * time)
-        linear = np.stack([wave.real, -wave.imag], axis=1) * sound[:, None]
-        re, im = np.linalg.lstsq(linear, left * sound, rcond=None)[0]
-        tone = Tone(omega, growth if growth else (1e-300 if free else 0.0), complex(re, im))
-        jacobian = tone.tangent(time) * sound[:, None]
-        residual = (left - tone.samples(time)) * sound
-        unit = np.array([1.0, 1.0, span, span])[: jacobian.shape[1]]
-        step, reach = np.linalg.lstsq(jacobian / unit, residual, rcond=None)[0] / unit, STEP_OF_GROWTH * abs(growth)
+        wave = np.exp((growth + 1j * omega) * time) * sound
+        size = complex(*least_squares(np.stack([wave.real, -wave.imag]), heard)[0].tolist())
+        whole = size * wave
+        later = whole * time
+        residual, tangent = heard - whole.real, np.stack([wave.real, -wave.imag, -later.imag, later.real][: 3 + free])
+        step, variance = least_squares(tangent, residual)
+        reach = STEP_OF_GROWTH * abs(growth)
         omega += float(np.clip(step[2], -max(0.5 / span, reach), max(0.5 / span, reach)))
-        still = float(np.abs(step[2 : 3 + free]).max()) * span < SETTLED
         if free:
             growth += float(np.clip(step[3], -max(1.0 / span, reach), max(1.0 / span, reach)))
             growth = float(np.clip(growth, -STEEPEST * omega, 2.0 / span))
-            size = np.maximum(np.linalg.norm(jacobian, axis=0), np.finfo(float).tiny)
-            inverse = np.linalg.pinv((jacobian / size).T @ (jacobian / size))
-            deviation = float(np.sqrt(max(float(inverse[3, 3]), 0.0) * np.mean(residual**2)) / size[3])
-        if still:
+            deviation = float(np.sqrt(max(float(variance[3]), 0.0) * np.mean(residual**2)))
+        if float(np.abs(step[2:]).max()) * span < SETTLED:
             break
-    return Tone(omega, growth if free else 0.0, tone.size), deviation
+    return Tone(omega, growth, size), deviation
+
+
+# The normal equations in units of the columns: a step that they give less exactly than others would is one of several.
+def least_squares(rows: Array, values: Array) -> tuple[Array, Array]:
+    """What times rows ``(Q, N)`` comes nearest to values, and the diagonal of the inverse of their products.
+
+    >>> least_squares(np.array([[1.0, 1.0, 1.0], [0.0, 1.0, 2.0]]), np.array([1.0, 3.0, 5.0]))[0].round(12).tolist()
+    [1.0, 2.0]
+    """
+    products = rows @ rows.T
+    unit = np.sqrt(np.maximum(np.diag(products), np.finfo(float).tiny))
+    inverse = np.linalg.pinv(products / np.outer(unit, unit), hermitian=True)
+    return inverse @ (rows @ values / unit) / unit, np.diag(inverse) / unit / unit
 
 
 def bent_tone(left: Array, time: Array, tone: Tone, sound: Array) -> Tone:
@@ -194,11 +208,12 @@ def bent_tone(left: Array, time: Array, tone: Tone, sound: Array) -> Tone:
     """
     for _ in range(ITERATIONS):
         jacobian = tone.tangent(time) * sound[:, None]
-        off = (left - tone.samples(time)) * sound
+        off = left * sound - jacobian[:, 0] * tone.size.real - jacobian[:, 1] * tone.size.imag
         step = np.asarray(np.linalg.lstsq(jacobian, off, rcond=None)[0], dtype=float)
-        powers = (0.0, complex(step[3], step[2]) * tone.span, *(step[4::2] + 1j * step[5::2]))
-        turned = np.abs(np.polynomial.polynomial.polyval(time / tone.span, powers))
-        tone = tone.changed(step * min(1.0, MOST_STEP / max(float(turned.max()), 1e-300)))
+        turned = tone.turned_by(step, time)
+        tone = tone.changed(step * min(1.0, MOST_STEP / max(turned, 1e-300)))
+        if turned < SETTLED:
+            break
     return tone
 
 
