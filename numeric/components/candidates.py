@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -14,7 +15,13 @@ from ridgeback.numeric.components.bends import GAIN, STRICTER, score_beside
 from ridgeback.numeric.components.given import Given, residual
 from ridgeback.numeric.components.harmonic_zones import harmonic_zones, in_zones
 from ridgeback.numeric.components.lines import LEAST, clearest_line
-from ridgeback.numeric.components.tones import Tone, fitted_tone, total
+from ridgeback.numeric.components.tones import (
+    Tone,
+    each_refitted,
+    fitted_tone,
+    refitted,
+    total,
+)
 from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.harmonics.spline_fit import Known, akaike, counted, fit_on
 from ridgeback.numeric.harmonics.spline_model import SplineModel
@@ -153,10 +160,7 @@ def in_turns(x: Array, model: SplineModel, found: tuple[Tone, ...], known: Known
     time, sound, score = model.time, known.sound_of(x.size), math.inf
     for turn in range(1, TURNS + 1):
         model = again(x - total(found, time), model, known)
-        for i, tone in enumerate(found):
-            others = (*found[:i], *found[i + 1 :])
-            new = fitted_tone(residual(x, model, others), time, tone.omega, sound, tone)
-            found = (*found[:i], new, *found[i + 1 :])
+        found = each_refitted(residual(x, model, found), time, found, partial(refitted, time=time, sound=sound))[0]
         before, score = score, scored(x, model, found, known)
         if before - score < RESTED or score - (before - score) * (TURNS - turn) > goal:
             break

@@ -9,6 +9,7 @@ model of the oscillation beside it must leave free: that is how the error of eit
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -230,6 +231,34 @@ def bent_start(time: Array, phase: Array, size: Array, degree: int) -> Tone:
     turn, fall = (np.polynomial.polynomial.polyfit(time / span, values, degree, w=weight) for values in (phase, log))
     bends = tuple(complex(re, im) for re, im in zip(fall[2:], turn[2:], strict=True))
     return Tone(float(turn[1]) / span, float(fall[1]) / span, complex(np.exp(fall[0] + 1j * turn[0])), bends, span)
+
+
+def refitted(left: Array, tone: Tone, *, time: Array, sound: Array) -> Tone:
+    """A tone fitted anew from where it is."""
+    return fitted_tone(left, time, tone.omega, sound, tone)
+
+
+def each_refitted(
+    left: Array, time: Array, tones: tuple[Tone, ...], refit: Callable[[Array, Tone], Tone]
+) -> tuple[tuple[Tone, ...], Array]:
+    """Tones, each fitted anew to what the others leave of samples, one after the other; and what all of them leave.
+
+    Parameters
+    ----------
+    left : array of float, shape (N,)
+        What the tones leave now.
+    time : array of float, shape (N,)
+        From the first sample on.
+    tones : tuple of Tone
+        As they are.
+    refit : callable
+        Gives a tone for what the others leave and the tone as it was.
+    """
+    for i, tone in enumerate(tones):
+        rest = left + tone.samples(time)
+        new = refit(rest, tone)
+        left, tones = rest - new.samples(time), (*tones[:i], new, *tones[i + 1 :])
+    return tones, left
 
 
 def total(tones: tuple[Tone, ...], time: Array) -> Array:
