@@ -46,7 +46,7 @@ def within_the_band(given: Given, models: SignalModels, tones: tuple[Tone, ...],
     tried: list[float] = []
     found: tuple[Tone, ...] | None = None
     for model in plain(given, tones, known, models.best.multiples):
-        for score, more in one_after_another(given, model, tones, known, most):
+        for score, more in one_after_another(given, model, tones, known, most, goal):
             if score < goal:
                 goal, found = score, more
     for model in models.others if suspicious(given, models, tones) else ():
@@ -61,18 +61,19 @@ def within_the_band(given: Given, models: SignalModels, tones: tuple[Tone, ...],
 
 
 def one_after_another(
-    given: Given, model: SplineModel, tones: tuple[Tone, ...], known: Known, most: int
+    given: Given, model: SplineModel, tones: tuple[Tone, ...], known: Known, most: int, goal: float = math.inf
 ) -> Iterator[Scored]:
     """Criterion and tones with one more, two more, ..: each at the clearest line that is left, as long as it gains.
 
-    Of several steady tones beside a plain oscillation each by itself may do worse than knots that follow them all.
+    Of several steady tones beside a plain oscillation each by itself may do worse than knots that follow them all; a
+    damped one is the last, and given up where it does not come to the ``goal``.
     """
     begun, least = len(tones), scored(given.x, model, tones, known)
     while len(tones) < most and all(tone.growth == 0.0 for tone in tones[begun:]):
         line = line_in_the_band(given, model, tones, model.band if known.band is None else known.band)
         if line is None:
             return
-        score, tones = together(given.x, model, tones, line, known, math.inf)
+        score, tones = together(given.x, model, tones, line, known, goal, last=False)
         if score > least - GAIN or not are_others(tones, model, begun):
             return
         least, model = score, again(given.x - total(tones, given.time), model, known)
@@ -146,23 +147,35 @@ def plain(given: Given, tones: tuple[Tone, ...], known: Known, multiples: tuple[
         yield model if model.settled else again(x, model, known)
 
 
-def together(x: Array, model: SplineModel, tones: tuple[Tone, ...], line: float, known: Known, goal: float) -> Scored:
+def together(
+    x: Array, model: SplineModel, tones: tuple[Tone, ...], line: float, known: Known, goal: float, *, last: bool = True
+) -> Scored:
     """Akaike's criterion of a model and its tones with one more, fitted in turns, and the tones."""
     more = fitted_tone(residual(x, model, tones), model.time, line, known.sound_of(x.size))
-    return in_turns(x, model, (*tones, more), known, goal=goal)
+    return in_turns(x, model, (*tones, more), known, goal=goal, last=last)
 
 
-def in_turns(x: Array, model: SplineModel, found: tuple[Tone, ...], known: Known, *, goal: float = math.inf) -> Scored:
+def in_turns(
+    x: Array,
+    model: SplineModel,
+    found: tuple[Tone, ...],
+    known: Known,
+    *,
+    goal: float = math.inf,
+    last: bool = True,
+) -> Scored:
     """The criterion of a model and tones, each fitted to what the others leave until nothing moves, and the tones.
 
-    Given up where the criterion falls too slowly to come to the ``goal`` in the turns that are left.
+    Given up where the criterion falls too slowly to come to the ``goal`` in the turns that are left; unless the tones
+    are the ``last`` ones only where the last of them is damped.
     """
     time, sound, score = model.time, known.sound_of(x.size), math.inf
     for turn in range(1, TURNS + 1):
         model = again(x - total(found, time), model, known)
         found = each_refitted(residual(x, model, found), time, found, partial(refitted, time=time, sound=sound))[0]
         before, score = score, scored(x, model, found, known)
-        if before - score < RESTED or score - (before - score) * (TURNS - turn) > goal:
+        hopeless = score - (before - score) * (TURNS - turn) > goal and (last or found[-1].growth != 0.0)
+        if before - score < RESTED or hopeless:
             break
     return score, found
 
