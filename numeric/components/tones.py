@@ -30,6 +30,8 @@ before, and how far beside the line in each, since that of a mode which is gone 
 BEYOND = 20.0
 """Logarithms of its fall after which a tone is nothing."""
 MOST_STEP, STEP_OF_GROWTH = 0.5, 0.3
+HARDLY = 1e10
+"""Of an element of an inverse, from which on rounding shows in it."""
 FAINT = 1e-3
 """Share of the largest amplitude as which a smaller one counts where a polynomial is laid through phases."""
 MAINS = (50.0, 60.0)
@@ -193,8 +195,17 @@ def least_squares(rows: Array, values: Array) -> tuple[Array, Array]:
     """
     products = rows @ rows.T
     unit = np.sqrt(np.maximum(np.diag(products), np.finfo(float).tiny))
-    inverse = np.linalg.pinv(products / np.outer(unit, unit), hermitian=True)
+    inverse = inverted(products / unit / unit[:, None])
     return inverse @ (rows @ values / unit) / unit, np.diag(inverse) / unit / unit
+
+
+def inverted(products: Array) -> Array:
+    """The inverse of a symmetric matrix with a unit diagonal, or where it hardly has one its pseudoinverse."""
+    try:
+        inverse = np.linalg.inv(products)
+    except np.linalg.LinAlgError:
+        return np.linalg.pinv(products, hermitian=True)
+    return inverse if float(np.abs(inverse).max()) < HARDLY else np.linalg.pinv(products, hermitian=True)
 
 
 def bent_tone(left: Array, time: Array, tone: Tone, sound: Array) -> Tone:
