@@ -202,10 +202,12 @@ def least_squares(rows: Array, values: Array) -> tuple[Array, Array]:
 def inverted(products: Array) -> Array:
     """The inverse of a symmetric matrix with a unit diagonal, or where it hardly has one its pseudoinverse."""
     try:
-        inverse = np.linalg.inv(products)
+        inverse = np.asarray(np.linalg.inv(products), dtype=np.float64)
     except np.linalg.LinAlgError:
-        return np.linalg.pinv(products, hermitian=True)
-    return inverse if float(np.abs(inverse).max()) < HARDLY else np.linalg.pinv(products, hermitian=True)
+        inverse = np.full_like(products, np.inf)
+    if float(np.abs(inverse).max()) < HARDLY:
+        return inverse
+    return np.asarray(np.linalg.pinv(products, hermitian=True), dtype=np.float64)
 
 
 def bent_tone(left: Array, time: Array, tone: Tone, sound: Array) -> Tone:
