@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ridgeback.common.quantities import DAY, SLOW
+from ridgeback.common.quantities import SECOND, Pace, hertz_text, pace_of
 from ridgeback.numeric.backbone.damping import damping, with_deviation
 from ridgeback.numeric.tracking.track import NORMAL_95
 
@@ -45,11 +45,13 @@ def track_lines(track: Track) -> list[str]:
     ends, share = (0, -1), float(track.valid.mean())
     interval = inside.interval
     f = inside.frequency_hz if interval is None else (interval.low + interval.high) / (4 * np.pi)
-    at = [f"{frequency(float(f[i]))} at t = {inside.time[i]:.6g}" for i in ends]
+    pace = pace_of(float(np.median(f)))
+    at = [f"{hertz_text(float(f[i]), six_digits)} at t = {moment(float(inside.time[i]), pace)}" for i in ends]
     lines = [f"frequency: {' to '.join(at)}"]
     if interval is not None:
-        reach = [between(float(interval.low[i]) / (2 * np.pi), float(interval.high[i]) / (2 * np.pi)) for i in ends]
-        lines[0] += f"; 95 % intervals {' and '.join(reach)} Hz"
+        turn = 2 * np.pi / pace.seconds
+        reach = [between(float(interval.low[i]) / turn, float(interval.high[i]) / turn) for i in ends]
+        lines[0] += f"; 95 % intervals {' and '.join(reach)} {per(pace)}"
     elif track.no_interval:
         lines = [f"no interval: {track.no_interval}", f"frequency: {most_of(inside.frequency_hz)}"]
     if share < 1.0:
@@ -57,19 +59,49 @@ def track_lines(track: Track) -> list[str]:
     return lines
 
 
+def six_digits(value: float) -> str:
+    """A number to six digits.
+
+    >>> six_digits(20.0), six_digits(1.5 / 86400)
+    ('20', '1.73611e-05')
+    """
+    return f"{value:.6g}"
+
+
+def moment(seconds: float, pace: Pace) -> str:
+    """A time; of a slow motion in its own unit, which is said.
+
+    >>> moment(7.996, SECOND), moment(129600.0, pace_of(1.5 / 86400))
+    ('7.996', '1.5 d')
+    """
+    return six_digits(seconds) if pace is SECOND else f"{six_digits(seconds / pace.seconds)} {pace.sign}"
+
+
+def per(pace: Pace) -> str:
+    """The unit of a frequency.
+
+    >>> per(SECOND), per(pace_of(1.5 / 86400))
+    ('Hz', 'per day')
+    """
+    return "Hz" if pace is SECOND else f"per {pace.name}"
+
+
 def most_of(values: Array) -> str:
     """The range of nine tenths of values whose error is not known, to the second digit of its width, four at most.
 
     >>> most_of(np.linspace(4.8, 5.28, 101)), most_of(np.full(9, 2.0400001))
     ('4.82 to 5.26 Hz (nine tenths of the values; no error is claimed)', '2.04 Hz (no error is claimed)')
+    >>> most_of(np.full(9, 1.5 / 86400))
+    '1.5 per day (no error is claimed)'
     """
-    low, high = (float(end) for end in np.quantile(values, (0.05, 0.95)))
+    pace = pace_of(float(np.median(values)))
+    low, high = (pace.seconds * float(end) for end in np.quantile(values, (0.05, 0.95)))
     wide = max(high - low, ROUGH * high)
     digits = int(np.clip(np.floor(np.log10(high)) - np.floor(np.log10(wide)) + 2, 2, 4))
     ends = [f"{end:.{digits}g}" for end in (low, high)]
     if ends[0] == ends[1]:
-        return f"{ends[0]} Hz (no error is claimed)"
-    return f"{ends[0]} to {ends[1]} Hz (nine tenths of the values; no error is claimed)"
+        return f"{ends[0]} {per(pace)} (no error is claimed)"
+    return f"{ends[0]} to {ends[1]} {per(pace)} (nine tenths of the values; no error is claimed)"
 
 
 def between(low: float, high: float) -> str:
@@ -93,30 +125,21 @@ def digits_to(value: float, deviation: float) -> int:
     return min(MOST, max(FEWEST, int(np.floor(np.log10(abs(value)))) - int(np.floor(np.log10(deviation))) + 2))
 
 
-def frequency(hertz: float) -> str:
-    """A frequency for reading.
-
-    >>> frequency(20.0), frequency(1.5 / 86400)
-    ('20 Hz', '1.73611e-05 Hz (1.5 per day)')
-    """
-    return f"{hertz:.6g} Hz" if hertz >= SLOW else f"{hertz:.6g} Hz ({hertz * DAY:.6g} per day)"
-
-
 def backbone_lines(curve: Backbone) -> list[str]:
     """Amplitude, growth rate and damping ratio from the largest amplitude to the smallest, with one sigma."""
     top, bottom = int(np.argmax(curve.curve_amplitude)), int(np.argmin(curve.curve_amplitude))
     unit = f" {curve.units}" if curve.units else ""
     ratio = damping(curve.curve_growth_rate, curve.curve_growth_rate_sd, curve.curve_omega, curve.curve_omega_sd)
-    slow = float(curve.curve_omega[top]) < 2 * np.pi * SLOW
+    pace = pace_of(float(curve.curve_omega[top]) / (2 * np.pi))
 
     def both(values: Array, deviations: Array) -> str:
         return " to ".join(uncertain(float(values[i]), float(deviations[i])) for i in (top, bottom))
 
-    rate, rate_sd = curve.curve_growth_rate, curve.curve_growth_rate_sd
+    rate, rate_sd, own = curve.curve_growth_rate, curve.curve_growth_rate_sd, pace.seconds
     return [
         f"amplitude: {both(curve.curve_amplitude, curve.curve_amplitude_sd)}{unit}",
         f"growth rate a'/a: {both(rate, rate_sd)} 1/s"
-        + (f" ({both(DAY * rate, DAY * rate_sd)} per day)" if slow else ""),
+        + ("" if pace is SECOND else f" ({both(own * rate, own * rate_sd)} per {pace.name})"),
         f"damping ratio: {both(ratio.ratio, ratio.ratio_sd)}",
     ]
 
@@ -141,25 +164,41 @@ def uncertain(value: float, deviation: float) -> str:
     return f"({with_deviation(value / 10.0**power, deviation / 10.0**power)})e{power:+03d}"
 
 
-def briefly(row: Mapping[str, Any]) -> dict[str, Any]:
+def pace_of_rows(rows: Sequence[Mapping[str, Any]]) -> Pace:
+    """The unit of time of rows, by the median of their frequencies.
+
+    >>> pace_of_rows([{"frequency_hz": 1.5 / 86400}, {"frequency_hz": None}]).name, pace_of_rows([]).name
+    ('day', 'second')
+    """
+    known = [float(row["frequency_hz"]) for row in rows if row.get("frequency_hz") is not None]
+    return pace_of(float(np.median(known))) if known else SECOND
+
+
+def briefly(row: Mapping[str, Any], pace: Pace = SECOND) -> dict[str, Any]:
     """A row for the eye: each value with its deviation, frequencies in Hz, what follows from them left out.
+
+    Times and rates of a slow motion are in its own unit of time.
 
     >>> briefly({"time_s": 0.5, "frequency_hz": 1.25, "standard_deviation_rad_s": 0.02, "valid": True})
     {'time, s': 0.5, 'frequency, Hz': 1.25, 'valid': True}
     >>> briefly({"amplitude": 2.0, "amplitude_standard_deviation": 0.05})
     {'amplitude': '2.000 +- 0.050'}
+    >>> briefly({"time_s": 86400.0, "growth_rate_per_s": -2e-6}, pace_of(1.5 / 86400))
+    {'time, d': 1.0, "a'/a, 1/d": -0.1728}
     """
-    found: dict[str, Any] = {"time, s": row["time_s"]} if "time_s" in row else {}
-    for title, value, deviation in (
-        ("amplitude", row.get("amplitude"), row.get("amplitude_standard_deviation")),
-        ("frequency, Hz", *hertz_of(row)),
-        ("a'/a, 1/s", row.get("growth_rate_per_s"), row.get("growth_rate_standard_deviation_per_s")),
-        ("damping ratio", row.get("damping_ratio"), row.get("damping_ratio_standard_deviation")),
+    own, sign = pace.seconds, pace.sign
+    found: dict[str, Any] = {f"time, {sign}": row["time_s"] / own} if "time_s" in row else {}
+    hertz, growth = "frequency, Hz" if pace is SECOND else f"frequency, 1/{sign}", f"a'/a, 1/{sign}"
+    for title, unit, value, deviation in (
+        ("amplitude", 1.0, row.get("amplitude"), row.get("amplitude_standard_deviation")),
+        (hertz, own, *hertz_of(row)),
+        (growth, own, row.get("growth_rate_per_s"), row.get("growth_rate_standard_deviation_per_s")),
+        ("damping ratio", 1.0, row.get("damping_ratio"), row.get("damping_ratio_standard_deviation")),
     ):
         if value is not None:
             known = np.isfinite([value, np.nan if deviation is None else deviation]).all()
-            rough = float(f"{float(value):.4g}")
-            found[title] = uncertain(float(value), float(deviation or 0.0)) if known else rough
+            rough = float(f"{unit * float(value):.4g}")
+            found[title] = uncertain(unit * float(value), unit * float(deviation or 0.0)) if known else rough
     return found | ({"valid": row["valid"]} if "valid" in row else {})
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from ridgeback.common.quantities import SECOND, pace_of
 from ridgeback.console.output import json_text
 from ridgeback.console.tables import aligned, csv_text, readable
 
@@ -135,10 +136,11 @@ def named(one: Measurement) -> dict[str, Any]:
 
 def one_text(one: Measurement, *, backbone: bool, every: bool = True) -> str:
     """Heading, notes, summary and table of one signal."""
-    from ridgeback.answers.measurement_summary import briefly, summary, thinned
+    from ridgeback.answers.measurement_summary import briefly, pace_of_rows, summary, thinned
 
     rows = rows_of(one, backbone=backbone)
-    shown = rows if every else [briefly(rows[i]) for i in thinned(len(rows))]
+    pace = pace_of_rows(rows)
+    shown = rows if every else [briefly(rows[i], pace) for i in thinned(len(rows))]
     table = aligned(list(columns_of(shown)), shown) if rows else "no rows"
     less = ", frequencies less their bias" if any(row.get("low_95_rad_s") is not None for row in rows) else ""
     rest = f"\n{len(shown)} of {len(rows)} rows, with one sigma{less}; --all or -o FILE gives all that there is"
@@ -164,7 +166,9 @@ def heading(one: Measurement) -> str:
     """What was measured."""
     recording = one.recording
     component = f", component {one.component}" if one.component else ""
-    return f"{recording.label}{component}: {len(recording.values)} samples at {recording.rate:g} per second"
+    pace = pace_of(recording.rate)
+    own = "" if pace is SECOND else f" ({recording.rate * pace.seconds:g} per {pace.name})"
+    return f"{recording.label}{component}: {len(recording.values)} samples at {recording.rate:g} per second{own}"
 
 
 def how(one: Measurement) -> str:

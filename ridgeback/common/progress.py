@@ -100,3 +100,15 @@ def showing(wanted: Wanted) -> Iterator[Progress]:
             bar.close()
     else:
         yield silent
+
+
+@contextmanager
+def step(name: str) -> Iterator[Progress]:
+    """A bar that is told the name of the first step, or of all the work where that cannot say how far it is.
+
+    >>> with step("figure") as progress:
+    ...     progress(1.0, "figure")
+    """
+    with showing(True) as progress:
+        progress(0.0, name)
+        yield progress

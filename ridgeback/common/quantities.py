@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
+from dataclasses import dataclass
 
 from ridgeback.common.numbers import NONE, number
 
@@ -19,8 +21,45 @@ _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 LEAST_SCATTER = 1e-2
 """What a measured time is uncertain by at least, as a share of it."""
-SLOW, LARGE, DAY = 0.05, 1000.0, 86_400.0
-"""Frequencies below and above which four decimals are too few or too many; seconds of a day."""
+SLOW, LARGE = 0.05, 1000.0
+"""Frequencies below and above which four decimals are too few or too many; slow ones are told per hour, day or year."""
+
+
+@dataclass(frozen=True)
+class Pace:
+    """A unit of time in which the times and rates of a motion have few digits: its name, sign and length in seconds."""
+
+    name: str
+    sign: str
+    seconds: float
+
+
+SECOND, HOUR, DAY = Pace("second", "s", 1.0), Pace("hour", "h", 3600.0), Pace("day", "d", 86_400.0)
+YEAR = Pace("year", "yr", 31_557_600.0)
+"""The Julian year."""
+LONGEST = ((HOUR, 0.5 * HOUR.seconds), (DAY, 20.0 * DAY.seconds))
+"""Units of time and the longest period, in seconds, that is told in them."""
+
+
+def pace_of(hertz: float) -> Pace:
+    """The unit of time of a motion by its frequency.
+
+    >>> [pace_of(hertz).name for hertz in (7.3, 1 / 60, 1.5 / 86400, 1 / 31_557_600)]
+    ['second', 'hour', 'day', 'year']
+    """
+    if not 0.0 < abs(hertz) < SLOW:
+        return SECOND
+    return next((pace for pace, longest in LONGEST if abs(hertz) * longest >= 1.0), YEAR)
+
+
+def hertz_text(hertz: float, write: Callable[[float], str]) -> str:
+    """A frequency in Hz, a slow one in its own unit too.
+
+    >>> hertz_text(20.0, "{:g}".format), hertz_text(1.5 / 86400, "{:.6g}".format)
+    ('20 Hz', '1.73611e-05 Hz (1.5 per day)')
+    """
+    pace = pace_of(hertz)
+    return f"{write(hertz)} Hz" + ("" if pace is SECOND else f" ({write(hertz * pace.seconds)} per {pace.name})")
 
 
 def in_pi(value: float, *, digits: int = 3) -> str:
@@ -54,7 +93,7 @@ def short_amplitude(value: float, unit: str) -> str:
 def frequency(omega: float, time_unit: str) -> str:
     """Angular frequency as a reader meets it: hertz when time is in seconds, else rad per time unit.
 
-    A slow one is told per day too.
+    A slow one is told per hour, day or year too.
 
     >>> frequency(2 * math.pi, "s"), frequency(2.0, ""), frequency(2 * math.pi * 25e3, "s")
     ('1.0000 Hz', '2.0000', '25000 Hz')
@@ -63,9 +102,7 @@ def frequency(omega: float, time_unit: str) -> str:
     """
     if time_unit != "s":
         return f"{_rounded(omega)} rad/{time_unit}" if time_unit else _rounded(omega)
-    hertz = omega / (2 * math.pi)
-    slow = 0.0 < abs(hertz) < SLOW
-    return f"{_rounded(hertz)} Hz" + (f" ({_rounded(hertz * DAY)} per day)" if slow else "")
+    return hertz_text(omega / (2 * math.pi), _rounded)
 
 
 def _rounded(value: float) -> str:

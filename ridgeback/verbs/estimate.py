@@ -10,7 +10,7 @@ import click
 
 from ridgeback.answers.measurements_text import asides, measurements_text, misfit
 from ridgeback.answers.monte_carlo import monte_carlo_options, monte_carlo_verb, trials_and_file
-from ridgeback.common.progress import showing
+from ridgeback.common.progress import step
 from ridgeback.console.failure import PartialError, say
 from ridgeback.console.output import STDOUT, write_bytes, write_text
 from ridgeback.console.verb import Verb
@@ -156,17 +156,14 @@ def command(
     if plot is not None:
         from ridgeback.reports.figures.recordings.measurement import plot_file
 
-        with showing(True) as progress:
-            progress(0.0, "figure")
+        with step("figure"):
             picture = plot_file(found, plot.rpartition(".")[2].lower())
         write_bytes(plot, picture)
     if planes is not None:
-        with showing(True) as progress:
-            progress(0.0, "time-frequency plane")
+        with step("time-frequency plane"):
             drawn = plane_file(found, planes.rpartition(".")[2].lower())
         write_bytes(planes, drawn)
-    with showing(True) as progress:
-        progress(0.0, "table")
+    with step("table"):
         text = measurements_text(found, style, backbone=backbone_wanted, every=every or output != STDOUT)
     write_text(output, text)
     if style == "csv":
@@ -217,8 +214,7 @@ def measured_files(
     """Every signal of the files, measured."""
     from ridgeback.compare.recording.measurements import measure_recordings
 
-    with showing(True) as progress:
-        progress(0.0, f"reading {files[0]}" if len(files) == 1 else f"reading {len(files)} files")
+    with step(f"reading {files[0]}" if len(files) == 1 else f"reading {len(files)} files") as progress:
         return measure_recordings(
             reading.all(files),
             combine_over=combine,

@@ -71,6 +71,21 @@ def test_the_terminal_is_given_thirty_short_rows_and_all_only_when_asked(ridgeba
     assert full.count("\n") > 500
 
 
+def test_a_slow_record_is_told_in_its_own_unit_of_time(ridgeback: Ridgeback, tmp_path: Path) -> None:
+    days = np.arange(500) / 20.0
+    path = written(tmp_path / "a.csv", **{"t [d]": days, "u": np.exp(-0.05 * days) * np.cos(3.0 * np.pi * days)})
+    lines = ridgeback("estimate", path, *QUICK).out.splitlines()
+    assert lines[0].endswith("at 0.000231481 per second (20 per day)")
+    head = next(i for i, line in enumerate(lines) if line.lstrip().startswith("time, d"))
+    assert "frequency, 1/d" in lines[head]
+    assert float(lines[head + 30].split()[0]) == pytest.approx(24.95, abs=1e-4)
+    said = next(line for line in lines if line.startswith("frequency: "))
+    assert "(1.5 per day) at t = " in said
+    assert said.endswith(" per day")
+    row = json.loads(ridgeback("estimate", path, *QUICK, "--format", "json").out)["track"][-1]
+    assert row["time_s"] == pytest.approx(24.95 * 86400.0)
+
+
 def test_one_missing_value_leaves_two_stretches_and_a_common_backbone(ridgeback: Ridgeback, tmp_path: Path) -> None:
     x = decay()
     x[250] = np.nan
