@@ -6,12 +6,9 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any, Final
 
-SIGNAL = "scipy.signal"
-WAV = "scipy.io.wavfile"
-
 
 class _Late:
-    """A library under its name."""
+    """A library, known by the function that imports it."""
 
     def __init__(self, load: Callable[[], object]) -> None:
         self._load = load
@@ -21,7 +18,15 @@ class _Late:
         return getattr(self._load(), name)
 
 
-signal: Final = _Late(lambda: import_module(SIGNAL))
+def _scipy_signal() -> object:
+    return import_module("scipy.signal")
+
+
+def _scipy_wavfile() -> object:
+    return import_module("scipy.io.wavfile")
+
+
+signal: Final = _Late(_scipy_signal)
 """``scipy.signal``, which brings ``scipy.stats`` along."""
-wavfile: Final = _Late(lambda: import_module(WAV))
+wavfile: Final = _Late(_scipy_wavfile)
 """``scipy.io.wavfile``, which brings all of ``scipy.io``."""

@@ -16,8 +16,8 @@ from ridgeback.numeric.harmonics.spline_fit import akaike, corrected_phase
 
 GAIN, STRICTER = 12.0, 3.0
 """Fall of the criterion that is wanted, and what a parameter counts beyond Akaike's 2."""
-DEGREES, AROUND = (2, 3, 5), (0.6, 1.4)
-"""Of the exponent of a tone with bends, and the band about its frequency in which it is judged."""
+DEGREES, JUDGED = (2, 3, 5), (0.6, 1.4)
+"""Of the exponent of a tone with bends, and the band in which it is judged, in its frequency."""
 
 
 def with_bends(left: Array, rate: float, tone: Tone, sound: Array, *, floor: float) -> Tone:
@@ -43,7 +43,7 @@ def with_bends(left: Array, rate: float, tone: Tone, sound: Array, *, floor: flo
 
 def score_beside(left: Array, rate: float, tone: Tone | None, sound: Array, *, floor: float, near: float) -> float:
     """The criterion of what is left of samples in the band about a frequency, less a tone if there is one."""
-    time, band = np.arange(left.size) / rate, (AROUND[0] * near / rate, AROUND[1] * near / rate)
+    time, band = np.arange(left.size) / rate, (JUDGED[0] * near / rate, JUDGED[1] * near / rate)
     parameters = 0 if tone is None else tone.parameters
     off = (left if tone is None else left - tone.samples(time)) * sound
     score = akaike(off, band, count=int(sound.sum()), parameters=parameters, floor=floor)

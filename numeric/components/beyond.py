@@ -12,16 +12,18 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft
 
+from ridgeback.common.quantities import angular
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.components.bends import with_bends
 from ridgeback.numeric.components.tones import Tone, fitted_tone, total
+from ridgeback.numeric.harmonics.spline_fit import rounding
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import tapers
 
 MOST = 8
 """Tones that are fitted, those in the band included."""
-TURNS = 4
-"""Of fitting all of them again after each new one."""
+ROUNDS = 4
+"""In which all of them are fitted again after each new one."""
 TAKEN_OFF = 0.5
 """Of the height of a line, that a tone which is to be it may leave."""
 DISTURBING, UNDERSTOOD = 0.2, 0.1
@@ -29,7 +31,8 @@ DISTURBING, UNDERSTOOD = 0.2, 0.1
 as long as they do not, what is weaker beyond may be the foot of what is in it."""
 HARMONIC = 0.1
 """Distance from a multiple of the oscillation, in its frequency, within which a weaker line is its harmonic."""
-LOWEST_CYCLES, FLOOR = 3.0, 1e-12
+LOWEST_CYCLES = 3.0
+"""What turns less often in a record is drift."""
 
 
 @dataclass(frozen=True)
@@ -80,12 +83,12 @@ def tones_beyond(x: Array, rate: float, band: tuple[float, float], sound: Mask |
         if after is not None and after.height > TAKEN_OFF * line.height:
             break
         found = more
-    return tuple(tone for tone in found if not within(tone.omega, band))
+    return tuple(tone for tone in found if not is_in(tone.omega, band))
 
 
 def next_line(x: Array, time: Array, rate: float, band: tuple[float, float], found: tuple[Tone, ...]) -> Line | None:
     """The next line to take: the highest beyond the band that disturbs, or one that stands in for what is in it."""
-    beyond, left = total(tuple(tone for tone in found if not within(tone.omega, band)), time), x - total(found, time)
+    beyond, left = total(tuple(tone for tone in found if not is_in(tone.omega, band)), time), x - total(found, time)
     inside, rest = highest(x - beyond, rate, band), highest(left, rate, band)
     outside = highest(left, rate, band, beyond=True)
     if outside is None or inside is None or rest is None:
@@ -100,12 +103,12 @@ def next_line(x: Array, time: Array, rate: float, band: tuple[float, float], fou
 
 def one_more(x: Array, time: Array, rate: float, tones: tuple[Tone, ...], sound: Array) -> tuple[Tone, ...]:
     """Tones, each fitted to what the others leave, in turns; with bends where they gain."""
-    floor = FLOOR * float(np.abs(x).max())
-    for turn in range(TURNS):
+    floor = rounding(np.abs(x))
+    for done in range(ROUNDS):
         for i, tone in enumerate(tones):
             left = x - total((*tones[:i], *tones[i + 1 :]), time)
             new = fitted_tone(left, time, tone.omega, sound, tone)
-            new = with_bends(left, rate, new, sound, floor=floor) if turn in (0, TURNS - 1) else new
+            new = with_bends(left, rate, new, sound, floor=floor) if done in (0, ROUNDS - 1) else new
             tones = (*tones[:i], new, *tones[i + 1 :])
     return tones
 
@@ -133,16 +136,16 @@ def highest(x: Array, rate: float, band: tuple[float, float], *, beyond: bool = 
 def nothing_in(band: tuple[float, float], beyond: float) -> str:
     """Why nothing is given of a band beside which there is an oscillation, and what would work.
 
-    >>> nothing_in((8.0, 12.0), 5.0)[:50]
-    'the band 8 to 12 rad/s holds no oscillation that s'
+    >>> nothing_in((8.0, 12.0), 5.0)[:62]
+    'the band 8 to 12 rad/s (1.273 to 1.91 Hz) holds no oscillation'
     """
     return (
-        f"the band {band[0]:.4g} to {band[1]:.4g} rad/s holds no oscillation that stands out beside one near "
-        f"{beyond:.4g} rad/s; give a --band round that, or a narrower one further from it"
+        f"the band {angular(*band)} holds no oscillation that stands out beside one near "
+        f"{angular(beyond)}; give a --band round that, or a narrower one further from it"
     )
 
 
-def within(omega: float, band: tuple[float, float]) -> bool:
+def is_in(omega: float, band: tuple[float, float]) -> bool:
     """Whether a frequency lies in a band."""
     return band[0] <= omega <= band[1]
 

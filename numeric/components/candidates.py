@@ -23,13 +23,13 @@ from ridgeback.numeric.components.tones import (
     total,
 )
 from ridgeback.numeric.harmonics.signal_model import SignalModels
-from ridgeback.numeric.harmonics.spline_fit import Known, akaike, counted, fit_on
+from ridgeback.numeric.harmonics.spline_fit import Known, akaike, counted, fit_on, rounding
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import strongest_frequency
 
-TURNS, RESTED = 30, 0.02
-"""Of fitting in turns: most of them, and the fall of the criterion in one with which it ends."""
+ROUNDS, RESTED = 30, 0.02
+"""Of fitting a model and tones in turns: most of them, and the fall of the criterion in one with which it ends."""
 
 Scored = tuple[float, tuple[Tone, ...]]
 
@@ -111,7 +111,7 @@ def beyond_the_band(given: Given, models: SignalModels, tones: tuple[Tone, ...],
     model, rate, (low, high) = models.best, given.rate, models.best.band
     taken, found = (*harmonic_zones(model), (low * rate, high * rate)), tones
     left, sound = residual(given.x, model, tones), given.known.sound_of(given.x.size)
-    floor = 1e-14 * float(model.size.max())
+    floor = rounding(model.size)
     while len(found) < most:
         line = clearest_line(left, rate, LEAST * float(model.size.max()), taken)
         if line is None:
@@ -133,7 +133,10 @@ def suspicious(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> b
 
 
 def plain(given: Given, tones: tuple[Tone, ...], known: Known, multiples: tuple[int, ...]) -> Iterator[SplineModel]:
-    """A plain damped oscillation at the strongest line in a band: where beats lead the other models away from it."""
+    """Plain damped oscillations at the strongest line in a band: where beats lead the other models away from it.
+
+    With the multiples as its harmonics, and without any: what was taken for them may be a mode that dies soon.
+    """
     x, time, (low, high) = given.x - total(tones, given.time), given.time, known.band or (0.0, math.pi)
     try:
         omega = strongest_frequency(x, given.rate, band=(low * given.rate, min(high, math.pi) * given.rate))
@@ -142,7 +145,7 @@ def plain(given: Given, tones: tuple[Tone, ...], known: Known, multiples: tuple[
     turned = x * np.exp(-1j * omega * time)
     begin = turned[: max(8, time.size // 4)].mean()
     phase, size = omega * time + float(np.angle(begin)), np.full(time.size, 2.0 * float(np.abs(begin)) + 1e-300)
-    for held in dict.fromkeys((multiples, ())):  # what was taken for harmonics may be a mode that dies soon
+    for held in dict.fromkeys((multiples, ())):
         model = fit_on(x, time, phase, size, time[[0, -1]], held, 1, known)
         yield model if model.settled else again(x, model, known)
 
@@ -170,11 +173,11 @@ def in_turns(
     are the ``last`` ones only where the last of them is damped.
     """
     time, sound, score = model.time, known.sound_of(x.size), math.inf
-    for turn in range(1, TURNS + 1):
+    for done in range(1, ROUNDS + 1):
         model = again(x - total(found, time), model, known)
         found = each_refitted(residual(x, model, found), time, found, partial(refitted, time=time, sound=sound))[0]
         before, score = score, scored(x, model, found, known)
-        hopeless = score - (before - score) * (TURNS - turn) > goal and (last or found[-1].growth != 0.0)
+        hopeless = score - (before - score) * (ROUNDS - done) > goal and (last or found[-1].growth != 0.0)
         if before - score < RESTED or hopeless:
             break
     return score, found
@@ -183,7 +186,7 @@ def in_turns(
 def scored(x: Array, model: SplineModel, tones: tuple[Tone, ...], known: Known) -> float:
     """The criterion of a model and tones beside it."""
     parameters = model.parameters - model.basis.count + sum(tone.parameters for tone in tones)
-    off, floor = residual(x, model, tones) * known.sound_of(x.size), 1e-14 * float(model.size.max())
+    off, floor = residual(x, model, tones) * known.sound_of(x.size), rounding(model.size)
     score = akaike(off, known.band or model.band, count=model.count, parameters=parameters, floor=floor)
     return float(score + STRICTER * parameters)
 

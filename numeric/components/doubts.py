@@ -10,6 +10,7 @@ from scipy.optimize import isotonic_regression
 from scipy.special import chdtri
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.quantities import angular
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.components.jumps import jump
 from ridgeback.numeric.components.lines import LEAST, clearest_line
@@ -34,8 +35,8 @@ WINDOW_CYCLES, FEWEST_WINDOWS, MOST_WINDOWS = 4.0, 5, 200
 """Of short stretches whose noise is held against that of the whole: their length, and how many of them."""
 FINE = 3.0
 """Cycles between knots below which a model is at its finest, and what it leaves in one stretch no knots can follow."""
-STRETCH_CYCLES, AROUND, CHANCE = 3.0, (0.5, 1.5), 1e-4
-"""Cycles of a stretch that is held against the others, the band about the oscillation in which it is, and the
+STRETCH_CYCLES, IN_IT, CHANCE = 3.0, (0.5, 1.5), 1e-4
+"""Cycles of a stretch that is held against the others, the band in which it is, in the oscillation's frequency, and the
 probability in white noise of one that leaves so much."""
 ROUGH = 3.0
 """Times the noise of short stretches, that a model of the whole leaves which is not that of one smooth oscillation."""
@@ -77,11 +78,11 @@ def somewhere(model: SplineModel, left: Array, rate: float, sound: Mask, *, star
     if model.cycles > FINE:
         return ""
     clear = model.size > LEAST * float(model.size.max())
-    low, high = AROUND[0] * float(model.omega[clear].min()), AROUND[1] * float(model.omega[clear].max())
+    low, high = IN_IT[0] * float(model.omega[clear].min()), IN_IT[1] * float(model.omega[clear].max())
     width = min(high, math.pi * rate) - low
     length = round(STRETCH_CYCLES * TWO_PI * rate / model.mean_omega)
     power, there = (
-        in_windows(within(left * sound, low / rate, high / rate) ** 2, length),
+        in_windows(band_passed(left * sound, low / rate, high / rate) ** 2, length),
         in_windows(sound.astype(float), length),
     )
     known = there > 0.5
@@ -100,7 +101,7 @@ def somewhere(model: SplineModel, left: Array, rate: float, sound: Mask, *, star
     )
 
 
-def within(x: Array, low: float, high: float) -> Array:
+def band_passed(x: Array, low: float, high: float) -> Array:
     """The part of samples in a band, rad per sample."""
     spectrum, w = rfft(x), TWO_PI * rfftfreq(x.size)
     return np.asarray(irfft(np.where((w > low) & (w < high), spectrum, 0.0), x.size), dtype=np.float64)
@@ -158,7 +159,7 @@ def in_the_way(left: Array, rate: float, model: SplineModel) -> str:
     if line is None or not low < line < high:
         return ""
     return (
-        f"another component near {line / TWO_PI:.4g} cycles per unit shares the band, and no model of both fits; "
+        f"another component near {angular(line)} shares the band, and no model of both fits; "
         "give a --band or a --span in which there is one oscillation"
     )
 

@@ -1,14 +1,15 @@
 """Whether a frequency jumps: a bend of the phase at one time explains with few parameters what takes splines many.
 
-About the best model's phase phi and logarithm l of the amplitude the samples are linear in small changes of both,
+A model of phase phi and amplitude a = e^l leaves r of the samples.  Another phase Q and logarithm R near its own
+change the samples by P (Q - phi) + A (R - l) with P = -a sin phi, A = a cos phi, so that beside an offset d
 
-    y = x - a cos phi + P phi + A l = P q + A r + d + noise,       P = -a sin phi,  A = a cos phi,
+    y = r + P phi + A l = P Q + A R + d + noise
 
-so that any other q and r come by linear least squares, beside an offset d: polynomials in time, and polynomials with a
-bend, (t - t_j)+, of both at one time or of r alone.  All sums are moments of products of P, A and 1 over stretches
-between the places that are tried.  Parameters count as those of the components do (``separation``): a jump is one where
-the bend of the phase gains GAIN over smooth polynomials, over a bend of the amplitude alone, and over every spline that
-was tried.
+is linear in Q and R, which come by linear least squares.  Three kinds of them are tried: polynomials in time;
+polynomials of which R has a bend (t - t_j)+; and such of which both have one at the same t_j, as where the frequency
+jumps.  All sums are moments of products of P, A and 1 over the stretches between the places t_j.  Parameters count as
+those of the components do (``separation``).  A jump is where the bend of both gains GAIN over the other two kinds, and
+over every spline that was tried.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ from ridgeback.numeric.components.overlap import overlap_doubt, overlapping, tol
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.components.unlocked import locked_and_others, unlocked
 from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
-from ridgeback.numeric.harmonics.spline_fit import Known
+from ridgeback.numeric.harmonics.spline_fit import Known, rounding
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.spikes import spikes
@@ -255,7 +255,7 @@ def settled(given: Given, tones: tuple[Tone, ...]) -> tuple[SignalModels, tuple[
 
 def all_with_bends(given: Given, model: SplineModel, tones: tuple[Tone, ...]) -> tuple[Tone, ...]:
     """Tones with bends where these gain, each judged by what the model and the others leave."""
-    sound, floor = given.known.sound_of(given.x.size), 1e-14 * float(model.size.max())
+    sound, floor = given.known.sound_of(given.x.size), rounding(model.size)
 
     def bent(i: int) -> Tone:
         left = residual(given.x, model, (*tones[:i], *tones[i + 1 :]))

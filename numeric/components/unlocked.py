@@ -23,14 +23,15 @@ from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import tapers
 
-AROUND = 0.3
+REACH = 0.3
 """Distance from a multiple, in the oscillation's frequency, within which a line is looked for."""
 SLIP, SURE = 0.5, 5.0
 """Radians by which a phase must slip while there is something of the line, and times its deviation that d must be."""
 FAINT, MUCH = 0.01, 0.05
 """Of the oscillation's amplitude, that another mode must have; of its power, by which it must explain more of the
 samples than a harmonic that keeps its phase does, though its own frequency be the same on the mean."""
-ITERATIONS, TURNS = 12, 3
+ITERATIONS, ROUNDS = 12, 3
+"""Steps of a fit of one line, and rounds in which lines are fitted one beside the other."""
 SHALLOWEST, FALLS = 2.0, 2.0
 """Growth rates that a fit begins from: the first times the length of the record, one over the one before."""
 
@@ -111,15 +112,15 @@ def slipping(left: Array, model: SplineModel, multiples: tuple[int, ...], sound:
     """
     time, omega = model.time, model.mean_omega
     turns = {h: np.exp(1j * h * model.phase) for h in multiples}
-    sizes = {h: abs(riding(left, time, turns[h], AROUND * omega, sound).size) for h in multiples}
+    sizes = {h: abs(riding(left, time, turns[h], REACH * omega, sound).size) for h in multiples}
     found = dict[int, Tone]()
     for h in sorted(multiples, key=lambda h: -sizes[h]):
-        line = riding(left, time, turns[h], AROUND * omega, sound)
+        line = riding(left, time, turns[h], REACH * omega, sound)
         harmonic = (line.size * line.wave(time, turns[h])).real
         tone = fitted_tone(left, time, h * omega + line.slope, sound)
         mode = tone.samples(time)
         strong = tone.amplitude > FAINT * float(model.size.max())
-        near = abs(tone.omega - h * omega) < AROUND * omega
+        near = abs(tone.omega - h * omega) < REACH * omega
         if strong and near and (line.slips(time) or fits_better(left * sound, mode * sound, harmonic * sound)):
             found[h] = tone
         left = left - (mode if h in found else harmonic)
@@ -195,7 +196,7 @@ def locked_and_others(
     if not others:
         return None, ()
     tones, time = tuple(others.values()), model.time
-    for _ in range(TURNS):
+    for _ in range(ROUNDS):
         for i, tone in enumerate(tones):
             rest = left - total((*tones[:i], *tones[i + 1 :]), time)
             tones = (*tones[:i], fitted_tone(rest, time, tone.omega, sound, tone), *tones[i + 1 :])

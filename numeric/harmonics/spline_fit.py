@@ -50,6 +50,8 @@ HOPEFUL, NEAR = 6, 0.1
 
 ENOUGH = 100
 """Ordinates of a spectrum from which on they suffice to judge a model by."""
+ROUNDED = 1e-14
+"""Of the largest amplitude, down to which a sum of some ten terms of doubles (2.2e-16 each) is right."""
 FIRM = 0.05
 """Of the mean square of what is left of the samples: so much of a^2 / 2 leaves the increments of l and phi free."""
 BACK = 0.2
@@ -137,8 +139,7 @@ def fit_on(
     plain = replace(basis, keep=False)
     equations = replace(equations, basis=plain, beside=known.beside, weights=replace(weights, held=None))
     band = known.band or counted(basis.slopes(p) * (time[1] - time[0]), size, multiples)
-    floor = 1e-14 * float(size.max())
-    criterion = akaike(residual, band, count=count, parameters=c.size - basis.count, floor=floor)
+    criterion = akaike(residual, band, count=count, parameters=c.size - basis.count, floor=rounding(size))
     return SplineModel(
         time=time,
         breaks=breaks,
@@ -158,6 +159,17 @@ def counted(omega: Array, size: Array, multiples: tuple[int, ...]) -> tuple[floa
     """The band round an oscillation of so many rad per sample and its harmonics, in which a model is judged."""
     clear = omega[size > 0.1 * size.max()]
     return 0.5 * float(clear.min()), (max(multiples, default=1) + 1.0) * float(clear.max())
+
+
+def rounding(size: Array) -> float:
+    """What counts as nothing of what a model leaves, in the unit of the samples: some ten units in the last place.
+
+    A sum of some ten terms of an amplitude ``size`` errs by so much; what is less has no say in a criterion.
+
+    >>> rounding(np.array([1.0, 200.0]))
+    2e-12
+    """
+    return ROUNDED * float(size.max())
 
 
 # Akaike's criterion with its correction for few samples: Hurvich and Tsai, Biometrika 76 (1989) 297.

@@ -54,15 +54,6 @@ def slopes(s: Array, degree: int) -> Array:
     return np.asarray(orders * s[..., None] ** np.maximum(orders - 1, 0), dtype=np.float64)
 
 
-def linear_columns(s: Array, phase: Array, shape: Shape, growth: Array) -> Array:
-    """Model columns that enter linearly, for all windows: amplitude, harmonics, offset; ``(windows, n, columns)``."""
-    rows = np.empty((phase.shape[0], shape.size - shape.phase_degree - 1, s.size))
-    fill_linear(
-        rows, turning(phase), np.exp(np.multiply.outer(growth, s)), shape, powers(s, max(1, shape.amplitude_degree))
-    )
-    return np.swapaxes(rows, 1, 2)
-
-
 def turning(phase: Array) -> NDArray[np.complex128]:
     """exp(i phase)."""
     turn = np.empty(phase.shape, dtype=np.complex128)
@@ -72,9 +63,9 @@ def turning(phase: Array) -> NDArray[np.complex128]:
 
 
 def fill_linear(rows: Array, turn: NDArray[np.complex128], grown: Array, shape: Shape, raised: Array) -> None:
-    """Put the same columns into rows, ``(windows, columns, n)``: samples lie side by side in memory.
+    """Put what enters the model linearly into rows, ``(windows, columns, n)``: amplitude, harmonics, offset.
 
-    ``grown`` is exp(growth s), and ``raised`` has the powers of s.
+    Samples lie side by side in memory.  ``grown`` is exp(growth s), and ``raised`` has the powers of s.
     """
     width = shape.amplitude_degree + 1
     slow = grown[:, None] * raised[:, :width].T

@@ -118,7 +118,7 @@ def decimation_notes(samples: Samples, first: float, last: float) -> tuple[str, 
         return ()
     highest, end = 0.5 * PASSED * samples.rate, float(samples.time[-1])
     return (
-        f"Of the low-passed samples one in {samples.factor} is used: nothing above {highest:.4g} cycles per unit is "
+        f"Of the low-passed samples one in {samples.factor} is used: nothing above {highest:.4g} Hz is "
         f"looked for, and of the time the first {samples.start - first:.3g} and the last {max(0.0, last - end):.3g} "
         "time units are left out.",
     )

@@ -16,6 +16,7 @@ from scipy import fft
 from scipy.ndimage import gaussian_filter1d
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.quantities import angular
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.late import signal
 from ridgeback.numeric.signal.local_line import local_line
@@ -74,10 +75,10 @@ class SearchBand:
 def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | None = None) -> float:
     """Angular frequency of the highest line of the Hann-windowed spectrum within ``band``.
 
-    By default everything above FEWEST_CYCLES per record counts: the constant and slow drift are left out, and what has
-    a flank there is found to LEAST_CYCLES.  Where no
-    line is CLEAR of that spectrum, as of a decay that is over long before the record, the halves of the window that
-    begin or end at its middle are tried too, and the clearest line counts.
+    By default everything above FEWEST_CYCLES per record counts: the constant and slow drift are left out.  Where the
+    highest ordinate is on the flank of a peak below, that peak counts if it is above LEAST_CYCLES and no drift.  A
+    motion at one end of the record is under the edge of a Hann window: where no line is CLEAR, the falling and the
+    rising half of a window twice as long are tried too, and the clearest line counts.
 
     >>> t = np.arange(320) / 32.0
     >>> round(strongest_frequency(np.cos(2 * np.pi * 1.5 * t), rate=32.0) / (2 * np.pi), 2)
@@ -103,7 +104,7 @@ def strongest_frequency(x: Array, rate: float, *, band: tuple[float, float] | No
             break
     if not clearest > 0.0:
         raise InputError(
-            f"signal of {x.size} samples shows no oscillation between {low:.4g} and {high:.4g} rad per time unit; "
+            f"signal of {x.size} samples shows no oscillation in the band {angular(low, high)}; "
             f"give a longer record or another --band"
         )
     return best
@@ -235,7 +236,8 @@ def checked_band(band: tuple[float, float], rate: float) -> tuple[float, float]:
     nyquist = math.pi * rate
     if not (math.isfinite(low) and math.isfinite(high) and 0.0 <= low < high <= nyquist * (1 + 1e-12)):
         raise InputError(
-            f"band ({low:g}, {high:g}) rad per time unit is not usable; need 0 <= low < high <= {nyquist:.6g} (Nyquist)"
+            f"band ({low:g}, {high:g}) rad per time unit is not usable; need 0 <= low < high <= "
+            f"{nyquist:.6g} (Nyquist, {0.5 * rate:.6g} Hz)"
         )
     return low, high
 
@@ -277,5 +279,5 @@ def find_search_band(x: Array, rate: float, *, band: tuple[float, float] | None 
         return SearchBand(low * ones, high * ones, guide_path(x, rate, centre, low, high), centre, "band given")
     centre = strongest_frequency(x, rate)
     guide = guide_path(x, rate, centre, 0.25 * centre, 4.0 * centre)
-    why = f"a factor {MARGIN} around the strongest component, near {centre / TWO_PI:.4g} cycles per unit"
+    why = f"a factor {MARGIN} around the strongest component, near {angular(centre)}"
     return SearchBand(guide / MARGIN, np.minimum(guide * MARGIN, math.pi * rate), guide, centre, why)

@@ -22,6 +22,23 @@ class Definition(StrEnum):
     PEAK = "peak"
 
 
+class Held(StrEnum):
+    """What holds in a stretch of a record and not beside it, as it is told."""
+
+    CLEAR = "the amplitude stands above the noise"
+    FOLLOWED = "one smooth oscillation can be followed"
+    STARTED = "what swells, falls or dies within a few cycles at the start is over"
+
+
+def said(held: tuple[Held, ...]) -> str:
+    """What holds, in words.
+
+    >>> said((Held.STARTED, Held.CLEAR))[-48:]
+    'is over and the amplitude stands above the noise'
+    """
+    return " and ".join(one.value for one in held)
+
+
 @dataclass(frozen=True)
 class Choices:
     """The settings that an estimator was given or chose from the data.
@@ -53,7 +70,7 @@ class Choices:
     span : (float, float), optional
         First and last time of the stretch in which the amplitude stands above the noise, where that is not all of the
         record: the track is of that stretch.
-    span_why : str
+    span_why : tuple of Held
         What holds in that stretch and not beside it.
     tones : tuple of Tone
         What was found beside the oscillation and taken off.
@@ -85,7 +102,7 @@ class Choices:
     one_sided_borders: bool = False
     decimated_by: int = 1
     span: tuple[float, float] | None = None
-    span_why: str = ""
+    span_why: tuple[Held, ...] = ()
     tones: tuple[Tone, ...] = ()
     spikes: int = 0
     doubt: str = ""
@@ -99,10 +116,11 @@ class Choices:
         """
         if self.span is None:
             return ()
-        why = self.span_why or "the amplitude stands above the noise"
+        why = said(self.span_why or (Held.CLEAR,))
         return (f"{why[0].upper()}{why[1:]} from t = {self.span[0]:.6g} to {self.span[1]:.6g}; the rest is left out.",)
 
     def shown(self) -> dict[str, object]:
         """What differs from its default, by name, for display."""
         held = {item.name: (getattr(self, item.name), item.default) for item in fields(self)}
-        return {name: value for name, (value, default) in held.items() if value != default and name != "tones"}
+        some = {name: value for name, (value, default) in held.items() if value != default and name != "tones"}
+        return {**some, **({"span_why": said(self.span_why)} if self.span_why else {})}

@@ -20,12 +20,11 @@ from ridgeback.numeric.signal.decimation import Samples
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import MARGIN, SearchBand, guide_path
 from ridgeback.numeric.signal.steps import rounding_doubt
+from ridgeback.numeric.tracking.choices import Held
 from ridgeback.numeric.tracking.clear_stretch import clear_stretch, followed_stretch
 from ridgeback.numeric.tracking.followed import along, lengthened
 from ridgeback.numeric.tracking.request import Request, prepared
 
-FOLLOWED = "one smooth oscillation can be followed"
-CLEAR_THERE = "the amplitude stands above the noise"
 FEWEST_CYCLES = 8.0
 """Of a record, from which on a part of it is looked for in which a frequency can be followed."""
 
@@ -38,7 +37,6 @@ LEFT_OUT, MORE, CROWDED = (4.0, 8.0, 12.0), 2.0, 0.7
 the mean distance of knots the first one there, as it is where the start is what takes them."""
 MOST_LEFT_OUT = 0.5
 """Of the samples."""
-START_OVER = "what swells, falls or dies within a few cycles at the start is over"
 UNTOLD = (
     "the amplitude swells or falls within a few cycles, which is not told from a mode that dies; give a --span after it"
 )
@@ -48,7 +46,7 @@ def in_its_stretch(request: Request, samples: Samples) -> Request:
     """The request for the samples whose amplitude stands above the noise."""
     stretch = clear_stretch(request)
     if stretch is not None:
-        part = part_of(request, samples, stretch, CLEAR_THERE)
+        part = part_of(request, samples, stretch, (Held.CLEAR,))
         return without_steady_tones(request, part, samples) if request.options.bias else part
     if not request.options.bias or request.options.band is not None or has_model(request):
         return request
@@ -65,7 +63,7 @@ def without_steady_tones(request: Request, part: Request, samples: Samples) -> R
     stretch = clear_stretch(replace(request, signal=replace(signal, x=bare))) or slice(0, bare.size)
     if stretch.stop - stretch.start <= part.signal.x.size:
         return part
-    longer = part_of(request, samples, stretch, CLEAR_THERE)
+    longer = part_of(request, samples, stretch, (Held.CLEAR,))
     found = longer.separated()
     as_many = sum(tone.growth == 0.0 for tone in found.signal.tones) >= len(steady)
     return longer if found.known_models is not None and not found.signal.doubt and as_many else part
@@ -94,12 +92,12 @@ def along_what_is_followed(request: Request, samples: Samples) -> Request:
         return request
     shares = (slice(0, round(0.6 * size)), slice(round(0.2 * size), round(0.8 * size)), slice(round(0.4 * size), size))
     for stretch in (followed_stretch(request), *shares):
-        part = None if stretch is None else part_of(request, samples, stretch, FOLLOWED)
+        part = None if stretch is None else part_of(request, samples, stretch, (Held.FOLLOWED,))
         if stretch is None or part is None or not has_model(part):
             continue
         guide, longer = lengthened(request.signal.x, request.signal.rate, request.signal.search.guide, stretch)
         search = along(request.signal.search, guide, request.signal.rate)
-        further = part_of(request, samples, longer, FOLLOWED, search)
+        further = part_of(request, samples, longer, (Held.FOLLOWED,), search)
         return further if has_model(further) else part
     return request
 
@@ -114,10 +112,10 @@ def after_its_start(request: Request, samples: Samples) -> Request:
     samples : Samples
         Of the whole record.
     """
-    if request.known_models is None or request.signal.span_why == FOLLOWED:
+    if request.known_models is None or Held.FOLLOWED in request.signal.span_why:
         return request
     first, size = round((request.signal.start - samples.start) * samples.rate), request.signal.x.size
-    why = " and ".join(filter(None, (START_OVER, request.signal.span_why)))
+    why = (Held.STARTED, *request.signal.span_why)
 
     def without(begin: int) -> Request:
         try:
@@ -167,7 +165,9 @@ def has_model(request: Request) -> bool:
     return request.known_models is not None or request.separated().known_models is not None
 
 
-def part_of(request: Request, samples: Samples, stretch: slice, why: str, search: SearchBand | None = None) -> Request:
+def part_of(
+    request: Request, samples: Samples, stretch: slice, why: tuple[Held, ...], search: SearchBand | None = None
+) -> Request:
     """The request for some of the samples, within a search band of all of them if there is one; and why it is those."""
     first = samples.start + stretch.start / samples.rate
     wrong = None if samples.wrong is None else samples.wrong[stretch]

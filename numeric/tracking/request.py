@@ -11,7 +11,7 @@ import numpy as np
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, ComplexArray, Mask
-from ridgeback.numeric.components.beyond import tones_beyond, within
+from ridgeback.numeric.components.beyond import is_in, tones_beyond
 from ridgeback.numeric.components.separation import MOST_TONES, separated_once
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.harmonics.noise import Level, measure_level
@@ -23,7 +23,7 @@ from ridgeback.numeric.signal.presence import Presence, presence
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import SearchBand, checked_band, find_search_band, strongest_frequency
 from ridgeback.numeric.signal.windows import half_width
-from ridgeback.numeric.tracking.choices import Choices, Scope
+from ridgeback.numeric.tracking.choices import Choices, Held, Scope
 from ridgeback.numeric.tracking.curvature_bias import hold_nearest
 
 FEWEST_SAMPLES = 16
@@ -100,7 +100,7 @@ class Signal:
     tones: tuple[Tone, ...] = ()
     """What was found beside the oscillation and is off the samples."""
     spikes: int = 0
-    span_why: str = ""
+    span_why: tuple[Held, ...] = ()
     """What holds of these samples and not of the rest of the record."""
     doubt: str = ""
     """Why no model of the samples can be trusted, if so."""
@@ -214,7 +214,7 @@ class Request:
     def stays_off(self, tone: Tone) -> bool:
         """Whether a tone stays off the samples whatever holds of the oscillation: hum, and what is beyond a band."""
         band = self.options.band
-        return tone.mains or (band is not None and not within(tone.omega, band))
+        return tone.mains or (band is not None and not is_in(tone.omega, band))
 
     @cached_property
     def models(self) -> SignalModels:

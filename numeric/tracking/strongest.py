@@ -15,7 +15,8 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.components.tones import Tone, fitted_tone, iterated
 from ridgeback.numeric.signal.decimation import Samples
 from ridgeback.numeric.signal.search_band import strongest_frequency
-from ridgeback.numeric.tracking.own_stretch import FOLLOWED, in_its_stretch
+from ridgeback.numeric.tracking.choices import Held
+from ridgeback.numeric.tracking.own_stretch import in_its_stretch
 from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Request, prepared
 
 STRONGER = 1.5
@@ -119,7 +120,7 @@ def has_larger(request: Request) -> bool:
 
 def is_unsure(request: Request) -> bool:
     """Whether no model holds for all of the samples."""
-    return request.known_models is None or bool(request.signal.doubt) or request.signal.span_why == FOLLOWED
+    return request.known_models is None or bool(request.signal.doubt) or Held.FOLLOWED in request.signal.span_why
 
 
 def outlasting(samples: Samples) -> Tone | None:

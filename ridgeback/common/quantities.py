@@ -112,6 +112,16 @@ def _rounded(value: float) -> str:
     )
 
 
+def angular(*omega: float) -> str:
+    """An angular frequency, or the ends of a band, as --band takes them, and in Hz.
+
+    >>> angular(31.416), angular(31.4, 47.1)
+    ('31.42 rad/s (5 Hz)', '31.4 to 47.1 rad/s (4.997 to 7.496 Hz)')
+    """
+    each = (" to ".join(f"{w / turn:.4g}" for w in omega) for turn in (1.0, 2.0 * math.pi))
+    return "{} rad/s ({} Hz)".format(*each)
+
+
 def symbol(name: str) -> str:
     r"""The name of a parameter or of an unknown as it is printed in text; LaTeX names lose their backslash.
 

@@ -5,7 +5,7 @@ import pytest
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.harmonics.local_fit import choose_multiples, harmonic_fit
-from ridgeback.numeric.harmonics.window_steps import Shape, gauss_newton, linear_columns, powers
+from ridgeback.numeric.harmonics.window_steps import Shape, fill_linear, gauss_newton, powers, turning
 
 RATE = 32.0
 T = np.arange(321) / RATE
@@ -26,20 +26,20 @@ def test_exact_where_the_model_holds_up_to_the_very_ends() -> None:
     assert fit.time[0] == 5.0
 
 
-def test_columns_are_the_derivatives_of_the_model() -> None:
+def test_rows_that_enter_linearly_make_up_the_model() -> None:
     s, shape = np.arange(-30, 31) / 30, Shape((2,))
-    p, a = np.array([0.3, 12.0, 1.0, 0.2]), np.array([1.0, 0.1, -0.05])
-
-    def model(phase: np.ndarray) -> np.ndarray:
-        return np.exp(0.3 * s) * (powers(s, 2) @ a) * np.cos(powers(s, 3) @ phase)
-
-    turning = -(np.exp(0.3 * s) * (powers(s, 2) @ a) * np.sin(powers(s, 3) @ p))[:, None] * powers(s, 3)
-    for j in range(4):
-        step = 1e-6 * np.eye(4)[j]
-        assert np.abs((model(p + step) - model(p - step)) / 2e-6 - turning[:, j]).max() < 1e-8
-    linear = linear_columns(s, (powers(s, 3) @ p)[None], shape, np.array([0.3]))[0]
-    assert np.abs(linear[:, :3] @ a - model(p)).max() < 1e-14
-    assert linear.shape == (61, shape.size - 4)
+    phase, grown = powers(s, 3) @ np.array([0.3, 12.0, 1.0, 0.2]), np.exp(0.3 * s)
+    a, b, c, d = (
+        np.array([1.0, 0.1, -0.05]),
+        np.array([0.2, 0.0, 0.1]),
+        np.array([0.0, 0.3, 0.0]),
+        np.array([0.5, -0.2]),
+    )
+    rows = np.empty((1, shape.size - 4, s.size))
+    fill_linear(rows, turning(phase)[None], grown[None], shape, powers(s, 2))
+    first, second = powers(s, 2) @ a * np.cos(phase), np.cos(2 * phase) * (powers(s, 2) @ b)
+    model = grown * (first + second + np.sin(2 * phase) * (powers(s, 2) @ c)) + d[0] + d[1] * s
+    assert np.abs(np.concatenate([a, b, c, d]) @ rows[0] - model).max() < 1e-14
 
 
 def test_deviation_is_the_cramer_rao_bound_and_is_met() -> None:

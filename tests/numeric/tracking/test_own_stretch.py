@@ -13,6 +13,7 @@ import pytest
 from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.harmonics.local_fit import choose_multiples, harmonic_fit
 from ridgeback.numeric.harmonics.window_steps import Shape
+from ridgeback.numeric.tracking.choices import Held
 from ridgeback.numeric.tracking.clear_stretch import FOLLOWED, TURN, clear_once, followed_stretch, smooth_from
 from ridgeback.numeric.tracking.followed import lengthened
 
@@ -117,7 +118,8 @@ def test_the_steep_start_of_a_swell_is_left_out_since_it_may_be_a_mode_that_dies
     assert found.used.span is not None
     assert found.interval is not None
     assert 8.0 < found.used.span[0] < 20.0  # 0.98 exp(-0.6 t) is below the noise from t = 7.6 on
-    assert "swells, falls or dies" in found.used.span_why
+    assert found.used.span_why[0] is Held.STARTED
+    assert "swells, falls or dies" in found.used.span_notes()[0]
     assert found.interval.holds(np.full(t.size, 2 * np.pi)[: found.omega.size]).mean() > 0.5
     short = estimate(x[:400], 20.0)
     assert short.interval is None
