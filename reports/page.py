@@ -92,11 +92,14 @@ def _environment() -> Environment:
 
 
 def tied(text: str) -> str:
-    """A text in which no line ends between a number and its unit, nor before its power of ten.
+    """A text in which no line ends between a number and its unit, before its power of ten, or within t = 1.
 
     >>> tied("within 0.1 % at 2 ns a value").count(chr(160))
     2
+    >>> tied("at t = 20").count(chr(160))
+    2
     """
+    text = re.sub(r"(?<=\b[^\W\d]) = (?=[−\d])", "\u00a0=\u00a0", text)
     held = re.sub(r"(?<=[0-9π⁻⁰¹²³⁴⁵⁶⁷⁸⁹]) (?=(?:%|ns|µs|ms|s|Hz|rad|dB|terms)(?![a-z]))", "\u00a0", text)
     return held.replace(" × 10", "\u00a0×\u00a010").replace(" ± ", "\u00a0±\u00a0")
 

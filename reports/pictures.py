@@ -34,6 +34,8 @@ def draw(picture: Picture, ax: Axes | None = None) -> Axes:
     if picture.logarithmic:
         axes.set_yscale("log")
     axes.set(title=picture.title, xlabel=picture.x_label, ylabel=picture.y_label)
+    if picture.labelled:
+        axes.set_xticks(list(picture.labelled))
     axes.title.set_fontsize("medium")
     if sum(bool(stroke.label) for stroke in picture.strokes) > 1:
         axes.legend()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from ridgeback.common.numbers import per_cent
-from ridgeback.compare.report.recording_summary import held
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.study.results import Trend, trend_of
 from ridgeback.reports.figures.recording import backbone_figure, plane_figure, signal_figure, tracks_figure
@@ -77,7 +76,7 @@ def _forecast(report: Report) -> Section | None:
     found = report.identification
     if found is None or found.prediction is None:
         return None
-    title = f"The forecast of the later cycles {'held' if held(found) else 'did not hold'}"
+    title = f"The forecast of the later cycles {found.prediction.outcome.verb}"
     return Section("forecast", "Forecast", title, (Part("figure", forecast_figure(found.prediction, found)),))
 
 
@@ -85,8 +84,7 @@ def _record(report: Report) -> Section | None:
     found = report.recording
     if found is None:
         return None
-    text = f"{found.source}, column {found.column}."
-    parts = (Part("text", text), Part("figure", signal_figure(found)), Part("figure", plane_figure(found)))
+    parts = (Part("figure", signal_figure(found)), Part("figure", plane_figure(found)))
     return Section("record", "The record", "The record and its time-frequency plane", parts)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from ridgeback.common.numbers import per_cent
+from ridgeback.common.numbers import NONE, per_cent
 from ridgeback.compare.report.several.runs import Named, Runs, facts
 from ridgeback.reports.figures.recordings.identification import parameter_table
 from ridgeback.reports.figures.recordings.runs import runs_backbone, runs_samples, runs_tracks
@@ -47,7 +47,7 @@ def signal_table(runs: Runs) -> Table:
     rows = [facts(one) for one in runs.found.measured]
     return Table(
         "signals",
-        "Amplitudes of the fundamental in the signal’s unit; ± one standard deviation; damping ratio: median.",
+        "Amplitudes are those of the fundamental; ± one standard deviation; damping ratio: median.",
         ("signal", *rows[0]),
         tuple(Row((label, *row.values())) for label, row in zip(runs.labels, rows, strict=True)),
     )
@@ -80,13 +80,6 @@ def _class_row(named: Named) -> tuple[str, str, str, str]:
     made = named.made
     if made is None:
         return named.label, "", "", ""
-    if made.hum:
-        return named.label, f"none: {made.hum}", "", ""
     others = [c.title for c in made.candidates[1:] if c.name in made.indistinguishable]
-    title = f"{made.best.title}, {made.best.damping_law} damping"
-    return (
-        named.label,
-        f"none; nearest {title}" if made.unclaimed else title,
-        per_cent(made.unexplained),
-        ", ".join(others),
-    )
+    title = made.title if made.standing.refusal else made.best.named
+    return named.label, title, NONE if made.hum else per_cent(made.unexplained), ", ".join(others)

@@ -25,8 +25,8 @@ SPREAD = 1e3
 MOST_ROWS = 400
 ROUNDING = 1e-15
 CAPTIONS: Mapping[str, str] = {
-    "order-needed": "Smallest studied order that stays within a tolerance there and at every smaller amplitude, one "
-    "panel for each oscillator. A line ends where no studied order does.",
+    "order-needed": "Smallest studied order that stays within a tolerance there and at every smaller "
+    "amplitude{panels}. A line ends where no studied order does.",
     "observed-order": "Power with which the error of an order grows, less the power of the first term that is left "
     "out; bars: 95 % intervals. Points of one order stand beside one another.",
 }
@@ -40,7 +40,8 @@ def study_head(report: Report) -> tuple[Part, ...]:
         return ()
     if found.panels:
         name = found.panels[0].y_label
-        caption = f"{name[:1].upper()}{name[1:]}, its size, against amplitude, one panel for each oscillator."
+        shared = _one_each(len(found.panels), found.grids, len(found.subjects))
+        caption = f"{name[:1].upper()}{name[1:]}, its size, against {_axes(found.panels)}{shared}."
         caption += (
             " Below about 10⁻¹⁵ it is that of the arithmetic."
             if any(_rounded(picture) for picture in found.panels)
@@ -49,6 +50,23 @@ def study_head(report: Report) -> tuple[Part, ...]:
         return (Part("figure", side_by_side("side-by-side", found.panels, caption, "table-error")),)
     figure = answer_figure("first", found.answers[0].picture()) if found.answers else None
     return () if figure is None else (Part("figure", figure),)
+
+
+def _axes(panels: Sequence[Picture]) -> str:
+    """What the panels have across."""
+    return " or ".join(dict.fromkeys(picture.x_label for picture in panels))
+
+
+def _one_each(shown: int, total: int, subjects: int) -> str:
+    """What the panels of a figure are of.
+
+    >>> _one_each(5, 5, 5), _one_each(12, 20, 10), _one_each(1, 1, 1)
+    (', one panel for each oscillator', ', one panel for each oscillator and method, the first 12 of 20', '')
+    """
+    if total < 2:
+        return ""
+    cut = f", the first {shown} of {total}" if shown < total else ""
+    return f", one panel for each oscillator{' and method' if total > subjects else ''}{cut}"
 
 
 def _rounded(picture: Picture) -> bool:
@@ -64,7 +82,7 @@ def study_sections(report: Report) -> Iterator[Section]:
         return
     yield Section("systems", "Oscillators", how_many(len(found.subjects), "oscillator"), (_subjects(found),))
     for i, answer in enumerate(found.answers):
-        yield _answer(answer, first=i == 0, panels=bool(found.panels))
+        yield _answer(answer, found, first=i == 0)
     if found.failures:
         lines = [f"{cells} cells: {reason}" for reason, cells in found.failures]
         yield Section("failed", "Without a value", "Cells without a value", (Part("lines", lines),))
@@ -82,10 +100,13 @@ def _set(latex: str) -> str:
         return ""
 
 
-def _answer(answer: Answer, *, first: bool, panels: bool) -> Section:
+def _answer(answer: Answer, found: Answered, *, first: bool) -> Section:
     parts = []
-    if not (first and (panels or answer.question == "error")):
-        key, caption = f"answer-{answer.question}", CAPTIONS.get(answer.question, f"{_capital(answer.title)}.")
+    if not (first and (found.panels or answer.question == "error")):
+        shared = _one_each(len(answer.panels), max(len(answer.panels), found.grids), len(found.subjects))
+        words = CAPTIONS.get(answer.question, "")
+        key = f"answer-{answer.question}"
+        caption = words.format(panels=shared if answer.panels else "") or f"{_capital(answer.title)}."
         table = f"table-{answer.question}"
         figure = (
             side_by_side(key, answer.panels, caption, table)

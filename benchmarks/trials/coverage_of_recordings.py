@@ -25,8 +25,8 @@ from ridgeback.common.errors import InputError
 from ridgeback.compare.recording.measurement import measure
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.recording.recording import Recording
+from ridgeback.numeric.tracking.track import NORMAL_95
 
-NORMAL_95 = 1.96
 LIMITS = 92.0, 98.0
 """Where the share that holds is to lie, in per cent."""
 

@@ -26,6 +26,8 @@ from ridgeback.numeric.signal.local_line import local_line
 from ridgeback.numeric.signal.windows import half_width, window
 from ridgeback.numeric.tracking.track import Track
 
+DEMODULATED = 4.0
+"""Cycles of the window in which a phase is demodulated: half of one from an end it leans on what is not there."""
 ANCHORS = 60
 """Points of the record whose phase and amplitude start the fit."""
 NEAR_STEPS, STEPS = 10, 30
@@ -114,7 +116,7 @@ def demodulated(x: Array, rate: float, track: Track, start: float) -> tuple[Arra
     """Phase and amplitude of the fundamental on every sample: the track's carrier, and what is left of it filtered."""
     base = carrier(track, x.size, rate, start)
     cycle = 2 * np.pi / float(np.median(base.omega[base.valid]))
-    w = window("blackman", half_width(4 * cycle, rate, name="window", longest=x.size))
+    w = window("blackman", half_width(DEMODULATED * cycle, rate, name="window", longest=x.size))
     value, _ = local_line(2 * x * np.exp(-1j * base.phase), w, rate)
     return base.phase + np.unwrap(np.angle(value)), np.abs(value)
 

@@ -9,7 +9,7 @@ from itertools import chain
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.progress import Progress, silent
+from ridgeback.common.progress import Progress, silent, within
 from ridgeback.compare.identification.candidates import ALL_LAWS, LAWS, NAMES, DampingLaw
 from ridgeback.compare.identification.fits import Ranked, rank
 from ridgeback.compare.identification.fitting import Data, Fit, prepare
@@ -26,9 +26,12 @@ from ridgeback.compare.identification.sample_fit import (
     sample_fit,
 )
 from ridgeback.numeric.backbone.hum import hum_of
+from ridgeback.numeric.components.tones import Tone
 from ridgeback.numeric.recording.recording import Recording
 
 FEWEST_CYCLES = 6
+ENDS = (0.0, 0.7, 0.85, 0.9)
+"""Shares of the work at which each attempt begins and ends, if it is made."""
 
 
 def identify(
@@ -94,7 +97,7 @@ def identify(
     progress(0.0, "frequency track")
     ready = prepared(recording, span=span, band=band) if isinstance(recording, Recording) else recording
     found = attempted(ready, names, allowed, kind, progress)
-    if hum_of(found.data.measured) is None:
+    if found.hum is None:
         refuse_another_quantity(found.ready, found.data, found.ranked, progress)
     ready, used = found.ready, found.ready.recording
     where = float(used.time[0]), float(used.time[-1])
@@ -111,20 +114,23 @@ class Attempt:
     data: Data
     ranked: Ranked
     misfit: Misfit
+    hum: Tone | None
+    """The steady tone of the mains that the oscillation is: of no class, so that one stands for all."""
 
 
 def attempted(
     ready: Prepared, names: tuple[str, ...], laws: tuple[DampingLaw, ...], kind: str, progress: Progress
 ) -> Attempt:
-    """The ranking of the oscillation as it was prepared, or as it else may be, if only then a class leaves noise alone.
+    """The ranking of the oscillation as it was prepared, or of what else it may be.
 
-    Raises InputError where nothing can be measured, and where there are too few cycles.
+    That is all that is beside it, too, if only then a class leaves noise alone; and windows, where nothing before them
+    can be fitted.  Raises InputError where nothing can be measured, and where there are too few cycles.
     """
     first: Attempt | None = None
     refusal: InputError | None = None
-    for one in chain((ready,), ready.others()):
+    for i, one in enumerate(chain((ready,), ready.others())):
         try:
-            found = attempt(one, names, laws, kind, progress)
+            found = attempt(one, names, laws, kind, within(progress, ENDS[i], ENDS[i + 1]))
         except InputError as error:
             refusal = refusal or error
             continue
@@ -147,8 +153,9 @@ def attempt(
     cycles = float(data.time[-1]) / data.cycle
     if cycles < FEWEST_CYCLES:
         raise InputError(f"{used.source}: {cycles:.1f} cycles are too few to tell oscillators apart; give 6 or more")
-    ranked = rank(data, names, laws, kind, progress)
-    return Attempt(ready, data, ranked, misfit(ready, data, ranked.fits[0]))
+    hum = hum_of(data.measured)
+    ranked = rank(data, *((names, laws) if hum is None else (names[:1], laws[:1])), kind, progress)
+    return Attempt(ready, data, ranked, misfit(ready, data, ranked.fits[0]), hum)
 
 
 def checked(
@@ -182,7 +189,7 @@ def assembled(attempt: Attempt, kind: str, notes: tuple[str, ...], prediction: P
         for f, score in zip(ranked.fits, ranked.scores, strict=True)
     )
     near = tuple(c.name for c in candidates if c.delta < CLEAR)
-    measured, hum = data.measured, hum_of(data.measured)
+    measured, hum = data.measured, attempt.hum
     found = Identification(
         source=recording.source,
         column=recording.name,

@@ -79,8 +79,11 @@ def linear_orbits(_: Shape) -> ScaledOrbits:
 
 
 def pendulum_orbits(shape: Shape) -> ScaledOrbits:
-    """Those of u'' + sin(b u)/b = 0: the pendulum's in the angle b u."""
-    b = max(shape[0], 1e-3)
+    """Those of u'' + sin(b u)/b = 0 by b^2: the pendulum's in the angle b u.
+
+    The frequency changes in proportion to b^2, which small amplitudes therefore leave as open as a cubic stiffness.
+    """
+    b = math.sqrt(max(shape[0], LEAST_TURN))
     sine = pendulum()
     assert sine.potential is not None  # noqa: S101 - a pendulum has one
     assert sine.restoring is not None  # noqa: S101
@@ -177,7 +180,9 @@ def _stop(name: str, title: str, restoring: str, side: int) -> Potential:
     )
 
 
-HALF_TURNS = tuple((b,) for b in (0.1, 0.2, 0.4, 0.7, 1.0, 1.4, 1.9, 2.4, 2.8, 3.1, 3.3))
+LEAST_TURN = 1e-6
+"""Least square of the pendulum's b: there it is a linear oscillator."""
+HALF_TURNS = tuple((b**2,) for b in (0.1, 0.2, 0.4, 0.7, 1.0, 1.4, 1.9, 2.4, 2.8, 3.1, 3.3))
 CUBIC = tuple((e,) for e in (0.003, 0.01, 0.03, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0))
 HELMHOLTZ = tuple((a, e) for a in (0.05, 0.15, 0.3, 0.45) for e in (-0.4, -0.15, -0.03, 0.03, 0.1, 0.3, 1.0))
 POTENTIALS: tuple[Potential, ...] = (
@@ -187,9 +192,9 @@ POTENTIALS: tuple[Potential, ...] = (
         "Pendulum-like oscillator",
         "(k^2/b) sin(b u)",
         pendulum_orbits,
-        lambda k, L, shape: (_k(k), ("b", shape[0] / L, "rad/U", "angle per unit of the signal")),
-        (1e-3,),
-        (3.9,),  # next to the separatrix the swing is nearly square, with a fundamental of 4/pi times its peak
+        lambda k, L, shape: (_k(k), ("b", math.sqrt(shape[0]) / L, "rad/U", "angle per unit of the signal")),
+        (LEAST_TURN,),
+        (3.9**2,),  # next to the separatrix the swing is nearly square, with a fundamental of 4/pi times its peak
         (HALF_TURNS,),
     ),
     Potential(

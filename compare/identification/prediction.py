@@ -3,8 +3,10 @@
 Candidates are fitted to the first part alone.  The prediction is their mean by Akaike weights, and its variance is that
 of the parameters and of the candidates' disagreement: sum of w (sigma^2 + (value - mean)^2).  Where no candidate is
 quite right this is too narrow.  So the same candidates, fitted to the first three fifths of that part, predict its last
-two fifths, and each band is widened by the ratio of what they missed to what they expected to miss, if above 1.  What
-only shows at amplitudes that the fitted part never reached, no such rehearsal can show.
+two fifths, and each band is widened by the ratio of what they missed to what they expected to miss, if above 1; that of
+the phase, which is the integral of the frequency, at least as that of the frequency.  What only shows at amplitudes
+that the fitted part never reached, no such rehearsal can show.  A candidate whose own deviation is not known is left
+out of the mean: the part that was fitted does not ask for it.
 """
 
 from __future__ import annotations
@@ -18,17 +20,17 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.identification.candidates import LAWS, NAMES
 from ridgeback.compare.identification.fits import Ranked, rank
-from ridgeback.compare.identification.fitting import Data, Fit, demodulated, fit, prepare, refit
+from ridgeback.compare.identification.fitting import DEMODULATED, Data, Fit, demodulated, fit, prepare, refit
 from ridgeback.compare.identification.identify import FEWEST_CYCLES, checked
 from ridgeback.compare.identification.preparation import Prepared, local_track, part_of, prepared
 from ridgeback.compare.identification.ranking import covariance, spread_along
-from ridgeback.compare.identification.results import NORMAL_95, Prediction
+from ridgeback.compare.identification.results import Prediction
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.backbone.backbone import backbone
 from ridgeback.numeric.backbone.model_rates import PHASE, ModelRates
 from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.recording.recording import Recording
-from ridgeback.numeric.tracking.track import Track
+from ridgeback.numeric.tracking.track import NORMAL_95, Track
 
 LEAST_WEIGHT = 0.01
 """Candidates of less weight are left out of the mean."""
@@ -39,7 +41,10 @@ NAMED = ("amplitude", "omega", "phase")
 
 @dataclass(frozen=True)
 class Rest:
-    """What was measured after the part that was fitted: times from the first sample, and deviations."""
+    """What was measured after the part that was fitted: times from the first sample, and deviations.
+
+    The phase is not a number where only a window that reaches beyond the record would tell it.
+    """
 
     time: Array
     amplitude: Array
@@ -142,8 +147,13 @@ def measured_rest(
     phase_sd = sd / amplitude
     if models is not None and models.fine is not models.coarse:
         phase, phase_sd = models.fine.phase, ModelRates(models, at).at_points(PHASE, slopes=False)
+        told = np.ones_like(time, dtype=np.bool_)
+    else:
+        half = 0.5 * DEMODULATED * 2 * np.pi / float(np.median(found.omega))
+        told = time <= float(recording.time[-1]) - start - half
     cut = float(phase[round(until * recording.rate)])
-    return Rest(time, amplitude, sd, found.omega[later], found.omega_sd[later], phase[at], phase_sd, cut)
+    own = np.where(told, phase[at], np.nan)
+    return Rest(time, amplitude, sd, found.omega[later], found.omega_sd[later], own, phase_sd, cut)
 
 
 @dataclass(frozen=True)
@@ -164,8 +174,12 @@ class Weighted:
         """Mean and deviation of amplitude, frequency and phase, ``[3, time]``."""
         parts = [ahead(f, data, time) for f in self.fits]
         values, deviations = (np.array([p[i] for p in parts]) for i in (0, 1))
-        mean = np.tensordot(self.weights, values, 1)
-        variance = np.tensordot(self.weights, deviations**2 + (values - mean) ** 2, 1)
+        known = np.isfinite(deviations).all(axis=1)
+        weights = self.weights * known if known.any() else self.weights
+        values, deviations, weights = values[weights > 0], deviations[weights > 0], weights[weights > 0]
+        weights = weights / weights.sum()
+        mean = np.tensordot(weights, values, 1)
+        variance = np.tensordot(weights, deviations**2 + (values - mean) ** 2, 1)
         return mean.reshape(3, -1), np.sqrt(variance).reshape(3, -1)
 
 
@@ -197,7 +211,18 @@ def rehearsed(first: Recording, track: Track, kept: Weighted) -> Array:
     except InputError:
         return np.ones(3)
     ratio = missed(again, data, rest, mean) / expected(rest, deviation)
-    return np.asarray(np.maximum(1.0, np.sqrt(np.mean(ratio**2, axis=1))))
+    of_amplitude, of_omega, of_phase = (rms_known(row) for row in ratio)
+    return np.array([max(1.0, of_amplitude), max(1.0, of_omega), max(1.0, of_omega, of_phase)])
+
+
+def rms_known(values: Array) -> float:
+    """Root mean square of those that are known; 0 where none is.
+
+    >>> rms_known(np.array([3.0, np.nan, 4.0])) == 12.5**0.5, rms_known(np.array([np.nan]))
+    (True, 0.0)
+    """
+    known = values[np.isfinite(values)]
+    return float(np.sqrt(np.mean(known**2))) if known.size else 0.0
 
 
 def held_against(data: Data, kept: Weighted, rest: Rest, widening: Array, *, cycles: float, start: float) -> Prediction:
@@ -205,9 +230,10 @@ def held_against(data: Data, kept: Weighted, rest: Rest, widening: Array, *, cyc
     mean, deviation = kept.ahead(data, rest.time)
     deviation = deviation * widening[:, None]
     error = missed(kept, data, rest, mean)
-    inside = np.abs(error) <= NORMAL_95 * expected(rest, deviation)
+    ratio = error / expected(rest, deviation)
+    inside = {name: np.abs(row[np.isfinite(row)]) <= NORMAL_95 for name, row in zip(NAMED, ratio, strict=True)}
     scale = np.array([mean[0], mean[1], np.ones_like(mean[2])])
-    size = np.sqrt(np.mean((error / scale) ** 2, axis=1))
+    sizes = [rms_known(row) for row in error / scale]
     (a, omega, _), (a_half, omega_half, phase_half) = mean, NORMAL_95 * deviation
     shares = ", ".join(f"{f.model.name} ({w:.0%})" for f, w in zip(kept.fits, kept.weights, strict=True))
     wider = ", ".join(f"{name} {w:.1f}" for name, w in zip(NAMED, widening.tolist(), strict=True))
@@ -229,8 +255,8 @@ def held_against(data: Data, kept: Weighted, rest: Rest, widening: Array, *, cyc
         phase_error=error[2],
         phase_band=phase_half,
         measured_phase_sd=rest.phase_sd,
-        coverage=dict(zip(NAMED, inside.mean(axis=1).tolist(), strict=True)),
-        errors=dict(zip(NAMED, size.tolist(), strict=True)),
+        coverage={name: float(row.mean()) for name, row in inside.items() if row.size},
+        errors=dict(zip(NAMED, sizes, strict=True)),
         note=f"Mean of {shares}; bands widened, by a rehearsal within the fitted part, by factors of {wider}",
     )
 

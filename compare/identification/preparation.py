@@ -55,7 +55,7 @@ class Prepared:
     """The same with the tones that were found beside the oscillation, where there are any."""
 
     def others(self) -> Iterator[Prepared]:
-        """What else the oscillation may be, where no class describes it: with all that is beside it, and in windows.
+        """What else the oscillation may be: with all that is beside it, and all of the samples in windows.
 
         A folded harmonic, and a decay that ends at once, may have been taken for tones beside an oscillation.
         """

@@ -18,8 +18,9 @@ from scipy import fft
 
 from ridgeback.compare.identification.candidates import BACKBONE
 from ridgeback.compare.identification.fitting import Data, Fit, bounds
-from ridgeback.compare.identification.results import NORMAL_95, Candidate, Parameter
+from ridgeback.compare.identification.results import Candidate, Parameter
 from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.tracking.track import NORMAL_95
 
 CRITERIA = ("bic", "aicc")
 CLEAR = 6.0

@@ -9,42 +9,21 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from enum import Enum
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ridgeback.common.show.brief import Brief
 from ridgeback.compare.identification.sample_fit import UNKNOWN, Misfit, SampleFit
-from ridgeback.compare.identification.shown import ShownIdentification, ShownPrediction
+from ridgeback.compare.identification.shown import ShownIdentification, ShownPrediction, Standing
 from ridgeback.numeric.arrays import Array, freeze
+from ridgeback.numeric.tracking.track import NORMAL_95
 
 if TYPE_CHECKING:
     from ridgeback.compare.identification.candidates import DampingLaw
 
-NORMAL_95 = 1.959963984540054
-"""The 97.5 % point of the normal distribution: half the width of a 95 % interval in standard deviations."""
-
-
 POOR = 0.6
 """Share of the signal's rms that the best candidate may leave before the verdict says that none describes it."""
-
-
-class Standing(Enum):
-    """What is claimed of the best candidate; from NEAREST on no interval is."""
-
-    CLAIMED = "claimed"
-    """It does better than all others that were tried."""
-    UNTOLD = "not told apart"
-    """From others, which fit as well."""
-    NEAREST = "nearest"
-    """It leaves more than noise."""
-    HUM = "hum"
-    """The samples are those of no oscillator, but of a steady tone of the mains."""
-    DOUBTED = "doubted"
-    """The samples are not those of one oscillation."""
-    NONE = "none"
-    """It describes hardly any of the signal."""
 
 
 class _Values:
@@ -123,6 +102,11 @@ class Candidate(_Values, Brief):
     has_equation: bool = True
     """False for a polynomial backbone: a slow flow without an equation of motion."""
 
+    @property
+    def named(self) -> str:
+        """The class and its damping law."""
+        return f"{self.title}, {self.damping_law} damping"
+
     def without_intervals(self) -> Candidate:
         """The same without a claim on any deviation."""
         unknown = np.full_like(self.amplitude, np.nan)
@@ -183,10 +167,15 @@ class Prediction(ShownPrediction, _Values):
     phase_band: Array
     measured_phase_sd: Array
     coverage: Mapping[str, float]
-    """Share of the measured ``amplitude``, ``omega`` and ``phase`` that the bands of both, taken together, reach."""
+    """Share of the measured ``amplitude``, ``omega`` and ``phase`` that the bands of both, taken together, reach; only
+    of those that something is known of."""
     errors: Mapping[str, float]
     """Root mean square of measured less predicted: ``amplitude`` and ``omega`` relative, ``phase`` in rad."""
     note: str = ""
+
+    def record(self) -> dict[str, object]:
+        """All fields by name, and what became of it."""
+        return {**super().record(), "outcome": self.outcome.value}
 
 
 @dataclass(frozen=True, repr=False)
@@ -321,59 +310,9 @@ class Identification(ShownIdentification, _Values):
         candidates = tuple(c.without_intervals() for c in self.candidates) if self.unclaimed else self.candidates
         return replace(self, candidates=candidates, data=data)
 
-    @property
-    def title(self) -> str:
-        """What made the recording, as far as it is claimed, in a few words."""
-        others = len(self.indistinguishable) - 1
-        match self.standing:
-            case Standing.NONE:
-                return "No class describes this recording"
-            case Standing.HUM:
-                return f"No class is claimed: {self.hum}, and no decay"
-            case Standing.DOUBTED:
-                return "No class is claimed: no model of one oscillation holds"
-            case Standing.NEAREST:
-                return f"No class comes down to the noise; the nearest: {self.best.title}"
-            case Standing.UNTOLD:
-                fit = "other class fits" if others == 1 else "other classes fit"
-                return f"{self.best.title}; {others} {fit} as well"
-        return self.best.title
-
-    @property
-    def verdict(self) -> str:
-        """The ranking in one or two sentences: which class, how sure, and which others cannot be told apart from it."""
-        best, left = self.best, f"What it leaves unexplained is {self.unexplained:.2g} of the signal's rms."
-        named = f"{best.title}, damping {best.damping_law}"
-        match self.standing:
-            case Standing.HUM:
-                return f"No class is claimed: {self.unclaimed}; give a --band round another oscillation."
-            case Standing.NONE:
-                return f"No candidate describes this recording: {self.unclaimed}. The nearest is {named}."
-            case Standing.DOUBTED:
-                return f"No class is claimed: {self.unclaimed}. The nearest is {named}. {left}"
-            case Standing.NEAREST:
-                why = f"No candidate comes down to the noise: {self.unclaimed}"
-                return f"{why}. The nearest is {named}{self._next()}. {left}"
-        still = ", though no model without an oscillator in mind holds" if self.doubt else ""
-        return f"{named}{still}{self._next()}. {left}"
-
-    def _next(self) -> str:
-        """What comes behind the best candidate."""
-        best, others = self.best, [c for c in self.candidates[1:] if c.name in self.indistinguishable]
-        name, text = self.criterion_title, ""
-        if not best.has_equation and not others:
-            text = ": no equation among the candidates does as well"
-        if others:
-            listed = ", ".join(f"{c.title} ({name} {c.delta:.1f} higher)" for c in others)
-            return f"{text}; the data cannot tell it apart from: {listed}"
-        if len(self.candidates) > 1:
-            second = self.candidates[1]
-            return f"{text}; next comes {second.title}, {name} {second.delta:.4g} higher"
-        return text
-
     def record(self) -> dict[str, object]:
         """All fields by name but the samples, the verdict that follows, and why no interval is claimed, if so."""
         named = {name: value for name, value in super().record().items() if name not in ("fitted", "misfit")}
-        misfit = {"ratio": self.misfit.ratio, "chance": self.misfit.chance, "against": self.misfit.against.name.lower()}
+        misfit = {"ratio": self.misfit.ratio, "chance": self.misfit.chance, "against": self.misfit.against.value}
         said = {"standing": self.standing.value, "verdict": self.verdict, "unclaimed": self.unclaimed}
         return {**named, "misfit": misfit, **said}

@@ -47,8 +47,10 @@ NEAR = 0.1
 class Against(Enum):
     """What the residual of a class is held against."""
 
-    MODEL = "a model without any oscillator in mind leaves"
-    ELSEWHERE = "it leaves away from the oscillation"
+    MODEL = "model"
+    """A model of the samples without any oscillator in mind."""
+    ELSEWHERE = "elsewhere"
+    """What the class itself leaves away from the oscillation."""
     NOTHING = "nothing"
 
 
@@ -85,8 +87,10 @@ class Misfit:
     def sentence(self) -> str:
         """The judgement in words, without a full stop."""
         chance = f"would once in {number(1.0 / self.chance, 1)} records" if self.chance > NEVER else "never does"
-        where = " near the oscillation" if self.against is Against.ELSEWHERE else ""
-        return f"leaves{where} {self.ratio:.3g} times the noise that {self.against.value}, as noise alone {chance}"
+        beside = self.against is Against.ELSEWHERE
+        where = " near the oscillation" if beside else ""
+        what = "it leaves away from the oscillation" if beside else "a model without any oscillator in mind leaves"
+        return f"leaves{where} {self.ratio:.3g} times the noise that {what}, as noise alone {chance}"
 
 
 UNKNOWN = Misfit()

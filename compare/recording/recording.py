@@ -173,6 +173,7 @@ def _assembled(
         over=None if oscillator is None else over_measured(oscillator, curve, known=not doubt),
         remarks=tuple(remarks(chosen, recording)),
         doubt=doubt,
+        unit=recording.units,
         hum="" if hum is None else hum.said(),
     )
 

@@ -48,6 +48,8 @@ class RecordingComparison(Brief):
     """What of the record is no part of the oscillation that is measured: other tones, times, clipped samples."""
     doubt: str = ""
     """Why no deviation is claimed, if so: those of backbone and growth rate are NaN then."""
+    unit: str = ""
+    """Of the signal and of its amplitudes."""
     hum: str = ""
     """The steady tone of the mains that the strongest component is, if so."""
 

@@ -23,7 +23,7 @@ HEADINGS: dict[Way, str] = {
     "estimates": "Estimate from samples",
 }
 NOISE_DB = 20.0
-LANGUAGES = {"c": "generated C", "python": "generated Python", "numpy": "NumPy"}
+LANGUAGES = {"c": "in C", "python": "in Python", "numpy": "in NumPy"}
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def cost(row: Row) -> str:
         track = f"{measured_time(row.time_s_per_track, row.time_scatter)} a track, " if row.time_s_per_track else ""
         return f"{track}{measured_time(1e-9 * value, row.time_scatter)} a value"
     language = LANGUAGES.get(row.language or "", "")
-    return f"{measured_time(1e-9 * value, row.time_scatter)} a value" + (f", {language}" if language else "")
+    return f"{measured_time(1e-9 * value, row.time_scatter)} a value" + (f" {language}" if language else "")
 
 
 def _refused(known: Known, way: Way) -> Card:

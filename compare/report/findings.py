@@ -20,7 +20,6 @@ from ridgeback.compare.report.naming import (
     estimator,
     follow,
     plural,
-    refused_names,
     short_name,
     spoken,
 )
@@ -187,9 +186,6 @@ def _from_contenders(found: Benchmark) -> Iterator[Finding]:
     yield from _ripple(found)
     yield from _passing(found)
     yield from _equal(found)
-    refused = [row for row in found.contenders if row.refused]
-    if refused:
-        yield Finding(3, f"No result from {refused_names(refused)}; the table says why.")
 
 
 def _ripple(found: Benchmark) -> Iterator[Finding]:
@@ -209,12 +205,12 @@ def _ripple(found: Benchmark) -> Iterator[Finding]:
 
 
 def _less_damping(found: Benchmark, smooth: float) -> str:
-    """What mu^2 taken off the averaged action's frequency leaves, where that is told from what stands without."""
+    """What sqrt(omega0^2 - mu^2) of the averaged action leaves, where that is told from omega0 itself."""
     row = next((row for row in found.contenders if row.ranked and row.method == "averaged-damped"), None)
     error = None if row is None else row.relative_rms_error
     if error is None or max(error, found.reference.floor) >= smooth:
         return ""
-    return f", and {at_most(error, found.reference)} less μ²"
+    return f", and √(ω₀² − μ²), as linear damping has it, {at_most(error, found.reference)}"
 
 
 def _passing(found: Benchmark) -> Iterator[Finding]:

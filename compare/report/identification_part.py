@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ridgeback.common.errors import InputError
-from ridgeback.common.progress import Progress
+from ridgeback.common.progress import Progress, within
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.prediction import predict
 from ridgeback.compare.identification.preparation import Prepared, prepared
@@ -56,12 +56,16 @@ def identification_part(
         ready = prepared(recording, band=band)
         ahead, why = None, "Nothing was predicted: a steady tone is no decay." if compared.hum else ""
         if not compared.hum:
-            ahead, why = _ahead(ready, used, lambda share, step: progress(0.5 * share, step))
-        notes = (why,) if why else ()
-        later: Progress = lambda share, step: progress(0.5 + 0.5 * share, step)  # noqa: E731
-        return IdentificationPart(identify(ready, prediction=ahead, notes=notes, progress=later))
+            ahead, why = _ahead(ready, used, within(progress, 0.0, 0.5))
+        made = identify(ready, prediction=ahead, notes=(why,) if why else (), progress=within(progress, 0.5, 1.0))
+        return IdentificationPart(_as_compared(made, compared))
     except InputError as refusal:
         return IdentificationPart(None, f"Not identified: {refusal}.")
+
+
+def _as_compared(made: Identification, compared: RecordingComparison) -> Identification:
+    """The same, and no class claimed of what was measured as hum: a page says one thing of it."""
+    return replace(made, hum=compared.hum).claiming() if compared.hum and not made.hum else made
 
 
 def _ahead(ready: Prepared, cycles: float, progress: Progress) -> tuple[Prediction | None, str]:

@@ -60,7 +60,7 @@ def short_name(row: Row) -> str:
         case "closed-form":
             return "exact ω₀"
         case "averaged":
-            return "exact ω₀ less μ²" if row.method == "averaged-damped" else "exact ω₀"
+            return "exact √(ω₀² − μ²)" if row.method == "averaged-damped" else "exact ω₀"
         case "linear":
             return "linear oscillator"
     name = row.label.partition(", A(t)")[0].replace(", order", " of order").replace("Pade", "Padé")
@@ -73,8 +73,15 @@ def spoken(row: Row) -> str:
 
     >>> spoken(Row("series-21", "", "series-model", order=21))
     '21 terms of the paper’s series'
+    >>> spoken(Row("multiple-scales-8", "", "slow-flow", order=8))
+    'multiple scales to order 8'
     """
-    return f"{row.order} terms of the paper’s series" if row.kind == "series-model" else short_name(row)
+    match row.kind:
+        case "series-model":
+            return f"{row.order} terms of the paper’s series"
+        case "slow-flow":
+            return f"multiple scales to order {row.order}"
+    return short_name(row)
 
 
 def at_most(

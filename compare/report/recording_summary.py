@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ridgeback.common.numbers import NONE, number, per_cent, uncertain
-from ridgeback.common.quantities import frequency
-from ridgeback.compare.identification.results import Identification, Standing
+from ridgeback.common.numbers import NONE, listing, number, per_cent, uncertain
+from ridgeback.common.quantities import frequency, unit_text
+from ridgeback.compare.identification.results import Identification, Prediction
+from ridgeback.compare.identification.shown import Outcome
 from ridgeback.compare.report.results import Card
 from ridgeback.compare.study.results import Trend, trend_of
 from ridgeback.numeric.arrays import Array
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 Indices = NDArray[np.intp]
 KNOWN = 2.0
 """A point of the backbone is spoken of when its deviation is at most this many times the median one."""
-HELD = 0.8
-"""Share of what was measured later that must lie near a forecast, by the 95 % bands of both, for it to have held."""
 
 
 def _known(found: RecordingComparison) -> Indices:
@@ -56,14 +55,31 @@ def recording_title(found: RecordingComparison) -> str:
     low, high = ends(found)
     if found.hum:
         return f"No decay: {found.hum}"
-    text = (
-        f"{_hertz(found.backbone_omega[high])} at amplitude {found.backbone_amplitude[high]:.3g}, "
-        f"{_hertz(found.backbone_omega[low])} at {found.backbone_amplitude[low]:.3g}"
-    )
+    a, omega = found.backbone_amplitude, found.backbone_omega
+    text = at_amplitudes((a[high], a[low]), (omega[high], omega[low]), found.unit)
     if found.doubt:
         return f"{text}: no uncertainty is claimed"
     way = trend(found)
     return f"{text}: no dependence beyond the uncertainty" if way is Trend.CONSTANT else f"{text}: {way.value}"
+
+
+def at_amplitudes(sizes: tuple[float, float], omega: tuple[float, float], unit: str) -> str:
+    """Frequencies at two amplitudes of the fundamental, rad per s and in the signal's unit, for a title.
+
+    >>> at_amplitudes((1.9, 0.5), (6.0, 6.2), "rad")
+    '0.9549 Hz at a fundamental amplitude of 1.9 rad, 0.9868 Hz at 0.5 rad'
+    """
+    first, second = (_hertz(value) for value in omega)
+    return f"{first} at a fundamental amplitude of {size(sizes[0], unit)}, {second} at {size(sizes[1], unit)}"
+
+
+def size(value: float, unit: str) -> str:
+    """An amplitude in the signal's unit.
+
+    >>> size(0.87612, "mm"), size(2.0, "")
+    ('0.876 mm', '2')
+    """
+    return f"{value:.3g} {unit_text(unit)}".strip()
 
 
 def recording_sentences(found: RecordingComparison, made: Identification | None) -> tuple[str, ...]:
@@ -76,53 +92,42 @@ def _sentences(found: RecordingComparison, made: Identification | None) -> Itera
         yield f"What is measured is no decay: {found.hum}."
     if found.doubt:
         yield f"{found.doubt}."
-    told = made is not None and made.prediction is not None
-    if made is not None and told and not held(made):
-        yield forecast(made)
+    ahead = None if made is None else made.prediction
+    if ahead is not None and ahead.outcome is not Outcome.HELD:
+        yield forecast(ahead)
     if found.over is not None:
         yield found.over.sentence()
     yield from found.remarks
     if made is not None:
-        yield _what_made_it(made)
-        if told and held(made):
-            yield forecast(made)
+        yield f"What made it: {lowered(made)}."
+    if ahead is not None and ahead.outcome is Outcome.HELD:
+        yield forecast(ahead)
 
 
-def _what_made_it(made: Identification) -> str:
-    """The class in a sentence; its section says how sure that is."""
-    others = len(made.indistinguishable) - 1
-    match made.standing:
-        case Standing.NONE:
-            return f"What made it: no candidate describes this recording; the nearest is {made.best.title}."
-        case Standing.HUM:
-            return "What made it: no class is claimed, since it is no decay."
-        case Standing.DOUBTED:
-            return "What made it: no class is claimed, since no model of one oscillation holds."
-        case Standing.NEAREST:
-            return f"What made it: no candidate comes down to the noise; the nearest is {made.best.title}."
-    rest = f"; {others} other {'class fits' if others == 1 else 'classes fit'} as well" if others else ""
-    return f"What made it: {made.best.title}, damping {made.best.damping_law}{rest}."
+def lowered(made: Identification) -> str:
+    """What made a recording, as far as it is claimed, within a sentence."""
+    title = made.title
+    return title[:1].lower() + title[1:] if made.standing.refusal else title
 
 
-def held(made: Identification) -> bool:
-    """Whether what was measured later lies as near to the forecast as their bands allow."""
-    return made.prediction is not None and min(made.prediction.coverage.values(), default=0.0) >= HELD
-
-
-def forecast(made: Identification) -> str:
-    """The forecast and whether it held, from the share of later values in its bands."""
-    ahead = made.prediction
-    if ahead is None:
-        return "Nothing was forecast."
-    shares = ", ".join(f"{100 * share:.0f} % of {_PLURAL.get(name, name)}" for name, share in ahead.coverage.items())
-    verb = "held" if held(made) else "did not hold"
-    return (
-        f"The forecast from the first {number(ahead.cycles, 3)} cycles {verb}: {shares} that were measured later "
-        "lie as near to it as the 95 % bands of both allow."
-    )
+def forecast(ahead: Prediction) -> str:
+    """The forecast and what became of it, from the share of later values in its bands."""
+    said = f"The forecast from the first {number(ahead.cycles, 3)} cycles {ahead.outcome.verb}"
+    if ahead.outcome is Outcome.OPEN:
+        off = listing([f"{per_cent(ahead.errors.get(name))} in {name_}" for name, name_ in _SINGULAR.items()])
+        return (
+            f"{said}: its 95 % bands are wider than half of what is forecast, or not known. It was off by {off}, rms."
+        )
+    shares = ahead.coverage
+    names = [_PLURAL.get(name, name) for name in shares]
+    all_of = all(share == 1.0 for share in shares.values())
+    told = [f"{100 * share:.0f} % of {name}" for share, name in zip(shares.values(), names, strict=True)]
+    who = f"all {listing(names)}" if all_of else listing(told)
+    return f"{said}: {who} that were measured later lie as near to it as the 95 % bands of both allow."
 
 
 _PLURAL = {"amplitude": "amplitudes", "omega": "frequencies", "phase": "phases"}
+_SINGULAR = {"amplitude": "amplitude", "omega": "frequency"}
 
 
 def _relative_sd(found: RecordingComparison) -> Array:
@@ -136,7 +141,7 @@ def _middle(values: Array) -> float:
 def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
     """Frequency, growth rate and damping ratio, uncertainty, each with its ends."""
     low, high = ends(found)
-    sizes = [f"at {found.backbone_amplitude[i]:.3g}" for i in (high, low)]
+    sizes = [f"at {size(found.backbone_amplitude[i], found.unit)}" for i in (high, low)]
     omega = [
         uncertain(found.backbone_omega[i] / (2 * np.pi), found.backbone_omega_sd[i] / (2 * np.pi)) for i in (high, low)
     ]

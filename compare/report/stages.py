@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ridgeback.common.progress import Progress
+from ridgeback.common.progress import Progress, within
 
 
 class Stopwatch:
@@ -30,7 +30,7 @@ class Stopwatch:
         """Yield a progress callback that runs from ``low`` to ``high`` of the whole."""
         self._progress(low, name)
         began = time.perf_counter()
-        yield lambda fraction, label: self._progress(low + fraction * (high - low), label)
+        yield within(self._progress, low, high)
         self._seconds[name] = round(time.perf_counter() - began, 3)
 
     def seconds(self) -> dict[str, float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from functools import partial
+from itertools import pairwise
 
 import numpy as np
 
@@ -77,7 +78,7 @@ def _caption(which: Shown, target: float, *, timed: bool) -> str:
         parts.append("Open, and corr.: an estimate with the bias of its own track removed.")
     missing = [row for row in found.contenders if row.refused]
     if missing:
-        parts.append(f"No result: {refused_names(missing)}.")
+        parts.append(f"No result from {refused_names(missing)}; the table says why.")
     return " ".join(parts)
 
 
@@ -224,14 +225,23 @@ def _families(which: Shown, panel: Panel, line_at: float | None) -> Iterable[str
 
 
 def _named_point(which: Shown, panel: Panel, x: float, y: float, name: str) -> str:
-    """A point's name at its right, or at its left where the names of the estimates stand there."""
+    """A point's name at its right, left, above or below it: where it covers least of the marks and of other names."""
+    wide = 1.2 * text_width(name)
+    spots = [(x + 9, y + 4, "start"), (x - 9, y + 4, "end"), (x - 6, y - 10, "start"), (x - 6, y + 20, "start")]
+    taken = [(a - 5, b - 5, a + 5, b + 5) for a, b, _ in _finite(_places(which, panel, which.all)) if (a, b) != (x, y)]
     at = _finite(_places(which, panel, which.estimates))
     if at:
-        edge, heights = _column(panel, at)
-        near = [text_width(short_name(row)) for (_, _, row), h in zip(at, heights, strict=True) if abs(h - y) < 17]
-        if x + 17 + text_width(name) > edge - max(near, default=-math.inf):
-            return text(x - 9, y + 4, name, "e b", "end")
-    return text(x + 9, y + 4, name, "e b")
+        edge, heights = _column(which, panel, at)
+        names = [text_width(short_name(row)) for _, _, row in at]
+        taken += [(edge - w, h - 8, edge + 4, h + 8) for w, h in zip(names, heights, strict=True)]
+
+    def covered(spot: tuple[float, float, str]) -> int:
+        left, foot = spot[0] - (wide if spot[2] == "end" else 0.0), spot[1]
+        out = left < panel.left or foot > panel.bottom - 4
+        return 99 * out + sum(a < left + wide and left < c and b < foot + 3 and foot - 12 < d for a, b, c, d in taken)
+
+    a, b, anchor = min(spots, key=covered)
+    return text(a, b, name, "e b", anchor)
 
 
 def _exact_name(row: Row) -> str:
@@ -243,7 +253,7 @@ def _crowded(which: Shown, panel: Panel) -> bool:
     at = _finite(_places(which, panel, which.estimates))
     if not at:
         return False
-    edge, heights = _column(panel, at)
+    edge, heights = _column(which, panel, at)
     boxes = [(edge - text_width(short_name(row)), h, edge + 14) for (_, _, row), h in zip(at, heights, strict=True)]
     boxes += [(x - 8, y, x + 8) for x, y, _ in at]
     boxes += [(x - 6, y, x + 6) for x, y, _ in _finite(_places(which, panel, (*which.expansions, *which.flows)))]
@@ -258,9 +268,24 @@ def _finite(at: Sequence[tuple[float, float, Row]]) -> list[tuple[float, float, 
     return [place for place in at if math.isfinite(place[0])]
 
 
-def _column(panel: Panel, at: Sequence[tuple[float, float, Row]]) -> tuple[float, list[float]]:
-    """Where names that stand left of all points end, and how high each stands."""
-    return min(x for x, _, _ in at) - 26, apart([y for _, y, _ in at], 16.0, panel.top + 34, panel.bottom - 30)
+def _column(which: Shown, panel: Panel, at: Sequence[tuple[float, float, Row]]) -> tuple[float, list[float]]:
+    """Where names that stand left of all points end, and how high each stands; left of the slow flows' curve, too."""
+    heights = apart([y for _, y, _ in at], 16.0, panel.top + 34, panel.bottom - 30)
+    edge = min(x for x, _, _ in at) - 26
+    flows = _finite(_places(which, panel, which.flows))
+    names = [text_width(_exact_name(row) if row.kind == "closed-form" else short_name(row)) for _, _, row in at]
+    met = any(_passes(flows, height, edge - wide, edge + 4) for wide, height in zip(names, heights, strict=True))
+    return (min(edge, min(x for x, _, _ in flows) - 26) if met else edge), heights
+
+
+def _passes(curve: Sequence[tuple[float, float, Row]], height: float, left: float, right: float) -> bool:
+    """Whether a curve goes through a name of a height, between its ends."""
+    for (a, b, _), (c, d, _) in pairwise(curve):
+        along = np.linspace(0.0, 1.0, 50)
+        x, y = a + (c - a) * along, b + (d - b) * along
+        if bool(np.any((np.abs(y - height) < 10.0) & (x > left - 6.0) & (x < right + 6.0))):
+            return True
+    return False
 
 
 def _name_is_below(at: Sequence[tuple[float, float, Row]], panel: Panel) -> bool:
@@ -307,7 +332,7 @@ def _estimates(which: Shown, panel: Panel, target: float | None) -> Iterable[str
         return
     at += _finite(_places(which, panel, which.exact)) if _crowded(which, panel) else ()
     own = {row.method.removesuffix("-corrected"): (x, y, row) for x, y, row in _places(which, panel, which.corrected)}
-    edge, heights = _column(panel, at)
+    edge, heights = _column(which, panel, at)
     best = which.estimates[0].method
     parts, words, exact = [], [], []
     for (x, y, row), height in zip(at, heights, strict=True):

@@ -40,6 +40,8 @@ class Axes:
     log_y: bool
     steps: tuple[int, ...] = ()
     """The whole numbers that curves of steps take."""
+    labelled: tuple[float, ...] = ()
+    """Where the horizontal axis is labelled, if that is given."""
 
 
 def axes_of(pictures: Sequence[Picture]) -> Axes:
@@ -58,7 +60,8 @@ def axes_of(pictures: Sequence[Picture]) -> Axes:
     across = (low, high) if high > low else (low - 0.5, high + 0.5)
     if any(stroke.dots for stroke in strokes) and not log_x:
         across = padded(x, share=0.05)
-    return Axes(across, _range(y, log_y), log_x, log_y, tuple(sorted(taken)))
+    labelled = tuple(sorted({value for picture in pictures for value in picture.labelled}))
+    return Axes(across, _range(y, log_y), log_x, log_y, tuple(sorted(taken)), labelled)
 
 
 def _range(values: Sequence[Array], log: bool) -> tuple[float, float]:
@@ -95,7 +98,9 @@ def _frame(panel: Panel, axes: Axes, *, most: int, rows: int) -> list[str]:
         y = panel.y(value)
         marks.append(line(panel.left, y, panel.right, y) + text(panel.left - 6, y + 4, name, "m sm", "end"))
     marks.append(line(panel.left, panel.bottom, panel.right, panel.bottom, "ax"))
-    for value, name in _ticks(panel.x, most):
+    for value, name in [(v, number(v)) for v in axes.labelled if panel.x.low <= v <= panel.x.high] or _ticks(
+        panel.x, most
+    ):
         x = panel.x(value)
         marks.append(line(x, panel.bottom, x, panel.bottom + 4, "ax"))
         marks.append(text(x, panel.bottom + 18, name, "m sm", "middle"))
@@ -249,7 +254,7 @@ def _key(picture: Picture) -> list[tuple[float, int]]:
     """Where each name of a small drawing begins: its x and its line."""
     found, x, row = [], 0.0, 0
     for stroke in picture.strokes[:6]:
-        width = text_width(stroke.label, 12.0) + 29
+        width = text_width(stroke.label, 13.0) + 36
         if x + width > SMALL and x > 0.0:
             x, row = 0.0, row + 1
         found.append((x, row))
@@ -258,10 +263,11 @@ def _key(picture: Picture) -> list[tuple[float, int]]:
 
 
 def _small(picture: Picture, axes: Axes, lines: int) -> str:
-    """One of several, its key in ``lines`` lines between its title and its curves."""
-    top = 28.0 + 15.0 * lines
+    """One of several, its key in ``lines`` lines between its title and its curves, the name of its values below."""
+    top = 46.0 + 15.0 * lines
     panel = _panel(axes, 46.0, 300.0, top, top + 174.0)
-    marks = [text(0, 14, picture.title, "fgt b"), *_frame(panel, axes, most=4, rows=5)]
+    marks = [text(0, 14, picture.title, "fgt b"), text(0, top - 10, picture.y_label, "m sm")]
+    marks += _frame(panel, axes, most=4, rows=5)
     marks += [*_strokes(panel, picture), *_points(panel, picture)]
     marks.append(text(panel.right, panel.bottom + 32, picture.x_label, "m sm", "end"))
     for stroke, style, (x, row) in zip(picture.strokes, STYLES, _key(picture), strict=False):

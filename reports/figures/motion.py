@@ -40,7 +40,7 @@ def motion(decay: MotionComparison, *, cycle: bool) -> Figure:
 def _caption(decay: MotionComparison, *, cycle: bool) -> str:
     first, last = (short_amplitude(float(x), decay.case.unit) for x in decay.amplitudes.energy[[0, -1]])
     kind = "Amplitude by the turning points" if decay.amplitudes.averaged is None else "Amplitude by the energy"
-    text_ = f"{kind}, from {first} to {last}."
+    text_ = f"{kind}, {first} throughout." if first == last else f"{kind}, from {first} to {last}."
     if decay.disagreement is not None:
         unit = f" {decay.case.unit}" if decay.case.unit else ""
         text_ += f" Two integrators agree within {decay.disagreement:.1e}{unit}.".replace("e-0", "e-")

@@ -122,12 +122,18 @@ def noise_sentence(study: NoiseStudy) -> str:
         cell = study.cell(method, best)
         if cell.rms and cell.bias is not None and abs(cell.bias) > 0.5 * cell.rms:
             stopped.append(f"{estimator(method)} ({per_cent(cell.rms)})")
-    lost = [
-        f"{estimator(c.method)} at {number(c.snr_db)} dB" for c in study.cells if c.rms is not None and c.rms > LOST
-    ]
-    parts = [f"At {number(best)} dB bias rules {', '.join(stopped)}." if stopped else ""]
-    parts.append(f"Lost: {', '.join(lost)}." if lost else "")
+    parts = [f"At {number(best)} dB bias rules {listing(stopped)}." if stopped else "", _lost(study)]
     return " ".join(part for part in parts if part)
+
+
+def _lost(study: NoiseStudy) -> str:
+    """Which methods are lost at which ratio."""
+    said = []
+    for snr in sorted(study.snr_db):
+        lost = [estimator(method) for method in study.methods if (study.cell(method, snr).rms or 0.0) > LOST]
+        every = len(lost) == len(study.methods) > 1
+        said += [f"at {number(snr)} dB {f'all {len(lost)}' if every else listing(lost)}"] if lost else []
+    return f"Lost: {'; '.join(said)}." if said else ""
 
 
 def noise_table(study: NoiseStudy) -> Table:

@@ -21,6 +21,7 @@ from ridgeback.reports.drawing.scale import ROUNDING, Scale, padded, tick_labels
 from ridgeback.reports.figures.clock import Clock
 
 KINDS = {1e-2: "c1", 1e-3: "c2", 1e-6: "c3"}
+DASHES = {"c1": "solid", "c2": "dashed", "c3": "dotted"}
 LIMITS = (1e-6, 1e-4, 1e-3, 1e-2, 1e-1)
 TALL, FLAT = 290.0, 60.0
 """Height of the map, and of one whose cells are all alike."""
@@ -58,11 +59,8 @@ def _caption(study: Study, grid: ErrorGrid, observed: bool) -> str:
         known = f"enclosed in ball arithmetic at the {name} of each cell: the value of the generated code, to the bit"
     else:
         worst = float(np.nanmax(study.reference_error))
-        known = f"against {study.reference_name}, itself known to {per_cent(worst)}"
-    text_ = (
-        f"|relative error of ω₀| in {count}, {known}. Lines follow cells, none interpolated: 1 % solid, 0.1 % dashed, "
-    )
-    text_ += "0.0001 % dotted."
+        known = f"against the {study.reference_name}, itself known to {per_cent(worst)}"
+    text_ = f"|relative error of ω₀| in {count}, {known}.{_lines(grid)}"
     if observed:
         low, high = grid.observed[0][:2], grid.observed[1][:2]
         text_ += (
@@ -75,6 +73,14 @@ def _caption(study: Study, grid: ErrorGrid, observed: bool) -> str:
         radius = number(study.convergence_radius) if exact else uncertain(study.convergence_radius, open_)
         text_ += f" The series converges for {name} below {radius}."
     return text_
+
+
+def _lines(grid: ErrorGrid) -> str:
+    """Which lines are drawn, where any is."""
+    size = np.where(np.isfinite(grid.bounds), np.abs(grid.errors), np.nan)
+    drawn = [level for level in KINDS if bool((size <= level).any()) and not bool((size <= level).all())]
+    words = ", ".join(f"{100 * level:.6g} % {DASHES[KINDS[level]]}" for level in drawn)
+    return f" Lines follow cells, none interpolated: {words}." if drawn else ""
 
 
 def _keys() -> Iterable[tuple[str, str]]:

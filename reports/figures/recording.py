@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ridgeback.common.numbers import number, per_cent
+from ridgeback.common.quantities import unit_text
 from ridgeback.compare.motion.error_norms import distance
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.tracking.track import NORMAL_95
 from ridgeback.reports.drawing.apart import apart
 from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout
 from ridgeback.reports.drawing.marks import area, drawing, group, line, places, text
@@ -126,7 +128,7 @@ def _band(band: Band, panel: Panel, x_title: str) -> str:
         panel.columns(most=5, unit=x_title),
         text(panel.left - 56, panel.top - 16, band.title, "m"),
     ]
-    marks.append(area(panel.x.of(x), panel.y.clipped(y - 1.96 * sd), panel.y.clipped(y + 1.96 * sd), "tf"))
+    marks.append(area(panel.x.of(x), panel.y.clipped(y - NORMAL_95 * sd), panel.y.clipped(y + NORMAL_95 * sd), "tf"))
     marks.append(panel.curve(x, y, "tl nf"))
     for _, values, style in band.over:
         inside = np.where((values[order] >= panel.y.low) & (values[order] <= panel.y.high), values[order], np.nan)
@@ -194,12 +196,10 @@ def backbone_figure(recording: RecordingComparison) -> Figure:
         "Fundamental frequency and growth rate a′/a, negative in a decay, against the amplitude of the fundamental. "
     )
     caption += f"{recording.doubt}." if recording.doubt else "Bands: 95 %."
-    if theory is not None:
-        caption += f" {theory.sentence()}"
     return side_by_side(
         "recording-backbone",
         bands,
-        x_title=f"amplitude of {recording.column}",
+        x_title=f"amplitude of the fundamental{f', {unit_text(recording.unit)}' if recording.unit else ''}",
         caption=caption,
         label="Measured backbone and growth rate",
     )

@@ -21,6 +21,15 @@ def silent(_: float, __: str) -> None:
     """Report no progress."""
 
 
+def within(progress: Progress, low: float, high: float) -> Progress:
+    """What a part of the work tells, as the shares ``low`` to ``high`` of the whole.
+
+    >>> within(lambda share, step: print(f"{share:.2f} {step}"), 0.5, 1.0)(0.5, "order 4")
+    0.75 order 4
+    """
+    return lambda share, step: progress(low + share * (high - low), step)
+
+
 class Bar:
     """A bar in one line of a terminal or a notebook; nothing where the stream is a file or a pipe.
 

@@ -198,9 +198,10 @@ def prediction_of(ahead: Prediction) -> str:
         {
             "predicted": name,
             "rms error": f"{ahead.errors[name]:.2%}" if name != "phase" else f"{ahead.errors[name]:.3g} rad",
-            "inside the 95 % band": f"{ahead.coverage[name]:.0%}",
+            "inside the 95 % band": f"{ahead.coverage[name]:.0%}" if name in ahead.coverage else "-",
         }
         for name in ("amplitude", "omega", "phase")
     ]
-    head = f"From the first {ahead.cycles:g} cycles (to {ahead.until:.4g} s) to {ahead.time[-1]:.4g} s. {ahead.note}."
+    span = f"From the first {ahead.cycles:g} cycles (to {ahead.until:.4g} s) to {ahead.time[-1]:.4g} s"
+    head = f"{span}: the forecast {ahead.outcome.verb}. {ahead.note}."
     return head + "\n" + aligned(["predicted", "rms error", "inside the 95 % band"], rows)

@@ -38,7 +38,7 @@ from ridgeback.compare.recording.planes import plane_of
 from ridgeback.compare.recording.samples import NAMES, sample
 from ridgeback.compare.report.drift import drift_report
 from ridgeback.compare.report.naming import start_line
-from ridgeback.compare.report.recording_summary import forecast, recording_sentences
+from ridgeback.compare.report.recording_summary import recording_sentences
 from ridgeback.compare.report.several import study_report
 from ridgeback.compare.report.system_report import _amplitudes
 from ridgeback.compare.studies.measures import backbone, cost, decay, estimated, predicted, reach
@@ -126,7 +126,6 @@ def pooled(**more: Any) -> Pooled:
         (lambda: list(study_report._files(STUB(answers=(), cells=10**9))), []),
         (lambda: list(study_report._files(STUB(answers=(), cells=0, rows=lambda: []))), []),
         (lambda: derivation.harmonic_table(energy_integral(find("pendulum"), 2)), None),
-        (lambda: forecast(replace(synthetic.make_identification(), prediction=None)), "Nothing was forecast."),
     ],
 )
 def test_nothing_comes_of_nothing(value: Callable[[], object], expected: object) -> None:

@@ -252,7 +252,7 @@ def test_every_number_of_a_table_stands_under_its_head(tree: Element) -> None:
 def test_a_recording_shows_tracks_backbone_damping_and_fit(recording_page: str) -> None:
     root = parse(recording_page)
     assert _keys(root) == ["identification", "fit", "forecast", "record", "tracks", "recording", "provenance"]
-    for wanted in ("decay.csv", "displacement_percent", "pseudo-Wigner, 8 s", "The longest window"):
+    for wanted in ("displacement_percent", "pseudo-Wigner, 8 s", "The longest window"):
         assert wanted in root.text
     ids = [figure.attributes["id"] for figure in root.all("figure")]
     drawn = [name.removeprefix("recording-") for name in ids if name.startswith("recording-")]

@@ -24,7 +24,9 @@ class Answered(Brief):
 
     subjects: tuple[Subject, ...]
     panels: tuple[Picture, ...]
-    """Error over amplitude for each oscillator and method, where the study has that."""
+    """Error over amplitude for each oscillator and method, where the study has that; the first so many."""
     answers: tuple[Answer, ...]
     failures: tuple[tuple[str, int], ...]
     """Why cells have no value, and how many."""
+    grids: int = 0
+    """How many panels there would be."""

@@ -10,6 +10,7 @@ import numpy as np
 
 from ridgeback.common.numbers import number, uncertain
 from ridgeback.common.show.brief import Brief
+from ridgeback.compare.report.recording_summary import size
 
 if TYPE_CHECKING:
     from ridgeback.compare.identification.results import Identification
@@ -38,6 +39,13 @@ class Runs(Brief):
     """The named oscillator's backbone at the amplitudes of the combined or the first one."""
     named: tuple[Named, ...]
 
+    @property
+    def unit(self) -> str:
+        """That of the channel whose backbone leads: the first combined one, else that of the first signal with one."""
+        leading = [common.channel for common in self.found.combined[:1]]
+        own = [one.recording for one in self.found.measured if one.backbone is not None]
+        return next((r.units for r in own if not leading or r.channel in leading), "")
+
 
 def facts(one: Measurement) -> Mapping[str, str]:
     """A signal's row of the table: what it is, and what was measured of it."""
@@ -50,9 +58,9 @@ def facts(one: Measurement) -> Mapping[str, str]:
     if curve is None:
         return {
             **row,
-            "largest": "",
+            "largest amplitude": "",
             "ω₀ at the largest, Hz": "",
-            "smallest": "",
+            "smallest amplitude": "",
             "ω₀ at the smallest, Hz": "",
             "damping ratio": "",
         }
@@ -61,9 +69,9 @@ def facts(one: Measurement) -> Mapping[str, str]:
     ratio = float(np.median(-curve.curve_growth_rate / curve.curve_omega))
     return {
         **row,
-        "largest": f"{a[high]:.3g}",
+        "largest amplitude": size(float(a[high]), recording.units),
         "ω₀ at the largest, Hz": uncertain(float(omega[high]), float(sd[high])),
-        "smallest": f"{a[low]:.3g}",
+        "smallest amplitude": size(float(a[low]), recording.units),
         "ω₀ at the smallest, Hz": uncertain(float(omega[low]), float(sd[low])),
         "damping ratio": number(ratio, 3),
     }

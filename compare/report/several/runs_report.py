@@ -14,11 +14,11 @@ from ridgeback.common.progress import Progress, silent
 from ridgeback.common.quantities import frequency
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.preparation import prepared
-from ridgeback.compare.identification.results import Identification
 from ridgeback.compare.recording.measurement import Measurement
 from ridgeback.compare.recording.measurements import Measurements, measure_recordings
 from ridgeback.compare.recording.theory import MeasuredCurve, TheoryBackbone, curve_of, over_curve
 from ridgeback.compare.report.provenance import provenance
+from ridgeback.compare.report.recording_summary import at_amplitudes, lowered, size
 from ridgeback.compare.report.results import Card, Report
 from ridgeback.compare.report.several.runs import Named, Runs
 from ridgeback.compare.report.stages import Stopwatch
@@ -184,10 +184,8 @@ def runs_title(runs: Runs) -> str:
         return f"{what}: none has an amplitude clear of the noise"
     amplitude, omega, _ = curve
     low, high = int(np.argmin(amplitude)), int(np.argmax(amplitude))
-    ends = (
-        f"{frequency(float(omega[high]), 's')} at amplitude {amplitude[high]:.3g}, "
-        f"{frequency(float(omega[low]), 's')} at {amplitude[low]:.3g}"
-    )
+    pair = [high, low]
+    ends = at_amplitudes(tuple(amplitude[pair].tolist()), tuple(omega[pair].tolist()), runs.unit)
     scatter = between(found)
     if scatter is None:
         return f"{what}: {ends}"
@@ -218,7 +216,7 @@ def _sentences(runs: Runs) -> Iterator[str]:
             )
         else:
             yield "Where two runs reach an amplitude they agree within their own errors."
-    kinds = [(named.label, _class_of(named.made)) for named in runs.named if named.made is not None]
+    kinds = [(named.label, lowered(named.made)) for named in runs.named if named.made is not None]
     if kinds:
         same = len({title for _, title in kinds}) == 1
         yield (
@@ -226,13 +224,6 @@ def _sentences(runs: Runs) -> Iterator[str]:
             f"{kinds[0][1] if same else '; '.join(f'{label}: {title}' for label, title in kinds)}."
         )
     yield from (f"{failed}." for failed in runs.found.failed[:2])
-
-
-def _class_of(made: Identification) -> str:
-    """The class, as far as one is claimed."""
-    if made.hum:
-        return f"none, {made.hum}"
-    return f"none claimed, {made.best.title} leaves least" if made.unclaimed else made.best.title
 
 
 def _cards(runs: Runs) -> Iterator[Card]:
@@ -244,12 +235,13 @@ def _cards(runs: Runs) -> Iterator[Card]:
     way = trend_of(omega[ends[::-1]], sd[ends[::-1]])
     told = "no dependence beyond the uncertainty" if way is Trend.CONSTANT else way.value
     rows = tuple(
-        (f"at {amplitude[i]:.3g}", f"{uncertain(omega[i] / (2 * np.pi), sd[i] / (2 * np.pi))} Hz") for i in ends
+        (f"at {size(amplitude[i], runs.unit)}", f"{uncertain(omega[i] / (2 * np.pi), sd[i] / (2 * np.pi))} Hz")
+        for i in ends
     )
     yield Card("Fundamental frequency", frequency(float(np.median(omega)), "s"), f"median; {told}", rows)
     ratio, deviation = -growth[1] / growth[3], growth[2] / growth[3]
     middle = float(np.median(ratio))
-    damped = tuple((f"at {growth[0][i]:.3g}", uncertain(ratio[i], deviation[i])) for i in ends)
+    damped = tuple((f"at {size(growth[0][i], runs.unit)}", uncertain(ratio[i], deviation[i])) for i in ends)
     yield Card("Damping ratio", per_cent(middle, signed=middle < 0), "median of −a′/(aω₀)", damped)
     scatter = between(runs.found)
     if scatter is not None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from ridgeback.common.csv_text import csv_text
 from ridgeback.common.errors import InputError
@@ -21,7 +22,7 @@ from ridgeback.compare.studies.measures import backbone
 from ridgeback.compare.studies.measures.by_name import measure_of
 from ridgeback.compare.studies.plan import Plan
 from ridgeback.compare.studies.questions.error import drawing
-from ridgeback.compare.studies.questions.grids import grids, titles
+from ridgeback.compare.studies.questions.grids import backbone_text, called, grids, titles
 from ridgeback.compare.studies.result import StudyResult, result_of
 from ridgeback.compare.studies.running import counted, finished
 from ridgeback.compare.studies.store import Store, Warned, existing
@@ -73,7 +74,7 @@ def study_report(
 
 
 def assembled(found: StudyResult, panels: tuple[Picture, ...], command: str) -> Report:
-    """Put the parts together."""
+    """Put the parts together; of the panels as many as a page shows."""
     plan = found.plan
     settings = {"title": plan.title, "questions": ", ".join(plan.ask), "program": found.program}
     text = json.dumps(plan.to_dict(), sort_keys=True)
@@ -91,7 +92,8 @@ def assembled(found: StudyResult, panels: tuple[Picture, ...], command: str) -> 
         csv=dict(_files(found)),
         answered=Answered(
             subjects=tuple(_subject(s.system) for s in plan.subjects),
-            panels=panels,
+            panels=panels[:PANELS],
+            grids=len(panels),
             answers=found.answers,
             failures=tuple((failure.reason, failure.cells) for failure in found.failures),
         ),
@@ -110,7 +112,7 @@ def _panels(plan: Plan, kept: Store) -> Iterator[Picture]:
     if measure_of(plan.ask) is not backbone.MEASURE:
         return
     found = list(grids(finished(plan, kept, warned=lambda _: None)))
-    for grid, name in list(zip(found, titles(found), strict=True))[:PANELS]:
+    for grid, name in zip(found, titles(found), strict=True):
         yield drawing(grid, name)
 
 
@@ -118,31 +120,44 @@ def study_title(found: StudyResult) -> str:
     """The finding of the first question: how the highest order errs on the best and on the worst oscillator."""
     name = found.plan.title or how_many(len(found.plan.subjects), "oscillator")
     first = found.answers[0]
-    named = {subject.system.name: subject.system.title for subject in found.plan.subjects}
+    names = called(subject.system for subject in found.plan.subjects)
+    named = {(system.name, backbone_text(system)): title for system, title in names.items()}
     verdict = _spread(first, named) if first.question == "error" else ""
     return f"{name}: {verdict or (first.sentences[0] if first.sentences else first.title)}"
 
 
-def _spread(answer: Answer, named: Mapping[str, str]) -> str:
+def _spread(answer: Answer, named: Mapping[tuple[str, str], str]) -> str:
+    """The least and the largest of the errors of the highest order; ``named`` by oscillator and parameters."""
     rows = answer.rows()
+    several = len({row["method"] for row in rows}) > 1
+
+    def who(row: Mapping[str, Any]) -> str:
+        name = named[row["oscillator"], row["parameters"]]
+        return f"{name}, {row['method']}" if several else name
+
     top = max((row["order"] for row in rows), default=None)
     mine = sorted((row for row in rows if row["order"] == top), key=lambda row: float(row["largest"]))
     if len(mine) < 2:
         return ""
     best, worst = mine[0], mine[-1]
     return (
-        f"order {top} errs at most {per_cent(best['largest'])} ({named[best['oscillator']]}) "
-        f"to {per_cent(worst['largest'])} ({named[worst['oscillator']]})"
+        f"order {top} errs at most {per_cent(best['largest'])} ({who(best)}) "
+        f"to {per_cent(worst['largest'])} ({who(worst)})"
     )
 
 
 def study_lead(found: StudyResult) -> str:
     """How large the study is, and what was asked."""
-    count = len(found.plan.subjects)
-    text = f"{found.cells} cells over {how_many(count, 'oscillator')}; asked: {listing(found.plan.ask)}."
+    count = how_many(len(found.plan.subjects), "oscillator")
+    text = f"{found.cells} cells over {count}; asked: {_asked(found.plan.ask)}."
     lost = f" {found.failed} cells have no value; the reasons are below." if found.failed else ""
     failed = [answer.question for answer in found.answers if answer.passed is False]
-    return text + lost + (f" Not all that was tested holds: {listing(failed)}." if failed else "")
+    return text + lost + (f" Not all that was tested holds: {_asked(failed)}." if failed else "")
+
+
+def _asked(questions: Sequence[str]) -> str:
+    """Questions in a sentence."""
+    return listing([name.replace("-", " ") for name in questions])
 
 
 MOST = 5

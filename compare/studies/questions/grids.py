@@ -59,16 +59,19 @@ def titles(found: Sequence[Grid]) -> list[str]:
     >>> titles([Grid(system, "lindstedt", (), none, none, none, 0) for system in (one, two)])
     ['Duffing oscillator, hardening (mu = 0, k = 1, eps = 1)', 'Duffing oscillator, hardening (mu = 0, k = 1, eps = 2)']
     """
-    systems = list(dict.fromkeys(grid.system for grid in found))
     several = len({grid.method for grid in found}) > 1
-    names = [system.title for system in systems]
+    names = called([grid.system for grid in found])
+    return [names[grid.system] + (f", {grid.method}" if several else "") for grid in found]
 
-    def called(grid: Grid) -> str:
-        name = grid.system.title
-        name += f" ({backbone_text(grid.system)})" if names.count(name) > 1 else ""
-        return f"{name}, {grid.method}" if several else name
 
-    return [called(grid) for grid in found]
+def called(systems: Iterable[System]) -> dict[System, str]:
+    """What each oscillator is called among these, with its parameters where two share a title."""
+    each = list(dict.fromkeys(systems))
+    shared = [system.title for system in each]
+    return {
+        system: f"{system.title} ({backbone_text(system)})" if shared.count(system.title) > 1 else system.title
+        for system in each
+    }
 
 
 def axis_of(systems: Iterable[System]) -> str:

@@ -91,7 +91,11 @@ def answer(plan: Plan, blocks: Iterable[Finished]) -> Answer:
     said = (summary(len(rows), passes, fails),)
     title = plan.title or "order of convergence"
     picture = Picture(
-        title, "order of the expansion", "observed less theoretical order, bars 95 %", tuple(strokes[:SHOWN_STROKES])
+        title,
+        "order of the expansion",
+        "observed less theoretical order, bars 95 %",
+        tuple(strokes[:SHOWN_STROKES]),
+        labelled=sorted({row["order"] for row in rows}),
     )
     passed = None if passes + fails == 0 else fails == 0
     title = "order of convergence, observed and theoretical"

@@ -158,7 +158,7 @@ def ranking_table(found: Identification) -> Table:
     fitted = tuple(
         Row(
             (
-                f"{c.title}, {c.damping_law} damping",
+                c.named,
                 number(c.delta, 3),
                 f"{100 * c.weight:.1f} %",
                 number(c.residual, 3),
@@ -184,7 +184,7 @@ def parameter_table(candidate: Candidate, key: str = "parameters", of: str = "")
     """
     return Table(
         key,
-        f"{f'{of}, ' if of else ''}{candidate.title}, {candidate.damping_law} damping",
+        f"{of}, {candidate.named}" if of else candidate.named,
         ("parameter", "value", "95 % interval"),
         tuple(Row((_named(p), *_with_interval(p))) for p in candidate.parameters),
     )

@@ -13,6 +13,7 @@ from ridgeback.common.visible import visible
 from ridgeback.compare.recording.measurement import Measurement
 from ridgeback.compare.recording.measurements import Measurements
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.tracking.track import NORMAL_95
 from ridgeback.reports.drawing.canvas import LINE, Canvas, Line, draw, heading, linear, padded, titles
 from ridgeback.reports.drawing.labels import place
 from ridgeback.reports.drawing.picture import picture
@@ -29,8 +30,6 @@ WIDEST = 100
 """Letters of a line over the panels."""
 LONGEST_NAME = 28
 """Letters of a channel's name that fit under a panel."""
-TWO_SIDED = 1.96
-"""Standard deviations either side that hold 95 % of a normal distribution."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,7 @@ class Band:
 
 def band_of(line: Line, deviation: Array) -> Band:
     """A curve with its standard deviation either side, 1.96 times."""
-    return Band(line, line.y - TWO_SIDED * deviation, line.y + TWO_SIDED * deviation)
+    return Band(line, line.y - NORMAL_95 * deviation, line.y + NORMAL_95 * deviation)
 
 
 def plot_file(found: Measurements, kind: str) -> bytes:

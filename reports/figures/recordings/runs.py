@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.tracking.track import NORMAL_95
 from ridgeback.reports.drawing.apart import apart
 from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout
 from ridgeback.reports.drawing.marks import area, drawing, line, text
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from ridgeback.compare.report.several.runs import Runs
 
 CLOCK = Clock("s")
-TWO_SIDED = 1.96
 MOST = 9
 """Signals that are drawn."""
 MOST_POINTS = 3000
@@ -46,12 +46,12 @@ def backbones(runs: Runs, what: str, factor: float) -> list[Curve]:
     for common in runs.found.combined:
         y, sd = (factor * getattr(common.curve, f"{what}{end}") for end in ("", "_sd"))
         name = "combined" if len(runs.found.combined) == 1 else f"combined, {common.channel}"
-        curves.append(Curve(name, common.curve.amplitude, y, y - TWO_SIDED * sd, y + TWO_SIDED * sd, "rf nf"))
+        curves.append(Curve(name, common.curve.amplitude, y, y - NORMAL_95 * sd, y + NORMAL_95 * sd, "rf nf"))
     for label, one, style in zip(runs.labels, runs.found.measured, STYLES, strict=False):
         if one.backbone is not None:
             y, sd = (factor * getattr(one.backbone, f"curve_{what}{end}") for end in ("", "_sd"))
             x = one.backbone.curve_amplitude
-            curves.append(Curve(label, x, y, y - TWO_SIDED * sd, y + TWO_SIDED * sd, style))
+            curves.append(Curve(label, x, y, y - NORMAL_95 * sd, y + NORMAL_95 * sd, style))
     if what == "omega" and runs.theory is not None:
         y = factor * runs.theory.omega
         curves.append(Curve(f"{runs.theory.title}, exact", runs.theory.amplitude, y, y, y, "rf2 nf"))

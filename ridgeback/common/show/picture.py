@@ -52,6 +52,8 @@ class Picture:
     plane: Plane | None = None
     logarithmic: bool = False
     """Whether the vertical axis is."""
+    labelled: Collection[float] = ()
+    """Where the horizontal axis is labelled; of itself where none is given."""
 
 
 def drawn(picture: Picture, ax: Any = None) -> Any:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ridgeback.compare.identification.identify import identify
-from ridgeback.compare.identification.results import Standing
+from ridgeback.compare.identification.shown import Standing
 from ridgeback.compare.recording.recording import compare_recording
 from ridgeback.compare.report import identification_part
 from ridgeback.compare.report.recording_summary import recording_cards, recording_sentences, recording_title

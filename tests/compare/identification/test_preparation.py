@@ -12,7 +12,8 @@ from ridgeback.compare.identification import preparation
 from ridgeback.compare.identification.candidates import LAWS
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.preparation import prepared
-from ridgeback.compare.identification.results import Identification, Standing
+from ridgeback.compare.identification.results import Identification
+from ridgeback.compare.identification.shown import Standing
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.motion.dynamics import duffing, pendulum
 from ridgeback.numeric.motion.trajectory import integrate
@@ -99,7 +100,7 @@ def test_a_waveform_that_contradicts_a_displacement_is_refused(accelerated: Arra
     assert near(found, "mu", 0.05)
     assert near(found, "eps", 60.0)
     insisted = identify(as_displacement(recording, "displacement"), candidates=FEW)
-    assert "No candidate comes down to the noise: the best candidate leaves" in insisted.verdict
+    assert "No class comes down to the noise: the best candidate leaves" in insisted.verdict
     assert all(math.isnan(one.standard_deviation) for one in insisted.best.parameters)
 
 

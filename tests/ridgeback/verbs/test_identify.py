@@ -32,7 +32,7 @@ def test_text_says_what_made_it(ridgeback: Ridgeback, decay_csv: Path) -> None:
     done = ridgeback("identify", str(decay_csv), *CHOSEN, "--predict-from", "12", "--damping", "linear")
     assert done.code == 0
     assert done.err == ""
-    assert "Linear oscillator, damping linear" in done.out
+    assert "Linear oscillator, linear damping" in done.out
     assert "From the first 12 cycles" in done.out
     for word in ("k", "mu", "rad/s", "mm", "weight"):
         assert word in done.out.split()
