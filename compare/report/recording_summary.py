@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ridgeback.common.numbers import NONE, listing, number, per_cent, uncertain
-from ridgeback.common.quantities import frequency, unit_text
+from ridgeback.common.quantities import frequency, size
 from ridgeback.compare.identification.results import Identification, Prediction
 from ridgeback.compare.identification.shown import Outcome
 from ridgeback.compare.report.results import Card
@@ -71,15 +71,6 @@ def at_amplitudes(sizes: tuple[float, float], omega: tuple[float, float], unit: 
     """
     first, second = (_hertz(value) for value in omega)
     return f"{first} at a fundamental amplitude of {size(sizes[0], unit)}, {second} at {size(sizes[1], unit)}"
-
-
-def size(value: float, unit: str) -> str:
-    """An amplitude in the signal's unit.
-
-    >>> size(0.87612, "mm"), size(2.0, "")
-    ('0.876 mm', '2')
-    """
-    return f"{value:.3g} {unit_text(unit)}".strip()
 
 
 def recording_sentences(found: RecordingComparison, made: Identification | None) -> tuple[str, ...]:

@@ -81,6 +81,15 @@ def amplitude(value: float, unit: str) -> str:
     return f"{text} rad ({in_pi(value)})" if unit == "rad" else f"{text} {unit}".strip()
 
 
+def size(value: float, unit: str) -> str:
+    """A measured amplitude in its signal's unit.
+
+    >>> size(0.87612, "mm"), size(2.0, "")
+    ('0.876 mm', '2')
+    """
+    return f"{value:.3g} {unit_text(unit)}".strip()
+
+
 def short_amplitude(value: float, unit: str) -> str:
     """An amplitude with its unit, an angle in units of π only.
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ridgeback.common.numbers import number, uncertain
+from ridgeback.common.quantities import size
 from ridgeback.common.show.brief import Brief
-from ridgeback.compare.report.recording_summary import size
 
 if TYPE_CHECKING:
     from ridgeback.compare.identification.results import Identification

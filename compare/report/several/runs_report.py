@@ -11,14 +11,14 @@ from ridgeback.common.csv_text import csv_text
 from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import per_cent, uncertain
 from ridgeback.common.progress import Progress, silent
-from ridgeback.common.quantities import frequency
+from ridgeback.common.quantities import frequency, size
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.preparation import prepared
 from ridgeback.compare.recording.measurement import Measurement
 from ridgeback.compare.recording.measurements import Measurements, measure_recordings
 from ridgeback.compare.recording.theory import MeasuredCurve, TheoryBackbone, curve_of, over_curve
 from ridgeback.compare.report.provenance import provenance
-from ridgeback.compare.report.recording_summary import at_amplitudes, lowered, size
+from ridgeback.compare.report.recording_summary import at_amplitudes, lowered
 from ridgeback.compare.report.results import Card, Report
 from ridgeback.compare.report.several.runs import Named, Runs
 from ridgeback.compare.report.stages import Stopwatch
