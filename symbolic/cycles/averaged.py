@@ -18,6 +18,8 @@ POINTS: Final = 16
 """Phases of a cycle at which the force is taken."""
 OCTAVES: Final = 20
 PER_OCTAVE: Final = 2
+ROUNDED: Final = 1e-12
+"""Share of its terms to which a sum of them is right where they grow as fast as an exponential of some hundreds."""
 BISECTIONS: Final = 20
 """From half an octave to 3e-7."""
 
@@ -69,15 +71,22 @@ def _zero(force: sympy.Expr, k: float, low: float, high: float, *, falls: bool) 
 def averaged_loss(force: sympy.Expr, k: float, a: float) -> float | None:
     """The mean of -f sin(theta) over u = a cos(theta), u' = -a k sin(theta); None where f is not real there.
 
+    None, too, where what is left of the terms may be their rounding.
+
     >>> round(averaged_loss(V, 1.0, 2.0), 12)
     1.0
+    >>> averaged_loss(V + sympy.sinh(U), 1.0, 2.0) is None, averaged_loss(V + sympy.sinh(U), 1.0, 50.0) is None
+    (False, True)
     """
     phases = [2 * math.pi * (n + 0.5) / POINTS for n in range(POINTS)]
     try:
         values = [_value(force, a * math.cos(p), -a * k * math.sin(p)) * -math.sin(p) for p in phases]
     except (InputError, OverflowError, ZeroDivisionError):
         return None
-    return math.fsum(values) / POINTS if all(map(math.isfinite, values)) else None
+    if not all(map(math.isfinite, values)):
+        return None
+    total = math.fsum(values)
+    return total / POINTS if abs(total) > ROUNDED * math.fsum(map(abs, values)) else None
 
 
 def _value(force: sympy.Expr, u: float, v: float) -> float:

@@ -17,7 +17,7 @@ from ridgeback.symbolic.systems.oscillator import U, V
 
 DEGREE: Final = 12
 PART: Final = 0.2
-"""The length of a step, as a part of the radius of convergence read off the last coefficients."""
+"""The length of a step, as a part of the time in which the last terms of the place would grow to the peak."""
 MOST_STEPS: Final = 1500
 """Of a motion; from the peak 2, van der Pol's with eps = 60 takes fewer, with eps = 80 more."""
 OCTAVES: Final = 3
@@ -66,15 +66,15 @@ def return_map(force: sympy.Expr, *, turns: int) -> Callable[[float], float | No
     return returned
 
 
-def _followed(force: sympy.Expr, peak: float, turns: int) -> float | None:
+def _followed(force: sympy.Expr, peak: float, turns: int, *, finer: int = 1) -> float | None:
     u, v, left = peak, 0.0, turns
     pull = -2 * _coefficients(force, u, v)[2]
     if not pull > 0:
         return None
     longest = math.sqrt(peak / pull)  # of the first step: about one radian
-    for number in range(MOST_STEPS):
+    for number in range(finer * MOST_STEPS):
         c = _coefficients(force, u, v)
-        step = min(_length(c), longest)
+        step = min(_length(c, peak) / finer, longest)
         longest = math.inf
         u_end, v_end = _at(c, step)
         if not peak / LARGEST < math.hypot(u_end, v_end) < peak * LARGEST:
@@ -132,8 +132,12 @@ def _coefficients(force: sympy.Expr, u: float, v: float) -> list[float]:
     return solution(Program(force, FLOATS, dict(zip((U, V), inputs, strict=True)), U, V).root, *inputs, DEGREE)
 
 
-def _length(c: list[float]) -> float:
-    size = math.hypot(c[0], c[1])
+def _length(c: list[float], size: float) -> float:
+    """How far a series goes with errors far below a size; the velocity, of another unit, has no say in it.
+
+    >>> round(_length([0.0] * DEGREE + [2.0], 2.0), 12)
+    0.2
+    """
     radii = [(size / abs(c[n])) ** (1 / n) for n in (DEGREE - 1, DEGREE) if c[n]]
     return PART * min(radii, default=1.0)
 
@@ -187,8 +191,8 @@ def scan(force: sympy.Expr, *, turns: int, near: Sequence[float]) -> Scan:
     Returns
     -------
     Scan
-        The peaks are where ln(P(A)/A) falls through 0, from an eighth of the first to eight times the last; a double
-        zero is passed over.
+        The peaks are where ln(P(A)/A) falls through 0, from an eighth of the first to eight times the last, between
+        values that are more than the errors of the steps; a double zero is passed over.
 
     Examples
     --------
@@ -208,16 +212,27 @@ def scan(force: sympy.Expr, *, turns: int, near: Sequence[float]) -> Scan:
             return None  # the motion meets a singularity
         return None if found is None else math.log(found / peak)
 
-    found = sorted(_refined(growth, *bracket) for bracket in _brackets(growth, near))
+    def sure(peak: float, value: float) -> bool:
+        try:
+            finer = _followed(force, peak, turns, finer=2)
+        except (InputError, OverflowError, ZeroDivisionError):
+            return False
+        return finer is not None and abs(math.log(finer / peak) - value) < abs(value)
+
+    found = sorted(_refined(growth, *bracket) for bracket in _brackets(growth, sure, near))
     return Scan(tuple(found), lost)
 
 
 Growth = Callable[[float], "float | None"]
+Sure = Callable[[float, float], bool]
 Bracket = tuple[float, float, float, float]
 
 
-def _brackets(growth: Growth, near: Sequence[float]) -> Iterator[Bracket]:
-    """Neighbouring amplitudes between which ln(P(A)/A) falls through 0, with its values there."""
+def _brackets(growth: Growth, sure: Sure, near: Sequence[float]) -> Iterator[Bracket]:
+    """Neighbouring amplitudes between which ln(P(A)/A) falls through 0, with its values there.
+
+    Both are told from 0: steps of half the length change them by less than they are.
+    """
     count = math.ceil(math.log2(near[-1] / near[0]) * PER_OCTAVE) + 2 * OCTAVES * PER_OCTAVE
     last, before, previous = 0.0, None, 0.0
     for n in range(count + 1):
@@ -227,8 +242,10 @@ def _brackets(growth: Growth, near: Sequence[float]) -> Iterator[Bracket]:
         if value is None and before is not None and before > 0:
             here, value = _retreat(growth, previous, here)
         previous = here
+        falls = before is not None and value is not None and before > 0 >= value
         touches = value is not None and before is not None and abs(value) <= TOUCH * before
-        if not touches and before is not None and value is not None and before > 0 >= value:
+        touches = touches or (falls and value is not None and not sure(here, value))
+        if falls and not touches and before is not None and value is not None and sure(last, before):
             yield last, here, before, value
         if ends:
             return

@@ -20,11 +20,12 @@ from ridgeback.symbolic.cycles.enclose import Cycle, enclose_cycle
 from ridgeback.symbolic.cycles.field import field_of
 from ridgeback.symbolic.cycles.found import Unproved, limit_cycles
 from ridgeback.symbolic.cycles.passage import passage
-from ridgeback.symbolic.cycles.search import runs_out, scan
+from ridgeback.symbolic.cycles.search import return_map, runs_out, scan
 from ridgeback.symbolic.cycles.taylor_step import changed, step_from
 from ridgeback.symbolic.enclosure.walk import UndecidedError
 from ridgeback.symbolic.expansion.ball_expansion import holds
 from ridgeback.symbolic.expansion.lindstedt import lindstedt
+from ridgeback.symbolic.systems.any_form import as_oscillator
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator, U, V
 
@@ -73,6 +74,23 @@ def test_the_scan_sees_the_cycle_at_60_and_goes_back_from_peaks_that_it_cannot_f
     found = scan(force, turns=1, near=[2.0])
     assert found.peaks == pytest.approx((2.00240191906388,), rel=1e-6)
     assert found.lost > 0
+
+
+def test_where_all_but_nothing_is_lost_in_a_cycle_rounding_is_no_limit_cycle() -> None:
+    """Beyond a peak of 25 in sinh(u) a cycle takes 1e-4 of the peak and less; a scan saw a zero there at 30.65."""
+    equation = "u'' - (1/5)*(1 - (2/5)*u**2 + (1/6)*u)*u' + sinh(u) = 0"
+    (cycle,) = limit_cycles(equation, bits=64)
+    assert isinstance(cycle, Cycle)
+    assert float(cycle.peak.mid()) == pytest.approx(3.06310186143686)
+    force = as_oscillator(equation).substituted_force
+    for way in (force, force.subs(V, -V)):
+        found = scan(way, turns=2, near=[3.2, 49.4]).peaks
+        assert len(found) == (way == force)
+    there, back = (return_map(way, turns=2) for way in (force, force.subs(V, -V)))
+    far = there(29.0)
+    assert far is not None
+    assert 0.0 < 29.0 - far < 0.01
+    assert back(far) == pytest.approx(29.0, rel=1e-6)
 
 
 def test_a_motion_that_escapes_over_a_saddle_is_not_called_stiff() -> None:
