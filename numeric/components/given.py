@@ -42,6 +42,10 @@ class Given:
         """In the words of the models."""
         return Known(None if self.sound.all() else self.sound.astype(float))
 
+    def filled(self, x: Array, models: SignalModels, tones: tuple[Tone, ...]) -> Given:
+        """The same with samples that do not count as models and tones would have them."""
+        return replace(self, x=np.where(self.sound, x, models.best.samples() + total(tones, self.time)))
+
     def guided(self, tones: tuple[Tone, ...]) -> Given:
         """The same with a guide for what is left without tones: beside them the one of all may follow them."""
         if not tones:

@@ -125,6 +125,11 @@ def separated(
     given = Given(filled, rate, guide, half, multiples, sound, band)
     most += len(beyond)
     models, tones = with_tones(given, beyond, most)
+    if tones and excluded is not None and excluded.any():  # they were filled as if the oscillation were alone
+        given = given.filled(x, models, tones)
+        models, tones = with_tones(given, beyond, most)
+        given = given.filled(x, models, tones)
+        models, tones = with_tones(given, tones, most)
     if free and tones:
         given, models, tones = with_other_modes(given, models, tones, most)
     models, tones = with_overlapping(given, models, tones, most) if most > len(beyond) else (models, tones)
@@ -135,8 +140,7 @@ def separated(
         if not off.any() or (off.mean() > FEW and clearest_line(left, rate, LEAST * float(models.best.size.max()))):
             break  # so many, where a line is left, are its tops
         sound, count = given.sound & ~off, count + int(off.sum())
-        filled = np.where(sound, x, models.best.samples() + total(tones, given.time))
-        given = replace(given, x=filled, sound=sound)
+        given = replace(given, sound=sound).filled(x, models, tones)
         models, tones = with_tones(given, tones, most)
     left = residual(given.x, models.best, tones)
     omega = models.best.mean_omega

@@ -5,6 +5,10 @@ points too.  With quantum q a parabola that rounds to one value over n samples h
 4 q / (n - 1)^2 a step squared, so that its sample b beyond the run has left it by at most
 q ((1 + (2 b + 1) / (n - 1))^2 + 1).  Only a run that is left faster than that is clipped; b is a quarter of the run,
 and not 1, since the first sample may lie anywhere below the level at which a signal is clipped.
+
+Where a top holds fewer than RUN samples, its value tells: a signal that is not clipped comes to its extreme about as
+often as to the values next to it.  Of a sine in steps the top one holds at most 1 / (sqrt 2 - 1) = 2.4 times as many
+samples as the next, of a flat top that is a quartic 1 / (2^(1/4) - 1) = 5.3 times as many.
 """
 
 from __future__ import annotations
@@ -14,6 +18,11 @@ import numpy as np
 from ridgeback.numeric.arrays import Array, Mask
 
 RUN = 3
+BESIDE, OFTEN, FEWEST, TOPS = 8, 6.0, 5, 3
+"""Values next to an extreme that are counted; times their mean count, and deviations beyond, that an extreme occurs
+which is that of a clipped signal; the samples at it, and the tops that they are in, at least."""
+SAME = 1e-9
+"""Of the range: differences of values that are none."""
 
 
 def quantum(x: Array) -> float:
@@ -56,4 +65,24 @@ def clipped(x: Array) -> Mask:
             if beside and min(beside) > rounding * (1.0 + 1e-9):
                 found |= x == extreme  # where one top is cut off, so is every sample that reaches it
                 break
+        else:
+            found |= repeated(x, extreme)
     return found
+
+
+def repeated(x: Array, extreme: float) -> Mask:
+    """True at the samples at an extreme that occurs far more often, in tops of its own, than the values next to it.
+
+    >>> t = np.arange(300.0)
+    >>> x = np.exp(-0.004 * t) * np.cos(0.84 * t)
+    >>> int(repeated(np.minimum(x, 0.8), 0.8).sum()), int(repeated(x, float(x.max())).sum())
+    (9, 0)
+    """
+    steps = np.rint(np.abs(x - extreme) / (SAME * float(np.ptp(x))))
+    at = steps == 0
+    beside = np.unique(steps[~at], return_counts=True)[1][:BESIDE]
+    usual = OFTEN * float(beside.mean()) if beside.size else 0.0
+    single = bool((beside == 1).all())
+    enough = FEWEST if single else usual + OFTEN * float(np.sqrt(usual))
+    clear = beside.size == BESIDE and int(at.sum()) >= enough and len(runs(at, 1)) >= TOPS
+    return at if clear else np.zeros_like(at)

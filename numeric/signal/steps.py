@@ -7,15 +7,14 @@ many steps, and repeats with the signal where it does not (W. R. Bennett, Bell S
 from __future__ import annotations
 
 import numpy as np
+from scipy.special import ndtr
 
 from ridgeback.numeric.arrays import Array
 
 EXACT, MOST_LEVELS = 1e-3, 0.5
 """Share of the step by which values may be off whole steps, and levels per sample of values that come in none."""
-COARSE = 0.4
-"""Noise over the step, the rounding's own 0.29 included, below which there is hardly any other."""
-FEW, DRIFT = 40, 0.02
-"""Phases that are too few for rounding to be as noise on them, and samples by which they may drift in a cycle."""
+LEVELS = 6
+"""To either side of a value, on which it may be rounded: in noise of more than a step the mean error is nothing."""
 
 
 def step_of(values: Array) -> float | None:
@@ -34,30 +33,34 @@ def step_of(values: Array) -> float | None:
     return step if float(np.abs(whole - np.rint(whole)).max()) < EXACT * max(1.0, float(whole[-1])) else None
 
 
-def alike(per_cycle: float) -> int | None:
-    """How many phases samples fall on again and again, at so many a cycle; None where there are many, or they drift.
+# round(m + n) is above the level j with the probability that m + n is above j + 1/2.
+def mean_rounding(values: Array, step: float, noise: float) -> Array:
+    """What rounding to steps, one of which is at 0, adds to values in noise of a standard deviation, on the mean.
 
-    >>> alike(16.0), alike(15.5), alike(15.573), alike(100.0)
-    (16, 31, None, None)
+    >>> places = np.array([0.03, 0.04])
+    >>> mean_rounding(places, 0.1, 1e-4).round(3).tolist(), bool(np.abs(mean_rounding(places, 0.1, 0.08)).max() < 1e-6)
+    ([-0.03, -0.04], True)
     """
-    for cycles in (1, 2, 3):
-        count = round(cycles * per_cycle)
-        if count <= FEW and abs(cycles * per_cycle - count) < DRIFT * cycles:
-            return count
-    return None
+    whole = np.floor(values / step)
+    share, spread = values / step - whole, max(noise / step, EXACT)
+    above = sum(ndtr((share - 0.5 - j) / spread) - (j < 0) for j in range(-LEVELS, LEVELS + 1))
+    return np.asarray(step * (above - share), dtype=np.float64)
 
 
-def rounding_doubt(values: Array, noise: float, per_cycle: float) -> str:
-    """Why rounding does not act as noise on samples, so many a cycle, about a model of which there is this noise.
+def rounding_error(values: Array, predicted: Array, noise: float) -> tuple[Array, float] | None:
+    """What the steps in which samples come add to them, on the mean, and the step; None where they come in none.
 
-    >>> x = np.round(np.cos(2 * np.pi * np.arange(400) / 16), 1)
-    >>> rounding_doubt(x, 0.03, 16.0).split(",")[0], rounding_doubt(x, 0.2, 16.0), rounding_doubt(x, 0.03, 16.3)
-    ('the samples come in steps of 0.1', '', '')
+    Parameters
+    ----------
+    values : array of float, shape (N,)
+        The samples as they were recorded.
+    predicted : array of float, shape (N,)
+        What a model says of them.
+    noise : float
+        Standard deviation of what the model leaves, rounding and all.
     """
-    step, count = step_of(values), alike(per_cycle)
-    if step is None or count is None or noise > COARSE * step:
-        return ""
-    return (
-        f"the samples come in steps of {step:.3g}, larger than their noise, and fall on the same {count} phases "
-        "again and again, so that rounding errs alike in every cycle; record finer steps, or at another rate"
-    )
+    step = step_of(values)
+    if step is None:
+        return None
+    white = np.sqrt(max(noise**2 - step**2 / 12.0, 0.0))
+    return mean_rounding(predicted - values[0], step, float(white)), step

@@ -255,3 +255,12 @@ def test_harmonics_of_an_oscillation_are_no_tones_beside_it() -> None:
     track = estimate(x + 0.003 * np.random.default_rng(1).normal(size=t.size), 100.0)
     assert track.used.tones == ()
     assert track.interval is not None
+
+
+def test_a_hum_is_found_beside_a_clipped_oscillation() -> None:
+    hum = 0.1 * np.cos(2 * np.pi * 24.0 * T + 1.0)
+    x = np.clip(decay(3, 0.004, 0.005) + hum, -0.6, 0.6)
+    found = separated(x, RATE, np.full(T.size, OMEGA), half=40, multiples=None, excluded=np.abs(x) == 0.6)
+    (tone,) = found.tones
+    assert found.reason == ""
+    assert np.abs(tone.samples(T) - hum).max() < 0.005
