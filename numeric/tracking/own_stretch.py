@@ -183,7 +183,7 @@ def part_of(
 
 # An error e in the samples changes the coefficients of a model as noise does, by (J^T J)^-1 J^T e.
 def doubting_steps(request: Request, samples: Samples) -> Request:
-    """The request with a doubt, before all others, where the samples come in steps that err by much of what noise does."""
+    """The request with a doubt, before all others, where samples come in steps that err by much of what noise does."""
     signal = request.signal
     if step_of(samples.x) is None or not has_model(request):
         return request
