@@ -8,6 +8,7 @@ and stay in the samples.  A filter would ring at the ends of the record; a model
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy import fft
@@ -15,7 +16,7 @@ from scipy import fft
 from ridgeback.common.quantities import angular
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.components.bends import with_bends
-from ridgeback.numeric.components.tones import Tone, fitted_tone, total
+from ridgeback.numeric.components.tones import Tone, each_refitted, fitted_tone, refitted, total
 from ridgeback.numeric.harmonics.spline_fit import rounding
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import tapers
@@ -71,66 +72,101 @@ def tones_beyond(x: Array, rate: float, band: tuple[float, float], sound: Mask |
     [(314.0, 0.0)]
     """
     time, counted = np.arange(x.size) / rate, np.ones(x.size) if sound is None else sound.astype(float)
-    found: tuple[Tone, ...] = ()
+    found, left = tuple[Tone, ...](), x
+    alone = there = Spectrum.of(x, rate)
     while len(found) < MOST:
-        line = next_line(x, time, rate, band, found)
+        line = next_line(alone, there, band, more=bool(found))
         if line is None:
             break
-        left = x - total(found, time)
-        more = one_more(x, time, rate, (*found, fitted_tone(left, time, line.omega, counted)), counted)
-        near = 0.5 * TWO_PI * rate / x.size
-        after = highest(x - total(more, time), rate, (line.omega - near, line.omega + near))
+        new = fitted_tone(left, time, line.omega, counted)
+        more, left = one_more(left - new.samples(time), time, rate, (*found, new), counted)
+        there, near = Spectrum.of(left, rate), 0.5 * TWO_PI * rate / x.size
+        after = there.highest((line.omega - near, line.omega + near))
         if after is not None and after.height > TAKEN_OFF * line.height:
             break
         found = more
-    return tuple(tone for tone in found if not is_in(tone.omega, band))
+        alone = Spectrum.of(x - total(out_of(found, band), time), rate)
+    return out_of(found, band)
 
 
-def next_line(x: Array, time: Array, rate: float, band: tuple[float, float], found: tuple[Tone, ...]) -> Line | None:
-    """The next line to take: the highest beyond the band that disturbs, or one that stands in for what is in it."""
-    beyond, left = total(tuple(tone for tone in found if not is_in(tone.omega, band)), time), x - total(found, time)
-    inside, rest = highest(x - beyond, rate, band), highest(left, rate, band)
-    outside = highest(left, rate, band, beyond=True)
+def out_of(tones: tuple[Tone, ...], band: tuple[float, float]) -> tuple[Tone, ...]:
+    """The tones that are not in a band."""
+    return tuple(tone for tone in tones if not is_in(tone.omega, band))
+
+
+def next_line(alone: Spectrum, left: Spectrum, band: tuple[float, float], *, more: bool) -> Line | None:
+    """The next line to take: the highest beyond the band that disturbs, or one that stands in for what is in it.
+
+    Parameters
+    ----------
+    alone : Spectrum
+        Of samples without the tones beyond the band that were found.
+    left : Spectrum
+        Of what all the tones leave.
+    band : (float, float)
+        Rad per time unit.
+    more : bool
+        Whether any were found.
+    """
+    inside, rest, outside = alone.highest(band), left.highest(band), left.highest(band, beyond=True)
     if outside is None or inside is None or rest is None:
         return outside
     if outside.height > inside.height:
         return outside
     disturbs = outside.height > DISTURBING * inside.height and not is_multiple(outside.omega, inside.omega)
-    if rest.height > UNDERSTOOD * inside.height and (disturbs or found):
+    if rest.height > UNDERSTOOD * inside.height and (disturbs or more):
         return rest
     return outside if disturbs else None
 
 
-def one_more(x: Array, time: Array, rate: float, tones: tuple[Tone, ...], sound: Array) -> tuple[Tone, ...]:
-    """Tones, each fitted to what the others leave, in turns; with bends where they gain."""
-    floor = rounding(np.abs(x))
-    for done in range(ROUNDS):
-        for i, tone in enumerate(tones):
-            left = x - total((*tones[:i], *tones[i + 1 :]), time)
-            new = fitted_tone(left, time, tone.omega, sound, tone)
-            new = with_bends(left, rate, new, sound, floor=floor) if done in (0, ROUNDS - 1) else new
-            tones = (*tones[:i], new, *tones[i + 1 :])
-    return tones
+def one_more(
+    left: Array, time: Array, rate: float, tones: tuple[Tone, ...], sound: Array
+) -> tuple[tuple[Tone, ...], Array]:
+    """Tones that leave ``left``, each fitted to what the others leave, in turns; with bends where they gain.
 
-
-def highest(x: Array, rate: float, band: tuple[float, float], *, beyond: bool = False) -> Line | None:
-    """The highest line in a band, or beyond it, of the Hann spectrum or of that of either half of a Hann window.
-
-    What turns less than LOWEST_CYCLES times is drift.
-
-    >>> t = np.arange(1000) / 100.0
-    >>> line = highest(0.3 * np.cos(20.0 * t) + np.cos(50.0 * t), 100.0, (40.0, 60.0), beyond=True)
-    >>> round(line.omega, 1), round(line.height, 1)
-    (20.1, 0.3)
+    And what they leave then.
     """
-    omega = TWO_PI * rate * fft.rfftfreq(2 * x.size)
-    inside = (omega >= band[0]) & (omega <= band[1])
-    usable = (inside != beyond) & (omega > TWO_PI * rate * LOWEST_CYCLES / x.size)
-    if not usable.any():
-        return None
-    heights = np.max([np.abs(fft.rfft(x * w, 2 * x.size)) * 2.0 / float(w.sum()) for w in tapers(x.size)], axis=0)
-    at = int(np.where(usable, heights, 0.0).argmax())
-    return Line(float(omega[at]), float(heights[at]))
+    floor = rounding(np.abs(left + total(tones, time)))
+
+    def bent(rest: Array, tone: Tone) -> Tone:
+        return with_bends(rest, rate, refitted(rest, tone, time=time, sound=sound), sound, floor=floor)
+
+    plainly = partial(refitted, time=time, sound=sound)
+    for done in range(ROUNDS):
+        tones, left = each_refitted(left, time, tones, bent if done in (0, ROUNDS - 1) else plainly)
+    return tones, left
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """The larger of the Hann spectrum and that of either half of a Hann window, at frequencies in rad per time unit."""
+
+    omega: Array
+    heights: Array
+    lowest: float
+    """Below which what turns is drift: LOWEST_CYCLES a record."""
+
+    @classmethod
+    def of(cls, x: Array, rate: float) -> Spectrum:
+        """The spectrum of samples."""
+        heights = np.max([np.abs(fft.rfft(x * w, 2 * x.size)) * 2.0 / float(w.sum()) for w in tapers(x.size)], axis=0)
+        return cls(TWO_PI * rate * fft.rfftfreq(2 * x.size), heights, TWO_PI * rate * LOWEST_CYCLES / x.size)
+
+    def highest(self, band: tuple[float, float], *, beyond: bool = False) -> Line | None:
+        """The highest line in a band, or beyond it.
+
+        >>> t = np.arange(1000) / 100.0
+        >>> spectrum = Spectrum.of(0.3 * np.cos(20.0 * t) + np.cos(50.0 * t), 100.0)
+        >>> line = spectrum.highest((40.0, 60.0), beyond=True)
+        >>> round(line.omega, 1), round(line.height, 1)
+        (20.1, 0.3)
+        """
+        inside = (self.omega >= band[0]) & (self.omega <= band[1])
+        usable = (inside != beyond) & (self.omega > self.lowest)
+        if not usable.any():
+            return None
+        at = int(np.where(usable, self.heights, 0.0).argmax())
+        return Line(float(self.omega[at]), float(self.heights[at]))
 
 
 def nothing_in(band: tuple[float, float], beyond: float) -> str:

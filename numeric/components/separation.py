@@ -120,7 +120,7 @@ def separated(
     free = multiples is None and most > 0
     if free:
         apart = filled - total(beyond, np.arange(x.size) / rate)
-        multiples, others = unlocked(apart, rate, guide, half, sound.astype(float))
+        multiples, others = unlocked(Given(apart, rate, guide, half, (), sound, band))
         beyond = (*beyond, *others)
     given = Given(filled, rate, guide, half, multiples, sound, band)
     most += len(beyond)
@@ -260,9 +260,5 @@ def settled(given: Given, tones: tuple[Tone, ...]) -> tuple[SignalModels, tuple[
 def all_with_bends(given: Given, model: SplineModel, tones: tuple[Tone, ...]) -> tuple[Tone, ...]:
     """Tones with bends where these gain, each judged by what the model and the others leave."""
     sound, floor = given.known.sound_of(given.x.size), rounding(model.size)
-
-    def bent(i: int) -> Tone:
-        left = residual(given.x, model, (*tones[:i], *tones[i + 1 :]))
-        return with_bends(left, given.rate, tones[i], sound, floor=floor)
-
-    return tuple(bent(i) for i in range(len(tones)))
+    left, time = residual(given.x, model, tones), given.time
+    return tuple(with_bends(left + tone.samples(time), given.rate, tone, sound, floor=floor) for tone in tones)

@@ -9,16 +9,25 @@ whatever its frequency: d = 0.  A mode at a ratio near h, such as 1.99 or the pa
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from scipy import fft
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, ComplexArray
-from ridgeback.numeric.components.tones import Tone, fitted_tone, total
-from ridgeback.numeric.harmonics.signal_model import shown_multiples, signal_models
-from ridgeback.numeric.harmonics.spline_fit import Known
+from ridgeback.numeric.components.given import Given
+from ridgeback.numeric.components.tones import (
+    SETTLED,
+    Tone,
+    each_refitted,
+    fitted_tone,
+    least_squares,
+    refitted,
+    total,
+)
+from ridgeback.numeric.harmonics.signal_model import shown_multiples
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import tapers
@@ -66,24 +75,24 @@ def riding(left: Array, time: Array, turn: ComplexArray, reach: float, sound: Ar
     >>> round(line.slope, 6), round(line.growth, 6), round(abs(line.size), 6)
     (2.0, -1.0, 0.3)
     """
-    line = begin(left * sound, time, turn, reach)
+    heard, span = left * sound, float(time[-1])
+    line = begin(heard, time, turn, reach)
     for _ in range(ITERATIONS):
-        wave = line.wave(time, turn)
-        linear = np.stack([wave.real, -wave.imag], axis=1) * sound[:, None]
-        size = complex(*np.linalg.lstsq(linear, left * sound, rcond=None)[0].tolist())
+        wave = line.wave(time, turn) * sound
+        size = complex(*least_squares(np.stack([wave.real, -wave.imag]), heard)[0].tolist())
         whole = size * wave
-        jacobian = np.concatenate([linear, (np.stack([-whole.imag, whole.real], axis=1).T * time * sound).T], axis=1)
-        off = (left - whole.real) * sound
-        step = np.linalg.lstsq(jacobian, off, rcond=None)[0]
-        most = max(0.5 / float(time[-1]), 0.3 * abs(line.growth))
+        later, off = whole * time, heard - whole.real
+        step, variance = least_squares(np.stack([wave.real, -wave.imag, -later.imag, later.real]), off)
+        most = max(0.5 / span, 0.3 * abs(line.growth))
         slope, growth = (float(np.clip(one, -most, most)) for one in step[2:])
-        variance = float(np.mean(off**2) * np.linalg.pinv(jacobian.T @ jacobian)[2, 2])
         line = Riding(
             float(np.clip(line.slope + slope, -reach, reach)),
-            float(np.clip(line.growth + growth, -reach, 2.0 / float(time[-1]))),
+            float(np.clip(line.growth + growth, -reach, 2.0 / span)),
             size,
-            math.sqrt(max(variance, 0.0)),
+            math.sqrt(max(float(variance[2]), 0.0) * float(np.mean(off**2))),
         )
+        if float(np.abs(step[2:]).max()) * span < SETTLED:
+            break
     return line
 
 
@@ -112,10 +121,10 @@ def slipping(left: Array, model: SplineModel, multiples: tuple[int, ...], sound:
     """
     time, omega = model.time, model.mean_omega
     turns = {h: np.exp(1j * h * model.phase) for h in multiples}
-    sizes = {h: abs(riding(left, time, turns[h], REACH * omega, sound).size) for h in multiples}
-    found = dict[int, Tone]()
-    for h in sorted(multiples, key=lambda h: -sizes[h]):
-        line = riding(left, time, turns[h], REACH * omega, sound)
+    lines = {h: riding(left, time, turns[h], REACH * omega, sound) for h in multiples}
+    found, order = dict[int, Tone](), sorted(multiples, key=lambda h: -abs(lines[h].size))
+    for h in order:
+        line = lines[h] if h == order[0] else riding(left, time, turns[h], REACH * omega, sound)
         harmonic = (line.size * line.wave(time, turns[h])).real
         tone = fitted_tone(left, time, h * omega + line.slope, sound)
         mode = tone.samples(time)
@@ -140,23 +149,13 @@ def fits_better(x: Array, one: Array, other: Array) -> bool:
     return sure and rest - left > MUCH * float(np.sum(one**2))
 
 
-def unlocked(
-    x: Array, rate: float, guide: Array, half: int, sound: Array
-) -> tuple[tuple[int, ...] | None, tuple[Tone, ...]]:
+def unlocked(given: Given) -> tuple[tuple[int, ...] | None, tuple[Tone, ...]]:
     """The harmonics that are locked to an oscillation, and tones for other modes near its multiples.
 
     Parameters
     ----------
-    x : array of float, shape (N,)
-        Samples without their mean.
-    rate : float
-        Samples per time unit.
-    guide : array of float, shape (N,)
-        About the frequency of the oscillation, rad per time unit.
-    half : int
-        Half the window in which harmonics are chosen.
-    sound : array of float, shape (N,)
-        1 at the samples that count.
+    given : Given
+        Samples of the oscillation; its ``multiples`` do not count.
 
     Returns
     -------
@@ -169,22 +168,22 @@ def unlocked(
     --------
     >>> t, noise = np.arange(1500) / 250.0, 0.01 * np.random.default_rng(1).normal(size=1500)
     >>> x = np.exp(-0.5 * t) * np.cos(63.0 * t + 0.2 * np.exp(-t)) + noise
-    >>> guide, sound = np.full(1500, 63.0), np.ones(1500)
-    >>> multiples, (tone,) = unlocked(x + 0.3 * np.exp(-t) * np.cos(128.0 * t), 250.0, guide, 50, sound)
+    >>> mode, harmonic = np.exp(-t) * np.cos(128.0 * t), np.exp(-t) * np.cos(126.0 * t + 0.4 * np.exp(-t))
+    >>> given = Given(x + 0.3 * mode, 250.0, np.full(1500, 63.0), 50, (), np.ones(1500, dtype=bool))
+    >>> multiples, (tone,) = unlocked(given)
     >>> multiples, round(tone.omega), round(tone.growth)
     ((), 128, -1)
-    >>> unlocked(x + 0.1 * np.exp(-t) * np.cos(126.0 * t + 0.4 * np.exp(-t)), 250.0, guide, 50, sound)
+    >>> unlocked(replace(given, x=x + 0.1 * harmonic))
     (None, ())
     """
     try:
-        multiples = shown_multiples(x, rate, guide, half=half)
-        known = Known(None if sound.all() else sound)
-        models = signal_models(x, rate, guide, half=half, multiples=(), known=known) if multiples else None
+        multiples = shown_multiples(given.x, given.rate, given.guide, half=given.half)
+        models = replace(given, multiples=()).models(given.x, given.known) if multiples else None
     except InputError:
         return None, ()
     if models is None:
         return None, ()
-    return locked_and_others(x, models.best, multiples, sound)
+    return locked_and_others(given.x, models.best, multiples, given.known.sound_of(given.x.size))
 
 
 def locked_and_others(
@@ -196,8 +195,7 @@ def locked_and_others(
     if not others:
         return None, ()
     tones, time = tuple(others.values()), model.time
+    left, refit = left - total(tones, time), partial(refitted, time=time, sound=sound)
     for _ in range(ROUNDS):
-        for i, tone in enumerate(tones):
-            rest = left - total((*tones[:i], *tones[i + 1 :]), time)
-            tones = (*tones[:i], fitted_tone(rest, time, tone.omega, sound, tone), *tones[i + 1 :])
+        tones, left = each_refitted(left, time, tones, refit)
     return tuple(h for h in multiples if h not in others), tones
