@@ -52,7 +52,7 @@ def track(**more: Any) -> Track:
     [
         (lambda: check_enough(np.zeros(9, bool), np.zeros(9, bool)), "0 points are clear of the noise and of clipped"),
         (lambda: Distribution(np.ones((1, 2)), np.ones(1), np.arange(2.0), "one").spacing, "needs two points on it"),
-        (lambda: find_search_band(np.zeros(64), 8.0), "shows no oscillation between"),
+        (lambda: find_search_band(np.zeros(64), 8.0), "shows no oscillation in the band"),
         (lambda: runs_of(COLUMNS, 1, 3), "run column run has 2 rows, the signal 3"),
         (lambda: check_valid(np.zeros(9, bool), "x", 0.0, SHORT), "holds only 0.5 steps of 0.1"),
         (lambda: adiabatic.adiabatic_motion(linear(), STUB(), (1.0, 0.0), [-1.0]), "finite and not before 0"),
