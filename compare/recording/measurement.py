@@ -101,19 +101,26 @@ class Measurement(Brief):
 
 
 def amplitude_columns(curve: Backbone, time: Array) -> Mapping[str, Array]:
-    """Amplitude and growth rate along ``time``, linear between the backbone's points, NaN away from them."""
+    """Amplitude and growth rate along ``time``, linear between the backbone's points, NaN away from them.
+
+    Up to one spacing beyond its ends, as at the first and the last samples, the amplitude goes on at the growth rate.
+    """
     spacing = float(np.median(np.diff(curve.time)))
     after = np.clip(np.searchsorted(curve.time, time), 1, curve.time.size - 1)
-    inside = (time >= curve.time[0]) & (time <= curve.time[-1])
-    near = inside & (curve.time[after] - curve.time[after - 1] < 1.5 * spacing)
+    beyond = time - np.clip(time, curve.time[0], curve.time[-1])
+    near = (beyond != 0.0) | (curve.time[after] - curve.time[after - 1] < 1.5 * spacing)
+    near &= np.abs(beyond) <= spacing
 
     def along(values: Array) -> Array:
         return np.where(near, np.interp(time, curve.time, values), np.nan)
 
+    growth, growth_sd = along(curve.growth_rate), along(curve.growth_rate_sd)
+    grown = np.exp(np.where(near, growth * beyond, 0.0))
+    amplitude = grown * along(curve.amplitude)
     return {
-        "amplitude": along(curve.amplitude),
-        "amplitude_standard_deviation": along(curve.amplitude_sd),
-        **growth_columns(*(along(v) for v in (curve.growth_rate, curve.growth_rate_sd, curve.omega, curve.omega_sd))),
+        "amplitude": amplitude,
+        "amplitude_standard_deviation": np.hypot(grown * along(curve.amplitude_sd), amplitude * growth_sd * beyond),
+        **growth_columns(growth, growth_sd, along(curve.omega), along(curve.omega_sd)),
     }
 
 
@@ -187,7 +194,7 @@ def measured(recording: Recording, found: Estimation, harmonic: int, band: objec
         return of_harmonic(recording, found, harmonic, band)
     few = decimation_notes(found.samples, float(recording.time[0]), float(recording.time[-1]))
     own = (*few, *recording.drift_notes(track.used.span), *recording.notes)
-    told = (*beside_notes(track.used.tones, track.used.spikes), *own)
+    told = (*beside_notes(track.used.tones, track.used.spikes), *bias_notes(track), *own)
     if track.used.doubt:
         said = f"No interval and no amplitude: {track.used.doubt}."
         return Measurement(recording, track, None, (said, *told), unmeasured=track.used.doubt)
@@ -210,6 +217,26 @@ def measured(recording: Recording, found: Estimation, harmonic: int, band: objec
         return Measurement(recording, track, None, (*told, f"No amplitude: {reason}."), unmeasured=reason)
     curve = replace(curve, units=recording.units)
     return Measurement(recording, track, curve, (*hum_notes(curve), *told, *curve.notes))
+
+
+def bias_notes(track: Track) -> tuple[str, ...]:
+    """How many values their own interval does not hold, since it is about the value less its bias.
+
+    >>> w, all_valid = np.full(3, 6.0), np.ones(3, dtype=bool)
+    >>> track = Track(np.arange(3.0), w, all_valid, "example", np.full(3, 0.01), np.array([0.0, 0.0, 0.5]))
+    >>> bias_notes(track)[0][:56]
+    'The intervals of 1 of 3 frequencies do not hold these: t'
+    """
+    interval = track.interval
+    if interval is None or track.bias_removed:
+        return ()
+    apart = track.valid & ((track.omega < interval.low) | (track.omega > interval.high))
+    if not apart.any():
+        return ()
+    return (
+        f"The intervals of {np.count_nonzero(apart)} of {np.count_nonzero(track.valid)} frequencies do not hold these: "
+        "they are about the frequency less its bias, which --remove-bias takes off.",
+    )
 
 
 def hum_notes(curve: Backbone) -> tuple[str, ...]:

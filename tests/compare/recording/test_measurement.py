@@ -24,6 +24,11 @@ def recording(samples=500, name="u", units="", run="", stretch=0, clip=np.inf, s
     return Recording(t, x, RATE, name, units, "a.csv", "0", run=run, stretch=stretch, clipped=np.abs(x) >= clip)
 
 
+def noisy():
+    noise = 0.001 * np.random.default_rng(1).normal(size=T.size)
+    return Recording(T, recording().values + noise, RATE, "u", "", "a.csv", "0")
+
+
 def test_rows_join_frequency_and_amplitude_and_say_where_there_is_none():
     found = measure(recording(), **QUICK)
     rows = found.rows()
@@ -47,6 +52,22 @@ def test_amplitude_is_not_interpolated_across_points_that_were_left_out():
     assert np.isnan(columns["amplitude"][(T > 9.5) & (T < 11.5)]).all()
     assert np.isfinite(columns["amplitude"][(T > 6.0) & (T < 8.0)]).all()
     assert np.isfinite(columns["amplitude"][(T > 14.0) & (T < 20.0)]).all()
+
+
+def test_every_valid_time_of_a_clean_decay_has_an_amplitude_to_its_ends():
+    rows = measure(noisy()).rows()
+    assert all(row["valid"] for row in rows)
+    for row in rows:
+        spread = 5.0 * row["amplitude_standard_deviation"]
+        assert row["amplitude"] == pytest.approx(1.2 * np.exp(-0.05 * row["time_s"]), abs=spread)
+
+
+def test_values_that_their_own_interval_does_not_hold_are_said_to_be_biased():
+    found = measure(noisy(), method="hilbert")
+    assert any("--remove-bias" in note for note in found.notes)
+    less = measure(noisy(), method="hilbert", remove_bias=True)
+    assert not any("--remove-bias" in note for note in less.notes)
+    assert all(row["low_95_rad_s"] <= row["omega_rad_s"] <= row["high_95_rad_s"] for row in less.rows() if row["valid"])
 
 
 def test_the_interval_holds_the_truth_and_is_that_of_the_estimator():
