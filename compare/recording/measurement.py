@@ -222,10 +222,10 @@ def measured(recording: Recording, found: Estimation, harmonic: int, band: objec
 def bias_notes(track: Track) -> tuple[str, ...]:
     """How many values their own interval does not hold, since it is about the value less its bias.
 
-    >>> w, all_valid = np.full(3, 6.0), np.ones(3, dtype=bool)
-    >>> track = Track(np.arange(3.0), w, all_valid, "example", np.full(3, 0.01), np.array([0.0, 0.0, 0.5]))
-    >>> bias_notes(track)[0][:56]
-    'The intervals of 1 of 3 frequencies do not hold these: t'
+    >>> w, small, bias = np.full(3, 6.0), np.full(3, 0.01), np.array([0.0, 0.0, 0.5])
+    >>> track = Track(np.arange(3.0), w, np.ones(3, dtype=bool), "example", small, bias, bias_deviation=small)
+    >>> bias_notes(track)[0][:53]
+    'The intervals of 1 of 3 frequencies do not hold these'
     """
     interval = track.interval
     if interval is None or track.bias_removed:
