@@ -6,6 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from ridgeback.common.numbers import number
+from ridgeback.common.quantities import Pace, pace_of
 from ridgeback.compare.motion.results import Curve, Image, SignedPlane
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.distributions.distribution import Distribution
@@ -40,9 +42,11 @@ def spectrogram_image(
     plane = spectrogram(x, rate, window_seconds=seconds, hop=max(1, x.size // COLUMNS), start=start)
     first, last = start + seconds / 2, start + (x.size - 1) / rate - seconds / 2
     whole = columns(plane, (plane.time >= first) & (plane.time <= last))
+    pace = pace_of(1.0 / period) if unit == "s" else Pace(unit or "time unit", unit, 1.0)
+    length = f"{seconds / pace.seconds:.3g} {pace.sign or 'time units'}"
     note = (
-        f"Hann window of {seconds:.3g} {unit or 'time units'}; {rate:.4g} samples per {unit or 'time unit'}.  Shown "
-        "from half a window inside the record: nearer its ends the window would see past them."
+        f"Hann window of {length}; {number(rate * pace.seconds)} samples per {pace.name}.  Shown from "
+        "half a window inside the record: nearer its ends the window would see past them."
     )
     return image(whole, top=top, name=name, overlays=overlays, note=note, floor_db=floor_db)
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ridgeback.common.numbers import uncertain
+from ridgeback.common.quantities import unit_text
 from ridgeback.compare.study.results import Formula
 from ridgeback.numeric.arrays import Array
 
@@ -75,8 +76,8 @@ def _fit(square: Array, y: Array, sigma: Array, terms: int) -> BackboneFit:
     return BackboneFit(solution * units, np.sqrt(np.diag(covariance)) * units * inflation, residual)
 
 
-def formula_of(fit: BackboneFit) -> Formula:
-    r"""Print a fit, its coefficients with their uncertainty in the note.
+def formula_of(fit: BackboneFit, unit: str = "") -> Formula:
+    r"""Print a fit, its coefficients with their uncertainty in the note; ``unit`` is that of the amplitude.
 
     >>> formula_of(BackboneFit(np.array([2.0, -0.25]), np.array([0.01, 0.002]), 1.0)).terms
     ('2.000', '-0.2500\\,a^{2}')
@@ -88,8 +89,9 @@ def formula_of(fit: BackboneFit) -> Formula:
         left=r"\omega_0(a)",
         terms=terms,
         note=(
-            f"Coefficients with one standard deviation: {spread}. Residuals are {fit.residual:.2g} times their own "
-            "standard deviation, root mean square."
+            f"ω₀ in rad/s, a in {unit_text(unit) or 'the unit of the signal'}. Coefficients with one standard "
+            f"deviation: {spread}. Residuals are {fit.residual:.2g} times their own standard deviation, root mean "
+            "square."
         ),
         python="omega0 = " + " + ".join(f"({value!r})*a**{2 * n}" for n, (value, _) in enumerate(_pairs(fit))),
     )

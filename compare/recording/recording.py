@@ -167,7 +167,7 @@ def _assembled(
         backbone_omega_sd=known * curve.curve_omega_sd,
         growth_rate=curve.curve_growth_rate,
         growth_rate_sd=known * curve.curve_growth_rate_sd,
-        fit=None if fit is None else formula_of(fit),
+        fit=None if fit is None else formula_of(fit, recording.units),
         notes=tuple(_notes(curves, said)),
         theory=() if oscillator is None else (theory_curve(oscillator, curve),),
         over=None if oscillator is None else over_measured(oscillator, curve, known=not doubt),

@@ -14,7 +14,12 @@ from ridgeback.compare.report import csv_tables as tables
 from ridgeback.compare.report.identification_part import identification_part
 from ridgeback.compare.report.noise_part import TRIALS, NoisePart, noise_part
 from ridgeback.compare.report.provenance import provenance
-from ridgeback.compare.report.recording_summary import recording_cards, recording_sentences, recording_title
+from ridgeback.compare.report.recording_summary import (
+    recording_cards,
+    recording_lead,
+    recording_sentences,
+    recording_title,
+)
 from ridgeback.compare.report.results import Report
 from ridgeback.compare.report.stages import Stopwatch
 from ridgeback.numeric.recording.reading import read_recording
@@ -97,7 +102,7 @@ def recording_report(
     settings = _settings(found, theory, {"cycles": cycles, "trials": trials, "band": band})
     return Report(
         title=recording_title(found),
-        lead=f"{found.source}, {found.column}: {found.time.size} samples shown, {found.rate:g} per second.",
+        lead=recording_lead(found),
         summary=(*recording_sentences(found, made.found), *left_out),
         cards=recording_cards(found),
         derivation=None,

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ridgeback.common.numbers import NONE, listing, number, per_cent, uncertain
-from ridgeback.common.quantities import frequency, size
+from ridgeback.common.quantities import SECOND, frequency, pace_of, size
 from ridgeback.compare.identification.results import Identification, Prediction
 from ridgeback.compare.identification.shown import Outcome
 from ridgeback.compare.report.results import Card
@@ -60,7 +60,19 @@ def recording_title(found: RecordingComparison) -> str:
     if found.doubt:
         return f"{text}: no uncertainty is claimed"
     way = trend(found)
-    return f"{text}: no dependence beyond the uncertainty" if way is Trend.CONSTANT else f"{text}: {way.value}"
+    if way is Trend.CONSTANT:
+        middle = _hertz(_middle(omega[_known(found)]))
+        return f"{middle} at every fundamental amplitude from {size(a[high], found.unit)} to {size(a[low], found.unit)}"
+    return f"{text}: {way.value}"
+
+
+def recording_lead(found: RecordingComparison) -> str:
+    """What the recording is, and how finely it is sampled."""
+    pace = pace_of(_middle(found.backbone_omega) / (2 * np.pi))
+    return (
+        f"{found.source}, {found.column}: {found.time.size} samples shown, {number(found.rate * pace.seconds)} per "
+        f"{pace.name}."
+    )
 
 
 def at_amplitudes(sizes: tuple[float, float], omega: tuple[float, float], unit: str) -> str:
@@ -133,10 +145,11 @@ def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
     """Frequency, growth rate and damping ratio, uncertainty, each with its ends."""
     low, high = ends(found)
     sizes = [f"at {size(found.backbone_amplitude[i], found.unit)}" for i in (high, low)]
-    omega = [
-        uncertain(found.backbone_omega[i] / (2 * np.pi), found.backbone_omega_sd[i] / (2 * np.pi)) for i in (high, low)
-    ]
-    growth = [uncertain(found.growth_rate[i], found.growth_rate_sd[i]) for i in (high, low)]
+    pace = pace_of(_middle(found.backbone_omega) / (2 * np.pi))
+    turn, per = 2 * np.pi / pace.seconds, pace.sign if pace is SECOND else pace.name
+    omega = [uncertain(found.backbone_omega[i] / turn, found.backbone_omega_sd[i] / turn) for i in (high, low)]
+    rates, deviations = found.growth_rate * pace.seconds, found.growth_rate_sd * pace.seconds
+    growth = [uncertain(rates[i], deviations[i]) for i in (high, low)]
     ratio = [uncertain(found.damping_ratio[i], found.growth_rate_sd[i] / found.backbone_omega[i]) for i in (high, low)]
     middle = _middle(found.damping_ratio[_known(found)])
     return (
@@ -144,7 +157,10 @@ def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
             "Fundamental frequency",
             _hertz(_middle(found.backbone_omega[_known(found)])),
             "median" if found.doubt else f"median; {trend(found).value}",
-            tuple((size, f"{value} Hz") for size, value in zip(sizes, omega, strict=True)),
+            tuple(
+                (size, f"{value} {'Hz' if pace is SECOND else f'per {per}'}")
+                for size, value in zip(sizes, omega, strict=True)
+            ),
         ),
         Card("Damping ratio", NONE, "a steady tone is no decay", ())
         if found.hum
@@ -154,7 +170,7 @@ def recording_cards(found: RecordingComparison) -> tuple[Card, Card, Card]:
             "median of −a′/(aω₀)",
             (
                 *((size, value) for size, value in zip(sizes, ratio, strict=True)),
-                ("a′/a", f"{growth[0]} and {growth[1]} per s"),
+                ("a′/a", f"{growth[0]} and {growth[1]} per {per}"),
             ),
         ),
         _uncertainty(found),

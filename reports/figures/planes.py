@@ -12,6 +12,7 @@ from ridgeback.common.quantities import frequency
 from ridgeback.compare.motion.harmonics.folding import Folding, folded, folded_sentence
 from ridgeback.compare.motion.results import Curve, Image, MotionComparison, SignedPlane
 from ridgeback.numeric.arrays import Array
+from ridgeback.reports.drawing.apart import text_width
 from ridgeback.reports.drawing.figure import Figure
 from ridgeback.reports.drawing.marks import curve, drawing, group, line, places, rect, text, trace
 from ridgeback.reports.drawing.panel import Panel
@@ -134,7 +135,8 @@ def _frame(span: tuple[float, float], omega: Array, clock: Clock) -> Panel:
 
 
 def _axes(panel: Panel, clock: Clock, title: str) -> list[str]:
-    marks = [text(0, 12, clock.unit or "ω", "m"), text(44, 12, title, "fgt b")]
+    unit = clock.unit or "ω"
+    marks = [text(0, 12, unit, "m"), text(max(44.0, text_width(unit) + 14.0), 12, title, "fgt b")]
     marks.append(trace("ax nf", "M", panel.left, panel.top, "V", panel.bottom, "H", panel.right))
     for value in panel.y.ticks(5):
         marks += [

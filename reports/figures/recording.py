@@ -18,13 +18,12 @@ from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series,
 from ridgeback.reports.drawing.marks import area, drawing, group, line, places, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
-from ridgeback.reports.figures.clock import Clock, shown
+from ridgeback.reports.figures.clock import SECONDS, Clock, shown
 from ridgeback.reports.figures.planes import level_plane, record_data
 
 if TYPE_CHECKING:
     from ridgeback.compare.recording.results import RecordingComparison
 
-CLOCK = Clock("s")
 LETTER, ROW, HEIGHTS = 7.0, 17.0, 5
 """Width of a letter of a key, about, height of its lines, and heights at which it may stand."""
 CLOSE = 0.5
@@ -182,15 +181,15 @@ def crossing(band: Band, panel: Panel, at: tuple[float, float], size: tuple[floa
     return count
 
 
-def backbone_figure(recording: RecordingComparison) -> Figure:
+def backbone_figure(recording: RecordingComparison, clock: Clock = SECONDS) -> Figure:
     """Frequency and growth rate against amplitude with 95 % bands, the named oscillator's backbone over them."""
-    f = CLOCK.factor
+    f = clock.factor
     x = recording.backbone_amplitude
     theory = recording.over
     over = () if theory is None else ((f"{theory.title}, exact", theory.omega * f, "el d1 nf"),)
     bands = (
-        Band(CLOCK.title(), x, recording.backbone_omega * f, np.nan_to_num(recording.backbone_omega_sd * f), over),
-        Band("growth rate a′/a, 1/s", x, recording.growth_rate, np.nan_to_num(recording.growth_rate_sd)),
+        Band(clock.title(), x, recording.backbone_omega * f, np.nan_to_num(recording.backbone_omega_sd * f), over),
+        Band(clock.growth_title, x, recording.growth_rate, np.nan_to_num(recording.growth_rate_sd)),
     )
     caption = (
         "Fundamental frequency and growth rate a′/a, negative in a decay, against the amplitude of the fundamental. "
@@ -205,7 +204,7 @@ def backbone_figure(recording: RecordingComparison) -> Figure:
     )
 
 
-def signal_figure(recording: RecordingComparison) -> Figure:
+def signal_figure(recording: RecordingComparison, clock: Clock = SECONDS) -> Figure:
     """The recording itself with its amplitude."""
     label = f"{recording.column} over time with its amplitude"
     wide, narrow = (
@@ -217,7 +216,7 @@ def signal_figure(recording: RecordingComparison) -> Figure:
     def marks(panel: Panel, narrow: bool) -> list[str]:
         parts = [
             panel.rows(most=4),
-            panel.columns(most=4 if narrow else 8, unit="t, s"),
+            panel.columns(most=4 if narrow else 8, unit=clock.time_title),
             text(0, 11, recording.column, "m"),
         ]
         curves = [panel.curve(recording.time, recording.signal, "ul nf")]
@@ -228,8 +227,9 @@ def signal_figure(recording: RecordingComparison) -> Figure:
         key="recording-signal",
         wide=drawing(WIDE, 270, "wide", label, marks(wide, False)),
         narrow=drawing(NARROW, 270, "narrow", label, marks(narrow, True)),
-        caption=f"{recording.column} at {number(recording.rate)} samples per s, with the amplitude of its fundamental.",
-        data=readout(((wide,), (narrow,)), series, name="t", unit="s", link="time", places=FINE),
+        caption=f"{recording.column} at {number(recording.rate)} samples per {clock.word}, with the amplitude of "
+        "its fundamental.",
+        data=readout(((wide,), (narrow,)), series, name="t", unit=clock.time_unit, link="time", places=FINE),
         label=label,
     )
 
@@ -240,25 +240,25 @@ def _time_panel(recording: RecordingComparison, values: Sequence[Array], *, narr
     return Panel(x, Scale(*padded(values, share=0.08), 24.0 + height, 24.0))
 
 
-def plane_figure(recording: RecordingComparison) -> Figure:
+def plane_figure(recording: RecordingComparison, clock: Clock = SECONDS) -> Figure:
     """The spectrogram with the ridge that the chosen track follows."""
     image = recording.spectrogram
     chosen = next((curve for curve in recording.curves if curve.name == recording.chosen), None)
     span = float(recording.time[0]), float(recording.time[-1])
     return Figure(
         key="recording-plane",
-        wide=level_plane("recording-plane-p", image, CLOCK, span, chosen),
+        wide=level_plane("recording-plane-p", image, clock, span, chosen),
         narrow="",
         caption=f"{image.name}, level in decibels of its maximum, with the track. {image.note}".strip(),
         many="single",
         label=image.name,
-        data=record_data(image, CLOCK, span),
+        data=record_data(image, clock, span),
     )
 
 
-def tracks_figure(recording: RecordingComparison) -> Figure:
+def tracks_figure(recording: RecordingComparison, clock: Clock = SECONDS) -> Figure:
     """All tracks over time, the chosen one thick, named at the right edge with their distance from it."""
-    f = CLOCK.factor
+    f = clock.factor
     chosen = next((c for c in recording.curves if c.name == recording.chosen), recording.curves[0])
     others = [c for c in recording.curves if c is not chosen]
     drawn = [chosen, *others, *recording.theory]
@@ -268,13 +268,13 @@ def tracks_figure(recording: RecordingComparison) -> Figure:
     spread = [np.quantile(v[np.isfinite(v)], [0.01, 0.99]) for v in values if np.isfinite(v).any()]
     panels = tuple(_time_panel(recording, spread, narrow=n, height=230.0) for n in (False, True))
     wide = Panel(Scale(panels[0].x.low, panels[0].x.high, 64.0, 700.0), panels[0].y)
-    series = [Series(c.label, c.time, v, CLOCK.unit) for c, v in zip(drawn, values, strict=True)]
+    series = [Series(c.label, c.time, v, clock.unit) for c, v in zip(drawn, values, strict=True)]
 
     def marks(panel: Panel, narrow: bool) -> list[str]:
         parts = [
             panel.rows(most=5),
-            panel.columns(most=4 if narrow else 8, unit="t, s"),
-            text(0, 11, CLOCK.title(), "m"),
+            panel.columns(most=4 if narrow else 8, unit=clock.time_title),
+            text(0, 11, clock.title(), "m"),
         ]
         curves = []
         for c, v in zip(drawn, values, strict=True):
@@ -294,7 +294,7 @@ def tracks_figure(recording: RecordingComparison) -> Figure:
         wide=drawing(WIDE, 300, "wide", label, [*marks(wide, False), *beside]),
         narrow=drawing(NARROW, 300 + ROW * len(names), "narrow", label, [*marks(panels[1], True), *below]),
         caption=f"Thick: {chosen.label}, from which the backbone is made; beside the others, their rms distance.",
-        data=readout(((wide,), (panels[1],)), series, name="t", unit="s", link="time"),
+        data=readout(((wide,), (panels[1],)), series, name="t", unit=clock.time_unit, link="time"),
         label=label,
     )
 

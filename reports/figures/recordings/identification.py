@@ -15,11 +15,10 @@ from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, reado
 from ridgeback.reports.drawing.marks import area, drawing, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
-from ridgeback.reports.figures.clock import Clock
+from ridgeback.reports.figures.clock import SECONDS, Clock
 from ridgeback.reports.figures.recording import Band, side_by_side
 from ridgeback.reports.text.tables import Row, Table
 
-CLOCK = Clock("s")
 SPELT = {"w": "omega", "phase": "phi"}
 """Stems of parameters whose symbol is another one."""
 STYLES = ("el nf", "sl d1 nf", "el d2 nf", "sl d3 nf")
@@ -30,9 +29,9 @@ def unit_of(found: Identification) -> str:
     return f", {unit_text(found.unit)}" if found.unit else ""
 
 
-def candidates_figure(found: Identification) -> Figure:
+def candidates_figure(found: Identification, clock: Clock = SECONDS) -> Figure:
     """The leading candidates over what was measured without any class in mind."""
-    data, f = found.data, CLOCK.factor
+    data, f = found.data, clock.factor
 
     def over(name: str, factor: float) -> tuple[tuple[str, Array, str], ...]:
         shown = [(c, np.interp(data.amplitude, *_ordered(c, name))) for c in found.candidates[: len(STYLES)]]
@@ -40,8 +39,8 @@ def candidates_figure(found: Identification) -> Figure:
 
     omega_sd, growth_sd = (np.nan_to_num(sd) for sd in (data.omega_sd, data.growth_rate_sd))
     bands = (
-        Band(CLOCK.title(), data.amplitude, data.omega * f, omega_sd * f, over("omega", f)),
-        Band("growth rate a′/a, 1/s", data.amplitude, data.growth_rate, growth_sd, over("growth_rate", 1.0)),
+        Band(clock.title(), data.amplitude, data.omega * f, omega_sd * f, over("omega", f)),
+        Band(clock.growth_title, data.amplitude, data.growth_rate, growth_sd, over("growth_rate", 1.0)),
     )
     claimed = ", bands 95 %" if omega_sd.any() else ""
     return side_by_side(
@@ -100,7 +99,7 @@ def panels_of(made: Prediction, unit: str) -> tuple[Panelled, ...]:
     )
 
 
-def forecast_figure(made: Prediction, found: Identification) -> Figure:
+def forecast_figure(made: Prediction, found: Identification, clock: Clock = SECONDS) -> Figure:
     """Amplitude, frequency and phase as forecast from the first cycles, with what was measured later."""
     rows = panels_of(made, unit_of(found))
     label = "Forecast amplitude, frequency and phase with what was measured"
@@ -119,7 +118,7 @@ def forecast_figure(made: Prediction, found: Identification) -> Figure:
             ]
             curves = [panel.curve(made.time, row.centre, "el nf"), panel.curve(made.time, row.measured, "tl nf")]
             marks.append(panel.zooming([*bands, *curves]))
-        marks.append(panels[-1].columns(most=4 if narrow else 8, unit="t, s"))
+        marks.append(panels[-1].columns(most=4 if narrow else 8, unit=clock.time_title))
         drawn.append(drawing(NARROW if narrow else WIDE, 550, "narrow" if narrow else "wide", label, marks))
     series = [Series(f"{row.title}, measured", made.time, row.measured) for row in rows]
     series += [Series("forecast", made.time, rows[0].centre)]
@@ -129,11 +128,10 @@ def forecast_figure(made: Prediction, found: Identification) -> Figure:
         wide=drawn[0],
         narrow=drawn[1],
         caption=f"{_title(made.candidate, found)} fitted to the first {number(made.cycles, 3)} cycles, to t = "
-        f"{number(made.until)} s. Orange: forecast; teal: what was measured later, less the forecast below the first "
-        f"panel; each with its 95 % band. Rms distance: amplitude "
-        f"{per_cent(errors.get('amplitude'))}, frequency {per_cent(errors.get('omega'))}, phase "
-        f"{number(errors.get('phase'), 3)} rad.",
-        data=readout((groups[0], groups[1]), series, name="t", unit="s", link="time"),
+        f"{number(made.until)} {clock.time_unit}. Orange: forecast; teal: what was measured later, less the forecast "
+        f"below the first panel; each with its 95 % band. Rms distance: amplitude {per_cent(errors.get('amplitude'))}, "
+        f"frequency {per_cent(errors.get('omega'))}, phase {number(errors.get('phase'), 3)} rad.",
+        data=readout((groups[0], groups[1]), series, name="t", unit=clock.time_unit, link="time"),
         label=label,
     )
 

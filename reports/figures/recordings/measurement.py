@@ -20,8 +20,8 @@ from ridgeback.reports.drawing.picture import picture
 from ridgeback.reports.drawing.theme import SERIES, Variant, colour_of
 from ridgeback.reports.figures.clock import Clock
 from ridgeback.reports.figures.recording import amplitudes
+from ridgeback.reports.figures.recordings.slow_records import clock_at
 
-CLOCK = Clock("s")
 PAGE = Variant("wide", 9.6, 6.4)
 MOST_POINTS = 4000
 """Samples drawn of each signal: more than a picture has columns."""
@@ -72,11 +72,18 @@ def drawn(found: Measurements) -> Canvas:
     heading(canvas, said, left=10.0)
     panels = canvas.grid((1.0, 1.0), 2, left=LEFT, gap=GAP, above=LINE * len(said))
     cut = f", {len(shown)} of {len(found.measured)} signals" if len(shown) < len(found.measured) else ""
-    signal_panel(panels[0], shown, cut)
-    frequency_panel(panels[1], shown)
-    curve_panel(panels[2], found, "omega")
-    curve_panel(panels[3], found, "growth_rate")
+    clock = clock_for(shown)
+    signal_panel(panels[0], shown, cut, clock)
+    frequency_panel(panels[1], shown, clock)
+    curve_panel(panels[2], found, "omega", clock)
+    curve_panel(panels[3], found, "growth_rate", clock)
     return canvas
+
+
+def clock_for(shown: Sequence[Measurement]) -> Clock:
+    """The clock of the first signal that has a frequency, in which all are drawn."""
+    omega = (one.track.omega[np.isfinite(one.track.omega)] for one in shown if one.track is not None)
+    return clock_at(next(omega, np.array([])))
 
 
 def unclaimed(shown: Sequence[Measurement]) -> list[str]:
@@ -119,45 +126,46 @@ def label_of(one: Measurement, shown: Sequence[Measurement]) -> str:
     return clipped(", ".join(part for part in parts if part))
 
 
-def signal_panel(axes: Axes, shown: Sequence[Measurement], more: str) -> None:
+def signal_panel(axes: Axes, shown: Sequence[Measurement], more: str, clock: Clock) -> None:
     """The samples, and the amplitude of each on them."""
     lines, envelopes = [], []
     for one, token in zip(shown, SERIES, strict=False):
         recording = one.recording
         step = max(1, recording.time.size // MOST_POINTS)
-        lines.append(Line(recording.time[::step], recording.values[::step], "", token, width=0.6))
+        lines.append(Line(recording.time[::step] / clock.seconds, recording.values[::step], "", token, width=0.6))
         if one.backbone is not None:
             curve = one.backbone
             gap = np.diff(curve.time, prepend=curve.time[0]) > 1.5 * float(np.median(np.diff(curve.time)))
             height = np.where(gap, np.nan, curve.offset + curve.amplitude)
             label = "amplitude" if len(shown) == 1 else ""
-            envelopes.append(Line(curve.time, height, label, "s2" if len(shown) == 1 else "fg", width=1.4))
+            own = "s2" if len(shown) == 1 else "fg"
+            envelopes.append(Line(curve.time / clock.seconds, height, label, own, width=1.4))
     span(axes, lines)
     linear(axes, "y", *padded([line.y for line in lines], share=0.14))
-    titles(axes, x=CLOCK.time_title, y=channels(shown) + more)
+    titles(axes, x=clock.time_title, y=channels(shown) + more)
     for line in [*lines, *envelopes]:
         draw(axes, line)
     place(axes, envelopes[:1] if len(shown) == 1 else [])
 
 
-def frequency_panel(axes: Axes, shown: Sequence[Measurement]) -> None:
+def frequency_panel(axes: Axes, shown: Sequence[Measurement], clock: Clock) -> None:
     """Frequency over time where it is valid, with its band."""
-    bands = [track_band(one, label_of(one, shown), token) for one, token in zip(shown, SERIES, strict=False)]
+    bands = [track_band(one, label_of(one, shown), token, clock) for one, token in zip(shown, SERIES, strict=False)]
     span(axes, [band.line for band in bands])
-    draw_bands(axes, bands, titled=(CLOCK.time_title, CLOCK.title()))
+    draw_bands(axes, bands, titled=(clock.time_title, clock.title()))
 
 
-def track_band(one: Measurement, label: str, token: str) -> Band:
+def track_band(one: Measurement, label: str, token: str, clock: Clock) -> Band:
     """The frequency of one signal in display units."""
-    along = one.frequency()
-    line = Line(along.time, along.omega * CLOCK.factor, label, token, width=1.3)
-    return Band(line, along.low * CLOCK.factor, along.high * CLOCK.factor)
+    along, factor = one.frequency(), clock.seconds * clock.factor
+    line = Line(along.time / clock.seconds, along.omega * factor, label, token, width=1.3)
+    return Band(line, along.low * factor, along.high * factor)
 
 
-def curve_panel(axes: Axes, found: Measurements, what: str) -> None:
+def curve_panel(axes: Axes, found: Measurements, what: str, clock: Clock) -> None:
     """Frequency or growth rate against amplitude: each signal, and what they have in common."""
     shown = found.measured[: len(SERIES)]
-    factor = CLOCK.factor if what == "omega" else 1.0
+    factor = clock.seconds * (clock.factor if what == "omega" else 1.0)
     bands = []
     for one, token in zip(shown, SERIES, strict=False):
         if one.backbone is not None:
@@ -171,7 +179,7 @@ def curve_panel(axes: Axes, found: Measurements, what: str) -> None:
         line = Line(common.curve.amplitude, mean * factor, label, "fg", width=2.4)
         bands.append(band_of(line, deviation * factor))
     linear(axes, "x", *amplitudes(np.concatenate([band.line.x for band in bands] or [np.array([])])), ticks=6)
-    title = CLOCK.title() if what == "omega" else "a′/a / (1/s)"
+    title = clock.title() if what == "omega" else clock.growth_title.removeprefix("growth rate ")
     draw_bands(axes, bands, titled=(f"amplitude of {channels(shown)}", title))
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ridgeback.common.quantities import unit_text
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.tracking.track import NORMAL_95
 from ridgeback.reports.drawing.apart import apart
@@ -18,11 +19,11 @@ from ridgeback.reports.drawing.scale import Scale, padded
 from ridgeback.reports.figures.answer import STYLES
 from ridgeback.reports.figures.clock import Clock
 from ridgeback.reports.figures.recording import amplitudes
+from ridgeback.reports.figures.recordings.slow_records import clock_at
 
 if TYPE_CHECKING:
     from ridgeback.compare.report.several.runs import Runs
 
-CLOCK = Clock("s")
 MOST = 9
 """Signals that are drawn."""
 MOST_POINTS = 3000
@@ -60,9 +61,12 @@ def backbones(runs: Runs, what: str, factor: float) -> list[Curve]:
 
 def runs_backbone(runs: Runs) -> Figure:
     """Frequency and growth rate against amplitude, all signals over one another."""
-    unit = next((one.recording.units for one in runs.found.measured if one.recording.units), "")
-    titles = (CLOCK.title(), "growth rate a′/a, 1/s")
-    groups = (backbones(runs, "omega", CLOCK.factor), backbones(runs, "growth_rate", 1.0))
+    unit, clock = unit_text(runs.unit), _clock(runs)
+    titles = (clock.title(), clock.growth_title)
+    groups = (
+        backbones(runs, "omega", clock.seconds * clock.factor),
+        backbones(runs, "growth_rate", clock.seconds),
+    )
     label = "Backbone and growth rate of every signal against amplitude"
     names = groups[0]
     wide = [_panel(group, i, narrow=False) for i, group in enumerate(groups)]
@@ -75,7 +79,7 @@ def runs_backbone(runs: Runs) -> Figure:
     marks["wide"] += _key(names, 64.0, 372.0, 3)
     marks["narrow"] += _key(names, 4.0, 604.0, 1)
     rows = -(-len(names) // 3)
-    series = [Series(curve.name, curve.x, curve.y, CLOCK.unit) for curve in groups[0]]
+    series = [Series(curve.name, curve.x, curve.y, clock.unit) for curve in groups[0]]
     return Figure(
         key="runs-backbone",
         wide=drawing(WIDE, 376 + 18 * rows, "wide", label, marks["wide"]),
@@ -121,8 +125,8 @@ def _key(curves: Sequence[Curve], left: float, top: float, columns: int) -> list
 
 def runs_samples(runs: Runs) -> Figure:
     """The samples of each signal with its amplitude, one panel below the other on a common time."""
-    shown = list(zip(runs.labels, runs.found.measured, STYLES, strict=False))[:MOST]
-    span = _span([one.recording.time for _, one, _ in shown])
+    shown, clock = list(zip(runs.labels, runs.found.measured, STYLES, strict=False))[:MOST], _clock(runs)
+    span = _span([one.recording.time / clock.seconds for _, one, _ in shown])
     label = "Samples of every signal over time with their amplitude"
     groups = tuple(
         tuple(
@@ -142,23 +146,35 @@ def runs_samples(runs: Runs) -> Figure:
             unit = f", {recording.units}" if recording.units else ""
             step = max(1, recording.time.size // MOST_POINTS)
             parts += [panel.rows(most=3), text(0, panel.top - 10, f"{name}{unit}", "m")]
-            curves = [panel.curve(recording.time[::step], recording.values[::step], "ul nf")]
+            time = recording.time[::step] / clock.seconds
+            curves = [panel.curve(time, recording.values[::step], "ul nf")]
             if one.backbone is not None:
                 curve = one.backbone
-                curves.append(panel.curve(curve.time, curve.offset + curve.amplitude, style.replace(" d", " x")))
+                curves.append(
+                    panel.curve(curve.time / clock.seconds, curve.offset + curve.amplitude, style.replace(" d", " x"))
+                )
             parts.append(panel.zooming(curves))
-        return [*parts, panels[-1].columns(most=4 if narrow else 8, unit=CLOCK.time_title)]
+        return [*parts, panels[-1].columns(most=4 if narrow else 8, unit=clock.time_title)]
 
-    series = [Series(name, one.recording.time, one.recording.values, one.recording.units) for name, one, _ in shown]
+    series = [
+        Series(name, one.recording.time / clock.seconds, one.recording.values, one.recording.units)
+        for name, one, _ in shown
+    ]
     height = 124.0 * len(shown) + 46.0
     return Figure(
         key="runs-samples",
         wide=drawing(WIDE, height, "wide", label, marks(groups[0], False)),
         narrow=drawing(NARROW, height, "narrow", label, marks(groups[1], True)),
         caption="Samples, and the amplitude of the fundamental on them." + _cut(runs),
-        data=readout((groups[0], groups[1]), series, name="t", unit="s", link="time", places=FINE),
+        data=readout((groups[0], groups[1]), series, name="t", unit=clock.time_unit, link="time", places=FINE),
         label=label,
     )
+
+
+def _clock(runs: Runs) -> Clock:
+    """The clock of the first signal that has a backbone, in which all are shown."""
+    own = next((one.backbone.curve_omega for one in runs.found.measured if one.backbone is not None), np.array([]))
+    return clock_at(own)
 
 
 def _cut(runs: Runs) -> str:
@@ -172,21 +188,23 @@ def _span(times: Sequence[Array]) -> tuple[float, float]:
 
 def runs_tracks(runs: Runs) -> Figure:
     """Frequency over time of every signal with its 95 % interval, named at the right edge."""
-    f = CLOCK.factor
+    clock = _clock(runs)
+    f = clock.seconds * clock.factor
     curves = []
     for label, one, style in list(zip(runs.labels, runs.found.measured, STYLES, strict=False))[:MOST]:
         along = one.frequency()
-        curves.append(Curve(label, along.time, along.omega * f, along.low * f, along.high * f, style))
+        time = along.time / clock.seconds
+        curves.append(Curve(label, time, along.omega * f, along.low * f, along.high * f, style))
     label = "Fundamental frequency of every signal over time"
     values = [np.quantile(c.y[np.isfinite(c.y)], [0.005, 0.995]) for c in curves if np.isfinite(c.y).any()]
     y = Scale(*padded(values, share=0.1), 260.0, 28.0)
     span = _span([c.x for c in curves])
     wide, narrow = Panel(Scale(*span, 64.0, 760.0), y), Panel(Scale(*span, 52.0, 360.0), y)
-    series = [Series(c.name, c.x, c.y, CLOCK.unit) for c in curves]
+    series = [Series(c.name, c.x, c.y, clock.unit) for c in curves]
 
     def marks(panel: Panel, narrow_: bool) -> list[str]:
-        parts = [panel.rows(most=5), panel.columns(most=4 if narrow_ else 8, unit=CLOCK.time_title)]
-        parts.append(text(0, 11, CLOCK.title(), "m"))
+        parts = [panel.rows(most=5), panel.columns(most=4 if narrow_ else 8, unit=clock.time_title)]
+        parts.append(text(0, 11, clock.title(), "m"))
         bands = [area(panel.x.of(c.x), y.clipped(c.low), y.clipped(c.high), f"{c.style[0]}f") for c in curves]
         inside = [np.where((c.y >= y.low) & (c.y <= y.high), c.y, np.nan) for c in curves]
         drawn = [panel.curve(c.x, values, c.style) for c, values in zip(curves, inside, strict=True)]
@@ -205,6 +223,6 @@ def runs_tracks(runs: Runs) -> Figure:
             NARROW, 312 + 17 * len(curves), "narrow", label, [*marks(narrow, True), *_key(curves, 4.0, 316.0, 1)]
         ),
         caption="Frequency of the fundamental where it is valid, bands 95 %." + _cut(runs),
-        data=readout(((wide,), (narrow,)), series, name="t", unit="s", link="time"),
+        data=readout(((wide,), (narrow,)), series, name="t", unit=clock.time_unit, link="time"),
         label=label,
     )

@@ -13,16 +13,16 @@ from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series,
 from ridgeback.reports.drawing.marks import drawing, group, line, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
-from ridgeback.reports.figures.clock import Clock
+from ridgeback.reports.figures.clock import SECONDS, Clock
+from ridgeback.reports.figures.recordings.slow_records import fit_in
 
 if TYPE_CHECKING:
     from ridgeback.compare.identification.sample_fit import SampleFit
 
-CLOCK = Clock("s")
 LEAST_DB = -120.0
 
 
-def fit_figure(found: SampleFit, title: str, unit: str) -> Figure:
+def fit_figure(found: SampleFit, title: str, unit: str, clock: Clock = SECONDS) -> Figure:
     """Samples and model above, their difference below on a scale of its own.
 
     Parameters
@@ -33,7 +33,10 @@ def fit_figure(found: SampleFit, title: str, unit: str) -> Figure:
         The class that was fitted.
     unit
         Of the signal; may be empty.
+    clock
+        In which its times, s, are shown.
     """
+    found = fit_in(found, clock.seconds)
     residual = found.samples - found.model
     label = f"Samples and the fit of {title} over time, and their difference"
     groups = tuple(_panels(found, narrow=narrow) for narrow in (False, True))
@@ -43,7 +46,7 @@ def fit_figure(found: SampleFit, title: str, unit: str) -> Figure:
         upper, lower = panels
         parts = [upper.rows(most=4), lower.rows(most=4), text(0, 11, f"samples and fit{behind}", "m")]
         parts += [text(0, lower.top - 10, f"samples less fit{behind}", "m")]
-        parts += [lower.columns(most=4 if narrow else 8, unit=CLOCK.time_title)]
+        parts += [lower.columns(most=4 if narrow else 8, unit=clock.time_title)]
         both = [upper.curve(found.time, found.samples, "ul nf"), upper.curve(found.time, found.model, "el th nf")]
         return [*parts, upper.zooming(both), lower.zooming([lower.curve(found.time, residual, "tl th nf")])]
 
@@ -59,7 +62,7 @@ def fit_figure(found: SampleFit, title: str, unit: str) -> Figure:
         narrow=drawing(NARROW, 380, "narrow", label, marks(groups[1], True)),
         caption=f"Grey: samples; orange: {title}, fitted to them; teal: what it leaves, {per_cent(share)} of the "
         "signal’s rms.",
-        data=readout((groups[0], groups[1]), series, name="t", unit="s", link="time", places=FINE),
+        data=readout((groups[0], groups[1]), series, name="t", unit=clock.time_unit, link="time", places=FINE),
         label=label,
     )
 
@@ -70,9 +73,9 @@ def _panels(found: SampleFit, *, narrow: bool) -> tuple[Panel, Panel]:
     return Panel(x, upper), Panel(x, Scale(*padded([found.samples - found.model], share=0.08), 338.0, 222.0))
 
 
-def spectrum_figure(found: SampleFit) -> Figure:
+def spectrum_figure(found: SampleFit, clock: Clock = SECONDS) -> Figure:
     """Spectra of samples and of the residual, with the multiples of the fundamental."""
-    f = CLOCK.factor
+    said, found, f = line_sentence(found), fit_in(found, clock.seconds), clock.factor
     label = "Spectra of the samples and of what the fit leaves"
     low = max(LEAST_DB, float(np.min(found.residual_level)) - 4.0)
     panels = tuple(
@@ -85,7 +88,7 @@ def spectrum_figure(found: SampleFit) -> Figure:
 
     def marks(panel: Panel, narrow: bool) -> list[str]:
         parts = [panel.rows(most=6, label=lambda v: minus(f"{v:g}")), text(0, 11, "dB of the samples’ highest", "m")]
-        parts += [panel.columns(most=4 if narrow else 8, unit="frequency, Hz"), *_multiples(found, panel)]
+        parts += [panel.columns(most=4 if narrow else 8, unit=f"frequency, {clock.unit}"), *_multiples(found, panel, f)]
         parts += [panel.curve(found.omega * f, found.samples_level, "ul nf")]
         parts += [panel.curve(found.omega * f, found.residual_level, "tl nf")]
         return parts
@@ -98,16 +101,16 @@ def spectrum_figure(found: SampleFit) -> Figure:
         key="residual-spectrum",
         wide=drawing(WIDE, 284, "wide", label, marks(panels[0], False)),
         narrow=drawing(NARROW, 284, "narrow", label, marks(panels[1], True)),
-        caption=f"Grey: samples; teal: samples less fit, Welch’s averages under a Hann window. {line_sentence(found)}",
-        data=readout(((panels[0],), (panels[1],)), series, name="frequency", unit="Hz", link=""),
+        caption=f"Grey: samples; teal: samples less fit, Welch’s averages under a Hann window. {said}",
+        data=readout(((panels[0],), (panels[1],)), series, name="frequency", unit=clock.unit, link=""),
         label=label,
     )
 
 
-def _multiples(found: SampleFit, panel: Panel) -> list[str]:
+def _multiples(found: SampleFit, panel: Panel, factor: float) -> list[str]:
     marks, names = [], []
     for n in range(1, 9):
-        x = panel.x(n * found.fundamental * CLOCK.factor)
+        x = panel.x(n * found.fundamental * factor)
         if x < panel.right - 12:
             marks.append(line(x, panel.top, x, panel.bottom, "g"))
             names.append(text(x, panel.top - 6, "ω₀" if n == 1 else f"{n} ω₀", "m sm", "middle"))
