@@ -81,7 +81,7 @@ BY_NAME: dict[str, frozenset[str]] = {
     "compare/binding/heyoka.py": frozenset({"heyoka"}),
     "numeric/late.py": frozenset({"scipy.signal", "scipy.io.wavfile"}),
 }
-OF_THE_HOUSE = frozenset({"faults", "fuzz", "kill", "mutants", "packaging"})
+OF_THE_HOUSE = frozenset({"faults", "fuzz", "kill", "mutants", "packaging", "pages"})
 """Folders of tests/ that stand for no folder of a room: what they try goes through the whole house."""
 MOST_FILES = 14
 MOST_LINES = 400

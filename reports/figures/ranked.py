@@ -38,7 +38,7 @@ def ranked_drawing(which: Shown, target: float, label: str, width: float, *, tim
         marks.append(rect(x.start, 32, x(min(floor, x.high)) - x.start, height - 32))
     marks.append(text((x.start + x.end) / 2, 11, "rms error", "m sm", "middle"))
     ticks = x.ticks(8)
-    marks += _ticks(x, ticks, error_ticks(ticks), height)
+    marks += _ticks(x, ticks, error_ticks(ticks), (width, height))
     marks.append(line(x(target), 32, x(target), height, "tg"))
     cost = None
     if timed:
@@ -46,19 +46,19 @@ def ranked_drawing(which: Shown, target: float, label: str, width: float, *, tim
         cost = Scale(0.7 * min(known), 1.6 * max(known), split + 16, width - 6, log=True)
         middle = min((cost.start + cost.end) / 2, width - 0.5 * text_width("cost of a track", 11.0) - 2.0)
         marks.append(text(middle, 11, "cost of a track", "m sm", "middle"))
-        marks += _ticks(cost, cost.ticks(8), round_duration, height)
+        marks += _ticks(cost, cost.ticks(8), round_duration, (width, height))
     for i, row in enumerate(rows):
         marks.append(_ranked_row(which, row, 42 + step * (i + 0.5), names, x, cost))
     return drawing(width, height, "narrow" if width < WIDE else "wide", label, marks)
 
 
-def _ticks(scale: Scale, values: Iterable[float], worded: Callable[[float], str], height: float) -> Iterable[str]:
+def _ticks(
+    scale: Scale, values: Iterable[float], worded: Callable[[float], str], size: tuple[float, float]
+) -> Iterable[str]:
     """Lines with words, every first, second, third... of them, as many as leave room for all their words."""
-    inside = [
-        v
-        for v in values
-        if scale.start - 8 < scale(v) - _half(worded(v)) and scale(v) + _half(worded(v)) < scale.end + 8
-    ]
+    width, height = size
+    most = min(scale.end + 8, width - 3)
+    inside = [v for v in values if scale.start - 8 < scale(v) - _half(worded(v)) and scale(v) + _half(worded(v)) < most]
     strides = (inside[k::n] for n in range(1, len(inside) + 1) for k in range(n))
     kept = next((some for some in strides if _apart(scale, some, worded)), [])
     for value in kept:
@@ -67,7 +67,8 @@ def _ticks(scale: Scale, values: Iterable[float], worded: Callable[[float], str]
 
 
 def _half(words: str) -> float:
-    return 0.5 * text_width(words, 11.0)
+    """Half a width, a tenth beyond what is guessed: a reader's font may be wider."""
+    return 0.55 * text_width(words, 11.0)
 
 
 def _apart(scale: Scale, values: Sequence[float], worded: Callable[[float], str]) -> bool:

@@ -21,6 +21,8 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+from tests.pages.requests import two_columns
+
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 BLOCK = re.compile(r"^```sh\n(.*?)^```", flags=re.DOTALL | re.MULTILINE)
@@ -50,9 +52,8 @@ def prepared(folder: Path) -> None:
     """The reader's own files under the names of the pages."""
     for arguments in GIVEN:
         subprocess.run([sys.executable, "-m", "ridgeback", *arguments], cwd=folder, check=True)
-    for run in folder.glob("run*.csv"):  # times and samples, as most recordings are
-        rows = run.read_text(encoding="utf-8").splitlines()
-        run.write_text("".join(f"{row.rpartition(',')[0]}\n" for row in rows), encoding="utf-8")
+    for run in folder.glob("run*.csv"):
+        two_columns(run)
     decay = (folder / "sloshing-decay.csv").read_text(encoding="utf-8")
     (folder / "decay.csv").write_text(decay.replace("displacement [mm]", "displacement"), encoding="utf-8")
     (folder / "mine.toml").write_text(MINE, encoding="utf-8")

@@ -15,32 +15,14 @@ import re
 import resource
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
 
+from tests.pages.axe import VIOLATIONS
+from tests.pages.requests import KINDS, prepare
+from tests.pages.scripts import HEIGHT, UNFOLD
 from tests.reports.chromium import NAMES, Browser, binary
 
-CUBIC = ("--equation", "u'' + 2*mu*u' + c3*u'**3 + u + g*u**3 = 0", "--set", "mu=0.01", "--set", "c3=0.02")
-KINDS: Mapping[str, tuple[str, ...]] = {
-    "paper": (),
-    "paper-without-noise": ("--trials", "0"),
-    "duffing": ("damped-duffing", "--initial", "2,0"),
-    "van-der-pol": ("van-der-pol",),
-    "bilinear": ("bilinear",),
-    "cubic": (*CUBIC, "--set", "g=0.3"),
-    "helmholtz-duffing": ("damped-helmholtz-duffing", "--set", "alpha2=1/5", "--set", "alpha3=3/10"),
-    "decay": ("--recording", "decay.csv"),
-    "degrees": ("pendulum", "--set", "k=3.5", "--recording", "pendulum.csv"),
-    "runs": ("--recording", "first.csv", "--recording", "second.csv"),
-    "study": ("five.db",),
-}
-NEEDED: Mapping[str, tuple[str, ...]] = {
-    "decay.csv": ("sample", "decay", "-o"),
-    "pendulum.csv": ("sample", "pendulum", "-o"),
-    "first.csv": ("simulate", "damped-pendulum", "--initial", "2.5,0", "--duration", "160", "--rate", "8", "-o"),
-    "second.csv": ("simulate", "damped-pendulum", "--initial", "2,0", "--duration", "160", "--rate", "8", "-o"),
-}
-"""What the commands read, and what writes it."""
 PICTURES = {
     "1280": {"width": 1280},
     "1280-dark": {"width": 1280, "dark": True},
@@ -49,9 +31,6 @@ PICTURES = {
     "400-dark": {"width": 400, "dark": True},
     "no-scripts": {"width": 1280, "scripts": False},
 }
-HEIGHT = "document.documentElement.scrollHeight"
-FOUND = """axe.run(document, {resultTypes: ["violations", "incomplete"]}).then(r => r.violations.map(v =>
-  v.id + ": " + v.nodes.map(n => n.target.join(" ")).slice(0, 4).join("; ")))"""
 
 
 def ridgeback(folder: Path, *words: str) -> float:
@@ -60,22 +39,6 @@ def ridgeback(folder: Path, *words: str) -> float:
     subprocess.run([sys.executable, "-m", "ridgeback", *words], cwd=folder, check=True, stdout=subprocess.DEVNULL)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-
-def prepare(folder: Path, decay: Path | None) -> None:
-    """Write the recordings and run the study."""
-    folder.mkdir(parents=True, exist_ok=True)
-    if decay is not None:
-        (folder / "decay.csv").write_bytes(decay.read_bytes())
-    for name, words in NEEDED.items():
-        if not (folder / name).exists():
-            ridgeback(folder, *words, name)
-    for run in (folder / "first.csv", folder / "second.csv"):  # times and samples, as most recordings are
-        rows = run.read_text(encoding="utf-8").splitlines()
-        run.write_text("".join(",".join(row.split(",")[:2]) + "\n" for row in rows), encoding="utf-8")
-    if not (folder / "five.db").exists():
-        ridgeback(folder, "study", "--example", "five-oscillators", "-o", "five.toml")
-        ridgeback(folder, "study", "five.toml")
 
 
 def sheets(pdf: bytes) -> int:
@@ -97,9 +60,9 @@ def judged(browser: Browser, page: Path, axe: str) -> Iterator[str]:
     for width in (1280, 400):
         for dark in (False, True):
             browser.open(page, width=width, dark=dark)
-            browser.evaluate("document.querySelectorAll('details').forEach(d => d.open = true)")
+            browser.evaluate(UNFOLD)
             browser.evaluate(axe)
-            yield from (f"{width} {'dark' if dark else 'light'}: {found}" for found in browser.evaluate(FOUND))
+            yield from (f"{width} {'dark' if dark else 'light'}: {found}" for found in browser.evaluate(VIOLATIONS))
 
 
 def told(browser: Browser, page: Path) -> str:
@@ -126,12 +89,15 @@ def main() -> int:
     path = binary()
     if path is None:
         sys.exit(f"no browser: none of {', '.join(NAMES)} is on the path")
-    prepare(given.folder, given.decay)
+    given.folder.mkdir(parents=True, exist_ok=True)
+    if given.decay is not None:
+        (given.folder / "decay.csv").write_bytes(given.decay.read_bytes())
     browser, wrong = Browser(path), 0
     try:
         browser.attach()
         for kind in given.kinds or KINDS:
             page = given.folder / f"{kind}.html"
+            prepare(kind, given.folder, ridgeback)
             spent = "" if page.exists() else f"{ridgeback(given.folder, 'report', *KINDS[kind], '-o', page.name):.1f} s"
             print(f"{kind:20s} {spent:>7s} {told(browser, page)}", flush=True)
             found = list(judged(browser, page, given.axe.read_text(encoding="utf-8"))) if given.axe else []

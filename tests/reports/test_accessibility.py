@@ -7,27 +7,16 @@ that a page could break are looked at without it.
 
 from __future__ import annotations
 
-import os
 from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
+from tests.pages.axe import VIOLATIONS, axe_core
+from tests.pages.scripts import UNFOLD
 from tests.reports.chromium import Browser
 
-ROOT = Path(__file__).parents[2]
 SIDES = ("full", "recording", "runs", "study")
-THEMES = pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-UNFOLDED = "document.querySelectorAll('details').forEach(d => d.open = true)"
-VIOLATIONS = """axe.run(document, {resultTypes: ["violations"]}).then(found => found.violations.map(v =>
-  v.id + ": " + v.nodes.map(n => n.target.join(" ")).slice(0, 4).join("; ")))"""
-
-
-def axe_core() -> str | None:
-    """The source of axe-core, or None."""
-    places = (os.environ.get("AXE_CORE", ""), ROOT / "node_modules" / "axe-core" / "axe.min.js")
-    found = next((Path(place) for place in places if place and Path(place).is_file()), None)
-    return None if found is None else found.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(("width", "dark"), [(1280, False), (400, True)], ids=["wide light", "narrow dark"])
@@ -37,18 +26,9 @@ def test_axe_core_finds_nothing(browser: Browser, pages: dict[str, Path], side: 
     if source is None:
         pytest.skip("no axe-core: neither AXE_CORE nor node_modules has it")
     browser.open(pages[side], width=width, dark=dark)
-    browser.evaluate(UNFOLDED)
+    browser.evaluate(UNFOLD)
     browser.evaluate(source)
     assert browser.evaluate(VIOLATIONS) == []
-
-
-@THEMES
-@pytest.mark.parametrize("side", SIDES)
-def test_all_text_as_rendered_meets_wcag_aa(browser: Browser, pages: dict[str, Path], side: str, dark: bool) -> None:
-    browser.open(pages[side], dark=dark)
-    pairs = browser.evaluate(COLOURS)
-    assert len(pairs) >= 4
-    assert [pair for pair in pairs if _contrast(pair[1], pair[2]) < 4.5] == []
 
 
 def test_ids_are_unique(browser: Browser, pages: dict[str, Path]) -> None:
@@ -78,7 +58,7 @@ NAMED = {
 def test_whatever_is_announced_has_a_name(browser: Browser, pages: dict[str, Path], side: str) -> None:
     """As Chromium tells assistive technology."""
     browser.open(pages[side])
-    browser.evaluate(UNFOLDED)
+    browser.evaluate(UNFOLD)
     nodes = [n for n in browser.call("Accessibility.getFullAXTree")["nodes"] if not n["ignored"]]
     told = [(n["role"]["value"], n.get("name", {}).get("value", "").strip()) for n in nodes if "role" in n]
     kinds = [role for role, _ in told]
@@ -109,7 +89,7 @@ UNREACHED = """[...document.querySelectorAll("main *, nav")].filter(e => {
 @pytest.mark.parametrize("side", SIDES)
 def test_whatever_scrolls_is_reached_by_the_keyboard(browser: Browser, pages: dict[str, Path], side: str) -> None:
     browser.open(pages[side], width=400)
-    browser.evaluate(UNFOLDED)
+    browser.evaluate(UNFOLD)
     assert browser.evaluate(UNREACHED) == []
 
 
@@ -138,36 +118,3 @@ def test_a_page_with_faults_is_caught(browser: Browser, tmp_path: Path) -> None:
     if source is not None:
         browser.evaluate(source)
         assert len(browser.evaluate(VIOLATIONS)) >= 3
-
-
-# Text colour against the nearest painted background, for all text that is laid out.
-COLOURS = r"""
-(() => {
-  const found = {}, walk = document.createTreeWalker(document.querySelector("main"), NodeFilter.SHOW_TEXT);
-  const parse = c => c.match(/[\d.]+/g).map(Number);
-  while (walk.nextNode()) {
-    const e = walk.currentNode.parentElement;
-    if (!walk.currentNode.data.trim() || !e.getClientRects().length || e.closest("script,style,title,desc")) continue;
-    const style = getComputedStyle(e), ink = e.closest("svg") ? style.fill : style.color;
-    let ground = "", up = e;
-    for (; up && !ground; up = up.parentElement) {
-      const c = getComputedStyle(up).backgroundColor, v = parse(c);
-      if (v.length === 3 || v[3] > 0) ground = c;
-    }
-    found[ink + " on " + ground] = walk.currentNode.data.trim().slice(0, 40);
-  }
-  return Object.entries(found).map(([k, text]) => [text, ...k.split(" on ").map(parse)]);
-})()
-"""
-
-
-def _contrast(ink: list[float], ground: list[float]) -> float:
-    """WCAG 2.1, relative luminance and contrast ratio."""
-
-    def luminance(colour: list[float]) -> float:
-        channels = [v / 255 for v in colour[:3]]
-        red, green, blue = (v / 12.92 if v <= 0.03928 else ((v + 0.055) / 1.055) ** 2.4 for v in channels)
-        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
-
-    low, high = sorted((luminance(ink), luminance(ground)))
-    return (high + 0.05) / (low + 0.05)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+HEIGHT = "document.documentElement.scrollHeight"
 UNFOLD = "document.querySelectorAll('details').forEach(d => d.open = true)"
 SETTLED = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 """After scrolling, so that no late move of a resting pointer is met."""
@@ -158,6 +159,26 @@ SHOWN = """(() => {
 """Every piece of text that is laid out, but what only a script can use."""
 
 BUTTONS = "[...document.querySelectorAll('button,input[type=range]')].filter(b => b.getClientRects().length).length"
+COLOURS = r"""
+(() => {
+  const found = {}, walk = document.createTreeWalker(document.querySelector("main"), NodeFilter.SHOW_TEXT);
+  const parse = c => c.match(/[\d.]+/g).map(Number);
+  while (walk.nextNode()) {
+    const e = walk.currentNode.parentElement;
+    if (!walk.currentNode.data.trim() || !e.getClientRects().length || e.closest("script,style,title,desc")) continue;
+    const style = getComputedStyle(e), ink = e.closest("svg") ? style.fill : style.color;
+    let ground = "", up = e;
+    for (; up && !ground; up = up.parentElement) {
+      const c = getComputedStyle(up).backgroundColor, v = parse(c);
+      if (v.length === 3 || v[3] > 0) ground = c;
+    }
+    found[ink + " on " + ground] = walk.currentNode.data.trim().slice(0, 40);
+  }
+  return Object.entries(found).map(([k, text]) => [text, ...k.split(" on ").map(parse)]);
+})()
+"""
+"""Text colour against the nearest painted background, for all text that is laid out."""
+
 LOOKED_AT = {
     "across": "document.documentElement.scrollWidth",
     "beyond": WIDE,
@@ -165,6 +186,7 @@ LOOKED_AT = {
     "texts": TEXTS,
     "empty": EMPTY,
     "mathematics": MATHEMATICS,
+    "colours": COLOURS,
 }
 """What is looked at in each width."""
 DONE = {"shown": SHOWN, "toggles": TOGGLES, "sorted": SORTED, "saved": SAVED}
