@@ -273,13 +273,16 @@ def of_half_cycles(recording: Recording, settings: Mapping[str, object]) -> Meas
     band: Any = settings.get("band")
     start = float(recording.time[0])
     told: Any = settings.get("progress", silent)
-    found = half_cycles(recording.values, recording.rate, start=start, band=band, progress=told)
+    found = half_cycles(
+        recording.values, recording.rate, start=start, band=band, exclude=recording.unsound, progress=told
+    )
     hit = None if not recording.clipped.any() else overlapping(recording, found)
     own = (*recording.drift_notes(), *recording.notes)
     try:
         curve = replace(found.backbone(hit), units=recording.units)
     except InputError as error:
-        return Measurement(recording, found, None, (*own, f"No backbone: {error}."))
+        notes = (*found.span_notes(), *own, f"No backbone: {error}.")
+        return Measurement(recording, found, None, notes, unmeasured=found.no_interval or "")
     return Measurement(recording, found, curve, (*own, *curve.notes))
 
 

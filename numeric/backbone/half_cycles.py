@@ -9,12 +9,15 @@ rate compares turning points on the same side, so that an asymmetry cancels; the
 not cancel it, and alternates.  A turning point is that of a quartic fitted to the middle of its lobe.  Zero is the
 local mean that harmonic least squares finds: the mean of all samples would be off, by the first cycles of a decay, and
 crossings and turning points are all the more wrong the smaller the oscillation has become.
+
+They are those of the sum of all that the samples hold: nothing is claimed where that is no single oscillation, as
+models of the whole tell (``components.separation``), and what is before the free decay or after it is left out.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -31,10 +34,12 @@ from ridgeback.numeric.backbone.shown import Curve, ShownBackbone
 from ridgeback.numeric.estimators.zero_crossing import crossing_samples, dead_zone, interpolate
 from ridgeback.numeric.harmonics.local_fit import choose_multiples, harmonic_fit
 from ridgeback.numeric.harmonics.window_steps import Shape
-from ridgeback.numeric.signal.decimation import checked
+from ridgeback.numeric.signal.decimation import Samples, checked
 from ridgeback.numeric.signal.presence import Presence
 from ridgeback.numeric.signal.samples import TWO_PI
-from ridgeback.numeric.tracking.choices import Definition
+from ridgeback.numeric.tracking.choices import Definition, Held
+from ridgeback.numeric.tracking.clear_stretch import clear_stretch
+from ridgeback.numeric.tracking.own_stretch import part_of
 from ridgeback.numeric.tracking.request import FEWEST_SAMPLES, Options, Request, prepared
 
 MIDDLE = 0.6
@@ -71,6 +76,8 @@ class HalfCycles(ShownBackbone):
         Unit of the signal; may be empty.
     presence : Presence, optional
         How well noise alone explains the signal.
+    no_interval : str, optional
+        Why no deviations are given, if so.
 
     Examples
     --------
@@ -94,6 +101,7 @@ class HalfCycles(ShownBackbone):
     definition: Definition = Definition.PEAK
     units: str = ""
     presence: Presence | None = None
+    no_interval: str | None = None
 
     def __post_init__(self) -> None:
         freeze(self)
@@ -127,6 +135,8 @@ class HalfCycles(ShownBackbone):
         """
         if self.presence is not None and not self.presence.found:
             raise InputError(f"backbone: {self.presence.reason}")
+        if self.no_interval is not None:
+            raise InputError(f"backbone: {self.no_interval}")
         usable = np.isfinite(self.growth_rate) & (self.amplitude > CLEAR * self.amplitude_sd)
         usable &= np.ones_like(usable) if exclude is None else ~exclude
         if np.count_nonzero(usable) < 4:
@@ -144,6 +154,7 @@ class HalfCycles(ShownBackbone):
             self.growth_rate_sd,
         ).at(usable)
         notes = [
+            *self.span_notes(),
             f"The mean of the samples, {self.offset:.4g}, was removed.",
             f"{usable.size - np.count_nonzero(usable)} of {usable.size} half cycles are not used: without a neighbour "
             f"on both sides, not {CLEAR:g} times above noise, or clipped.",
@@ -160,6 +171,14 @@ class HalfCycles(ShownBackbone):
             fewest=FEWEST,
         )
 
+    def span_notes(self) -> tuple[str, ...]:
+        """Which part of the record they are of, where that is not all."""
+        span = self.settings.get("span")
+        if not isinstance(span, tuple):
+            return ()
+        low, high = span
+        return (f"Of t = {low:.6g} to {high:.6g}, where {Held.CLEAR}; the rest is left out.",)
+
 
 def half_cycles(
     x: ArrayLike,
@@ -167,6 +186,7 @@ def half_cycles(
     *,
     start: float = 0.0,
     band: tuple[float, float] | None = None,
+    exclude: Mask | None = None,
     progress: Progress = silent,
 ) -> HalfCycles:
     """Measure frequency, amplitude and growth rate of each half cycle.
@@ -181,6 +201,8 @@ def half_cycles(
         Time of the first sample.
     band : (float, float), optional
         Where the fundamental is looked for, rad per time unit.
+    exclude : array of bool, shape (N,), optional
+        Samples that are no part of the motion, such as clipped ones: they do not count against one oscillation.
     progress : callable
         Told the share of the work that is done and the step.
 
@@ -209,7 +231,10 @@ def half_cycles(
     """
     progress(0.0, "search band")
     samples = checked(x, rate, start=start, what="half_cycles", at_least=FEWEST_SAMPLES)
-    request = prepared(samples, Options(band=band, bias=False))
+    wrong = exclude if exclude is not None and exclude.size == samples.x.size and exclude.any() else None
+    whole = prepared(replace(samples, wrong=wrong), Options(band=band, bias=False))
+    request = of_the_motion(whole, replace(samples, wrong=wrong))
+    reason = not_one(request)
     rate = samples.rate
     progress(0.3, "local mean and noise")
     level = local_level(request)
@@ -225,7 +250,9 @@ def half_cycles(
     found = np.array([turning_point(x, first, last) for first, last in pairwise(crossings.at.tolist())])
     at, peak, spread = found[:, 0] / rate, found[:, 1], noise * found[:, 2]
     growth_rate, growth_rate_sd = decrements(at, peak, spread)
-    known = 1.0 if request.presence.found else np.nan
+    known = 1.0 if request.presence.found and reason is None else np.nan
+    cut = request.signal.x.size < whole.signal.x.size
+    span = (float(request.signal.start), float(request.signal.time[-1]))
     return HalfCycles(
         time=request.signal.start + 0.5 * (crossings.at[:-1] + crossings.at[1:]) / rate,
         omega=omega,
@@ -240,9 +267,34 @@ def half_cycles(
         settings={
             "start": samples.start,
             "noise_probability": request.presence.probability,
+            **({"span": span} if cut else {}),
+            **({} if reason is None else {"no_interval": reason}),
             **request.details(noise=noise, hysteresis=hysteresis),
         },
         presence=request.presence,
+        no_interval=reason,
+    )
+
+
+def of_the_motion(request: Request, samples: Samples) -> Request:
+    """The request for what is between a release and a stop, or above the noise; unchanged where that is all."""
+    stretch = clear_stretch(request) if request.presence.found else None
+    return request if stretch is None else part_of(request, samples, stretch, (Held.CLEAR,))
+
+
+def not_one(request: Request) -> str | None:
+    """Why the samples are not those of one oscillation and noise; None where they are, or nobody knows."""
+    if not request.presence.found:
+        return None
+    alone = replace(request, options=replace(request.options, bias=True)).separated()
+    if alone.signal.doubt:
+        return alone.signal.doubt
+    beside = [tone for tone in alone.signal.tones if alone.known_models and tone.amplitude > alone.models.best.noise]
+    if not beside:
+        return None
+    return (
+        f"{max(beside, key=lambda tone: tone.amplitude).said()}, lies beside the oscillation: crossings and turning "
+        "points are those of the sum; the other methods take it off"
     )
 
 

@@ -39,6 +39,8 @@ PLAIN = 2
 """Coefficients of the splines of a plain oscillation, which is no sum of two."""
 AS_GOOD = 6.0
 """Of the criterion, by which one smooth oscillation that changes must be better than two modes to be it."""
+FAINT = 0.01
+"""Of the amplitude of one mode, that the other has at least."""
 TOLD = 1.0
 """Times the mean of their growth rates, by which the frequencies of two modes differ at least that can be modelled."""
 
@@ -178,4 +180,6 @@ def apart(pair: Pair) -> bool:
     (True, False)
     """
     one, other = pair
+    if min(one.amplitude, other.amplitude) < FAINT * max(one.amplitude, other.amplitude):
+        return False
     return abs(one.omega - other.omega) > ASIDE * abs(one.growth - other.growth)

@@ -30,6 +30,8 @@ SMALL, SHARP = 1e-4, 1e-6
 def summary(one: Measurement) -> list[str]:
     """The lines above the table."""
     lines = [] if one.track is None or not one.track.valid.any() else track_lines(one.track)
+    if one.track is None and one.found.no_interval:
+        lines = [f"no interval: {one.found.no_interval}"]
     if one.backbone is not None:
         lines += backbone_lines(one.backbone)
     return lines

@@ -99,7 +99,7 @@ def chance(one: Measurement) -> tuple[str, ...]:
 
 def asides(one: Measurement) -> list[str]:
     """What a table of numbers has no room for: the notes, and why there is no interval."""
-    reason = None if one.track is None else one.track.no_interval
+    reason = one.found.no_interval
     return [*one.notes, *([] if reason is None else [f"No interval: {reason}."])]
 
 

@@ -312,7 +312,7 @@ def half_cycles(
     used = as_recording(x, rate, time=time, column=column)
     begin = float(used.time[0])
     with showing(progress) as told:
-        found = cycles.half_cycles(used.values, used.rate, start=begin, band=band, progress=told)
+        found = cycles.half_cycles(used.values, used.rate, start=begin, band=band, exclude=used.unsound, progress=told)
     return replace(found, units=used.units)
 
 

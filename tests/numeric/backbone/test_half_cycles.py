@@ -98,3 +98,25 @@ def test_rows_carry_names_and_units() -> None:
     row = half_cycles(decay(), RATE).rows()[3]
     assert row["frequency_hz"] == pytest.approx(OMEGA / (2 * np.pi), rel=1e-4)
     assert set(row) >= {"time_s", "omega_rad_s", "amplitude", "growth_rate_per_s", "side"}
+
+
+def test_nothing_is_claimed_of_crossings_of_a_sum() -> None:
+    hum = 0.2 * np.cos(1.12 * OMEGA * T + 1.0)
+    found = half_cycles(decay() + hum + 0.005 * np.random.default_rng(1).normal(size=T.size), RATE)
+    assert "lies beside the oscillation" in str(found.no_interval)
+    assert np.isnan(found.omega_sd).all()
+    assert np.isnan(found.amplitude_sd).all()
+    with pytest.raises(InputError, match="lies beside the oscillation"):
+        found.backbone()
+
+
+def test_a_rest_before_the_release_is_left_out() -> None:
+    rest = int(4.3 * RATE)
+    x = np.concatenate([np.full(rest, 1.0), np.exp(-MU * T) * np.cos(OMEGA * T)])
+    x += 0.003 * np.random.default_rng(1).normal(size=x.size)
+    found = half_cycles(x, RATE, start=-1.0)
+    assert found.no_interval is None
+    assert found.time[0] > 3.2
+    off = (found.amplitude - np.exp(-MU * (found.time - 3.3))) / found.amplitude_sd
+    assert np.mean(np.abs(off) < 1.96) > 0.85
+    assert found.backbone().notes[0].startswith("Of t = 3.3")
