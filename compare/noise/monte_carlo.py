@@ -19,12 +19,11 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.binding.family import family_of
 from ridgeback.compare.noise.results import NoiseCell, NoiseStudy, Trial, Window, cell_of
-from ridgeback.compare.noise.truth import STRAIGHT, Truth, paper_truth, recording_truth
+from ridgeback.compare.noise.truth import STRAIGHT, Sampled, Truth, paper_truth, recording_truth
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.estimators.estimate import METHODS as ESTIMATORS
 from ridgeback.numeric.estimators.estimate import MODEL_FIT, estimate, estimation
 from ridgeback.numeric.model_fit.family import Family
-from ridgeback.numeric.recording.shown import ShownRecording
 from ridgeback.numeric.tracking.choices import Scope
 from ridgeback.numeric.tracking.track import Track
 from ridgeback.symbolic.systems.oscillator import Oscillator
@@ -61,7 +60,7 @@ class Work:
 
 
 def monte_carlo(
-    source: Truth | ShownRecording | ArrayLike | None = None,
+    source: Truth | Sampled | ArrayLike | None = None,
     rate: float | None = None,
     *,
     methods: Sequence[str] = METHODS,
@@ -169,13 +168,13 @@ def monte_carlo(
     )
 
 
-def truth_of(source: Truth | ShownRecording | ArrayLike | None, rate: float | None = None) -> Truth:
+def truth_of(source: Truth | Sampled | ArrayLike | None, rate: float | None = None) -> Truth:
     """The noise-free record that a study is about; InputError for samples without their rate."""
     if source is None:
         return paper_truth() if rate is None else paper_truth(rate=rate)
     if isinstance(source, Truth):
         return source
-    if isinstance(source, ShownRecording):
+    if isinstance(source, Sampled):
         start = float(source.time[0])
         title = f"{source.source}, {source.name}"
         return recording_truth(source.values, source.rate, start=start, title=title)

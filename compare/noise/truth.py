@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from scipy.interpolate import make_interp_spline, make_lsq_spline
@@ -105,6 +106,36 @@ class Truth:
         )
 
 
+@runtime_checkable
+class Sampled(Protocol):
+    """A recording: samples at times, at a rate, of a file and with a name."""
+
+    @property
+    def time(self) -> Array:
+        """Times of the samples."""
+        ...
+
+    @property
+    def values(self) -> Array:
+        """The samples."""
+        ...
+
+    @property
+    def rate(self) -> float:
+        """Samples per time unit."""
+        ...
+
+    @property
+    def source(self) -> str:
+        """The file."""
+        ...
+
+    @property
+    def name(self) -> str:
+        """The signal in it."""
+        ...
+
+
 def paper_truth(*, rate: float = PAPER_RATE, duration: float = DURATION) -> Truth:
     """The paper's damped pendulum from 0.95 pi at rest.
 
@@ -181,7 +212,7 @@ def recording_truth(x: Array, rate: float, *, start: float = 0.0, title: str = "
     InputError
         For what harmonic least squares refuses, and where noise alone explains the samples.
     """
-    track = estimate(x, rate, method=SMOOTH, start=start).of_oscillation()
+    track = estimate(x, rate, method=SMOOTH, start=start, bias=False).of_oscillation()
     start, first = float(track.time[0]), round((float(track.time[0]) - start) * rate)
     x, omega = np.asarray(x, dtype=np.float64)[first : first + track.time.size], track.omega
     x = x - sum(tone.samples(track.time - start) for tone in track.used.tones)

@@ -49,9 +49,9 @@ CYCLE_STRENGTHS = np.linspace(0.2, 2.6, 13)
 ORDER, TARGET = 20, 1e-3
 FLOW_ORDER = 8
 BEYOND = 1.1
+"""The study goes at least this many times as far as the motion."""
 UNNAMED = "equation"
 """What an equation of the command line is called, which says nothing that the equation does not."""
-"""The study goes at least this many times as far as the motion."""
 
 
 @dataclass(frozen=True)
@@ -214,7 +214,7 @@ def _contenders(
 
     orders = [o for o in plan.orders if o in CONTENDING or len(plan.orders) < len(CONTENDING)]
     known = None if derived is None else derived.expansion
-    return [*theory(motion, orders, step, known=known), *estimates(motion, {}, step, timed=timed)]
+    return [*theory(motion, orders, step, known=known, timed=timed), *estimates(motion, {}, step, timed=timed)]
 
 
 def tracks_of(contenders: Sequence[Contender]) -> dict[str, Track]:

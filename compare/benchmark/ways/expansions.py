@@ -17,9 +17,17 @@ ORDERS = (2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 24, 28, 32, 36, 40)
 
 
 def theory(
-    motion: Motion, orders: Iterable[int], step: Callable[[str], None], *, known: Expansion | None = None
+    motion: Motion,
+    orders: Iterable[int],
+    step: Callable[[str], None],
+    *,
+    known: Expansion | None = None,
+    timed: bool = True,
 ) -> Iterator[Contender]:
-    """Every contender from theory that this motion has; ``known`` is the series, where it is derived already."""
+    """Every contender from theory that this motion has; ``known`` is the series, where it is derived already.
+
+    Where times are not wanted nothing runs for them.
+    """
     sources = amplitudes(motion)
     rest = without_damping(motion.setting.oscillator).oscillator
     wanted = sorted(orders)
@@ -34,7 +42,7 @@ def theory(
         step("resummations and fits")
         tried += resummations(rest, expansion, at) if expansion.variable != "eps" else ()
         tried += fits(motion, rest, at) if motion.has_backbone else ()
-        yield from evaluated(tried, at)
+        yield from evaluated(tried, at, timed=timed)
     step("slow flow by order")
-    yield from slow_flows(motion)
-    yield from yardsticks(motion, sources)
+    yield from slow_flows(motion, timed=timed)
+    yield from yardsticks(motion, sources, timed=timed)

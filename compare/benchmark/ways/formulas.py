@@ -18,7 +18,7 @@ from numpy.polynomial import chebyshev
 from ridgeback.common.errors import InputError
 from ridgeback.compare.benchmark.contenders import Kind, Row, Source
 from ridgeback.compare.benchmark.ways.contender import Contender, refused
-from ridgeback.compare.benchmark.ways.timing import Cost, per_value
+from ridgeback.compare.benchmark.ways.timing import NOT_TIMED, Cost, per_value
 from ridgeback.compare.binding.compiled_code import NotCompiled, OfAmplitude, Vectorised, compiled_together
 from ridgeback.compare.binding.generated_code import as_module, omega0_of
 from ridgeback.compare.motion.motion import Motion, exact_omega
@@ -76,22 +76,22 @@ def generated(formula: OfAmplitude, named: Named) -> Generated:
     return Generated(form, named, as_module(form).omega0)
 
 
-def evaluated(tried: Iterable[Tried], at: At) -> Iterator[Contender]:
+def evaluated(tried: Iterable[Tried], at: At, *, timed: bool = True) -> Iterator[Contender]:
     """Formulas as generated code: one contender for each, its language and amplitude; what was refused as it is."""
     found = list(tried)
     with compiled_together([one.form for one in found if isinstance(one, Generated)]) as compiled:
         in_c = iter(compiled)
         for one in found:
             if isinstance(one, Generated):
-                yield from _by_language(one, next(in_c), at)
+                yield from _by_language(one, next(in_c), at, timed=timed)
             else:
                 yield one
 
 
-def _by_language(one: Generated, native: Vectorised | NotCompiled, at: At) -> Iterator[Contender]:
+def _by_language(one: Generated, native: Vectorised | NotCompiled, at: At, *, timed: bool) -> Iterator[Contender]:
     ways = {"python": one.python} | ({} if isinstance(native, NotCompiled) else {"c": native})
     for language, function in ways.items():
-        cost = per_value(function, next(iter(at.values())))
+        cost = per_value(function, next(iter(at.values()))) if timed else NOT_TIMED
         for source, x in at.items():
             yield Contender(_row(one.named, source, language, cost), np.asarray(function(x), dtype=float))
 

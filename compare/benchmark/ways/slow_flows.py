@@ -18,7 +18,7 @@ from ridgeback.common.errors import InputError
 from ridgeback.common.numbers import number
 from ridgeback.compare.benchmark.contenders import Row
 from ridgeback.compare.benchmark.ways.contender import Contender, refused
-from ridgeback.compare.benchmark.ways.timing import repeated
+from ridgeback.compare.benchmark.ways.timing import NOT_TIMED, repeated
 from ridgeback.compare.motion.model_curves import slow_flow_curve
 from ridgeback.compare.motion.motion import Motion
 from ridgeback.symbolic.flow.multiple_scales import multiple_scales
@@ -31,7 +31,7 @@ IN_EPS = (2, 4, 6)
 """Orders in eps: the time grows with the cube of them."""
 
 
-def slow_flows(motion: Motion) -> Iterator[Contender]:
+def slow_flows(motion: Motion, *, timed: bool = True) -> Iterator[Contender]:
     """Multiple scales by order."""
     small = powers_of(motion.setting.oscillator)
     for order in ORDERS if small is None else IN_EPS:
@@ -39,7 +39,7 @@ def slow_flows(motion: Motion) -> Iterator[Contender]:
         try:
             flow = flow_of(motion.setting.oscillator, order)
             curve = slow_flow_curve(motion, flow)
-            cost = repeated(partial(slow_flow_curve, motion, flow))
+            cost = repeated(partial(slow_flow_curve, motion, flow)) if timed else NOT_TIMED
         except (InputError, ValueError) as error:
             yield refused(f"multiple-scales-{order}", label, "slow-flow", str(error), order=order)
             continue

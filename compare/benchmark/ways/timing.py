@@ -35,6 +35,10 @@ class Cost:
         return Cost(self.seconds / count, self.scatter)
 
 
+NOT_TIMED = Cost(math.nan, math.nan)
+"""What stands for the cost of what was not run for it."""
+
+
 def cost_of(laps: Sequence[float]) -> Cost:
     """The median of a few laps, and the standard deviation of one: by the quartiles where there are some.
 

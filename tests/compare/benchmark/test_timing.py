@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from ridgeback.compare.benchmark.ways import estimates, timing
+from ridgeback.compare.benchmark.ways.expansions import theory
 from ridgeback.compare.benchmark.ways.timing import FEWEST, PATIENCE, REPEATS, cost_of, per_value, repeated
 from ridgeback.compare.motion.motion import integrate_motion, setting
 from ridgeback.symbolic.systems.catalogue import find
@@ -81,6 +82,20 @@ def test_a_track_is_timed_by_the_runs_that_its_correction_makes_anyway(monkeypat
         seen.clear()
         assert len(list(estimates.estimates(motion, {"mine": method}, lambda _: None, timed=timed))) == 1  # type: ignore[dict-item]
         assert len(set(seen)) == runs
+
+
+def test_nothing_from_theory_runs_for_its_time_where_that_is_not_wanted(monkeypatch: pytest.MonkeyPatch) -> None:
+    motion = integrate_motion(setting(find("damped-pendulum"), initial=(0.5, 0.0), duration=60.0, rate=8.0))
+
+    def refused(run: object) -> float:
+        raise AssertionError(f"{run} was timed")
+
+    monkeypatch.setattr(timing, "lap", refused)
+    rows = [c.row for c in theory(motion, (2, 4), lambda _: None, timed=False)]
+    kinds = {"expansion", "resummation", "slow-flow", "series-model", "closed-form", "averaged", "linear"}
+    assert kinds <= {row.kind for row in rows if not row.refused}
+    with pytest.raises(AssertionError, match="was timed"):
+        list(theory(motion, (2, 4), lambda _: None))
 
 
 def test_clocks_of_the_processor_stand_still_while_a_run_waits(monkeypatch: pytest.MonkeyPatch) -> None:
