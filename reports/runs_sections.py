@@ -54,8 +54,12 @@ def signal_table(runs: Runs) -> Table:
 
 
 def _named_title(runs: Runs) -> str:
-    titles = {named.made.title for named in runs.named if named.made is not None}
-    return titles.pop() if len(titles) == 1 else "The nearest class of each"
+    made = [named.made for named in runs.named if named.made is not None]
+    titles = {one.title for one in made}
+    if len(titles) == 1:
+        return titles.pop()
+    classes = {one.standing.refusal or one.best.title for one in made}
+    return f"{classes.pop()}, by every signal" if len(classes) == 1 else "What made each signal"
 
 
 def _named(runs: Runs) -> Iterator[Part]:
