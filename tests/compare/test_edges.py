@@ -53,6 +53,7 @@ from ridgeback.symbolic.expansion.energy_integral import energy_integral
 from ridgeback.symbolic.systems.catalogue import find
 from ridgeback.symbolic.systems.oscillator import Oscillator
 from tests.reports import synthetic
+from tests.reports.synthetic_motion import make_case
 
 TIME = np.arange(10.0)
 NOWHERE = np.zeros(10, dtype=np.bool_)
@@ -265,7 +266,7 @@ def test_a_sample_recording_shows_itself() -> None:
 
 
 def test_words_of_a_start_and_of_a_recording_of_which_nothing_is_known() -> None:
-    case = replace(synthetic.make_case(), initial=(0.5, 0.25), unit="m")
+    case = replace(make_case(), initial=(0.5, 0.25), unit="m")
     assert start_line(case) == "from θ = 0.5 m, θ′ = 0.25"
     found = synthetic.make_recording()
     assert recording_sentences(found, None) == ()

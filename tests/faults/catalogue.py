@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from tests.faults import (
+from tests.faults.cases import (
     derivations,
     description_files,
     equations,

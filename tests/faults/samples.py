@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.faults import study_files
+from tests.faults.cases import study_files
 from tests.faults.formats import TIME, U, bomb, decay, hdf5, mat, npy, npz, npz_of_nothing, patched, table, wav
 
 TEXTS: Mapping[str, str] = {

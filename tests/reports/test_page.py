@@ -21,6 +21,7 @@ from ridgeback.reports.figures.order_map import order_map
 from ridgeback.reports.page import WARN_BYTES, html_page, size_warning
 from tests.reports import synthetic
 from tests.reports.markup import Element, parse
+from tests.reports.synthetic_motion import FAILURE
 
 SVG = "http://www.w3.org/2000/svg"
 
@@ -227,7 +228,7 @@ def test_a_refused_contender_keeps_its_row_and_says_why(tree: Element) -> None:
     rows = table.all("tr")
     failed = next(i for i, row in enumerate(rows) if row.attributes.get("class") == "failed")
     assert "Hilbert phase" in rows[failed].text
-    assert f"Refused: {synthetic.FAILURE}" in rows[failed + 1].text
+    assert f"Refused: {FAILURE}" in rows[failed + 1].text
 
 
 def test_a_page_without_times_shows_none(full: Report) -> None:

@@ -40,6 +40,8 @@ from ridgeback.reports.parts import Section
 from ridgeback.reports.runs_sections import runs_sections
 from ridgeback.reports.text.tables import budget_table, contender_table
 from tests.reports import synthetic, synthetic_several
+from tests.reports.synthetic_motion import budget
+from tests.reports.synthetic_records import fitted
 
 
 def drawn_of(part: Any) -> str:
@@ -263,7 +265,7 @@ def test_runs_that_nothing_is_known_of_have_no_section_of_it() -> None:
 
 
 def test_small_words() -> None:
-    fit = synthetic._fitted()
+    fit = fitted()
     places = {0.01: ", a drift", 1.5: " 1.5 times the fundamental", 2.0: "at 2 times the fundamental", 1.0: "beside"}
     for ratio, words in places.items():
         assert words in line_sentence(replace(fit, line=ratio * fit.fundamental))
@@ -271,7 +273,7 @@ def test_small_words() -> None:
     assert list(needed(np.array([0.0, 1.0, 3.0, 1.0, 0.0]), np.array([0.0, 1.0, 0.0, -1.0, 0.0]))) == [0, 1, 2, 3, 4]
     assert identification._with_interval(Parameter("k", 2.0, 0.0)) == ("2", "exact")
     assert identification._with_interval(Parameter("k", 2.0, np.nan))[1] == "not claimed"
-    row = synthetic._budget()[0]
+    row = budget()[0]
     assert _read(Series("one", np.array([1.0]), np.array([1.0])), np.array([1.0, 2.0])) == [None, None]
     assert _ruling(replace(row, truncation=0.0, averaging=None, estimator=None)) == ""
     study = synthetic.make_noise()

@@ -15,8 +15,9 @@ from ridgeback.compare.report.cards import Known, _needs, cards, cost, in_noise,
 from ridgeback.compare.report.findings import _cured, findings, lead_of
 from ridgeback.numeric.orbits.paper_model import series_frequency
 from tests.reports import synthetic
+from tests.reports.synthetic_motion import K
 
-STUDY = replace(synthetic.make_study(), scale=synthetic.K)
+STUDY = replace(synthetic.make_study(), scale=K)
 DECAY = synthetic.make_decay()
 BENCHMARK = synthetic.make_benchmark(DECAY)
 RANGES = synthetic.make_ranges(STUDY)
