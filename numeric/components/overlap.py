@@ -8,7 +8,12 @@ Speech Signal Process. 38 (1990) 814), then by least squares of all of the sampl
 
 One oscillation that is not linear is nearly such a sum, too: of one frequency and of growth rates g, 2 g, .. under
 drag, g, 3 g, .. with a cubic spring.  So exponentials count as two modes only where their frequencies are further apart
-than their growth rates.
+than their growth rates.  One that dry friction brings to rest ends as two modes do that come out of step; that is held
+against them, too:
+
+    a = (A + c) e^(-g t) - c  until it is 0,        w = w_0 + b a^2 + d / a^2,
+
+dry friction changing the frequency in its second order over a.
 """
 
 from __future__ import annotations
@@ -39,6 +44,12 @@ PLAIN = 2
 """Coefficients of the splines of a plain oscillation, which is no sum of two."""
 AS_GOOD = 6.0
 """Of the criterion, by which one smooth oscillation that changes must be better than two modes to be it."""
+CLEARLY = 30.0
+"""The same, by which two modes must be better than one that friction brings to rest."""
+RUBBING, SMALLEST = 7, 0.05
+"""Parameters of an oscillation that friction slows down; and its amplitude, of the first, below which it has none."""
+STEEPEST = 10.0
+"""Logarithm of a loss in the length of the record."""
 FAINT = 0.01
 """Of the amplitude of one mode, that the other has at least."""
 TOLD = 1.0
@@ -64,7 +75,12 @@ def overlapping(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> 
     for others in dict.fromkeys((tones, tuple(tone for tone in tones if tone is not nearest))):
         x = given.x - total(others, given.time) - harmonics
         pair = two_modes(x, given.rate, least.mean_omega, given.known.sound_of(x.size))
-        if pair is not None and apart(pair) and (score := score_of(x, pair, others, least, known)) < goal:
+        if pair is None or not apart(pair):
+            continue
+        score = score_of(x - total(pair, given.time), least, known, sum(t.parameters for t in (*pair, *others)))
+        rubbed = rubbing(x, least, given.known.sound_of(x.size))
+        rest = score_of(x - rubbed, least, known, RUBBING + sum(t.parameters for t in others))
+        if score < min(goal, rest - CLEARLY):
             goal, found = score, (pair, others)
     return found and (by_energy(found[0]), found[1])
 
@@ -75,13 +91,39 @@ def by_energy(pair: Pair) -> Pair:
     return pair if one.amplitude**2 * abs(other.growth) >= other.amplitude**2 * abs(one.growth) else (other, one)
 
 
-def score_of(x: Array, pair: Pair, others: tuple[Tone, ...], least: SplineModel, known: Known) -> float:
-    """The criterion of two modes, as ``candidates.scored`` is that of a smooth oscillation with the same harmonics."""
-    parameters = least.parameters - 3 * least.basis.count + sum(tone.parameters for tone in (*pair, *others))
-    off = (x - total(pair, least.time)) * known.sound_of(x.size)
-    floor = 1e-14 * float(least.size.max())
-    score = akaike(off, known.band or least.band, count=least.count, parameters=parameters, floor=floor)
-    return float(score + STRICTER * parameters)
+def score_of(left: Array, least: SplineModel, known: Known, parameters: int) -> float:
+    """The criterion of what is left, as ``candidates.scored`` is that of an oscillation with the same harmonics."""
+    count = least.parameters - 3 * least.basis.count + parameters
+    off, floor = left * known.sound_of(left.size), 1e-14 * float(least.size.max())
+    score = akaike(off, known.band or least.band, count=least.count, parameters=count, floor=floor)
+    return float(score + STRICTER * count)
+
+
+def rubbing(x: Array, least: SplineModel, sound: Array) -> Array:
+    """The samples of one oscillation that dry and viscous friction slow down, as near to given ones as it comes."""
+    time, largest = least.time / float(least.time[-1]), float(least.size[0])
+    weight = least.size * sound
+
+    def size(loss: Array) -> Array:
+        viscous, dry = np.exp(np.minimum(loss, STEEPEST))
+        return np.asarray(np.maximum((1.0 + dry) * np.exp(-viscous * time) - dry, 0.0), dtype=np.float64)
+
+    def amplitude(values: Array) -> Array:
+        return np.asarray((values[0] * size(values[1:]) - least.size / largest) * sound, dtype=np.float64)
+
+    def samples(values: Array) -> Array:
+        a = values[0] * size(values[1:3])
+        bent = values[5] * a**2 + values[6] * (SMALLEST / np.maximum(a, SMALLEST)) ** 2
+        turned = np.cumsum(bent) * time[1]
+        return np.asarray(largest * a * np.cos(values[3] + values[4] * time + turned), dtype=np.float64)
+
+    start = least_squares(amplitude, (1.0, 0.0, 0.0), max_nfev=STEPS).x
+    line = np.polynomial.polynomial.polyfit(time, least.phase, 1, w=weight)
+
+    def left(values: Array) -> Array:
+        return np.asarray((samples(values) - x) * sound, dtype=np.float64)
+
+    return samples(least_squares(left, (*start, *line, 0.0, 0.0), max_nfev=STEPS).x)
 
 
 def told(pair: Pair) -> bool:

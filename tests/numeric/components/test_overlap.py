@@ -8,6 +8,7 @@ import pytest
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.components.overlap import apart, two_modes
 from ridgeback.numeric.components.separation import separated
+from ridgeback.numeric.estimators.estimate import estimate
 
 RATE, OMEGA, RATIO = 400.0, 40 * np.pi, 0.02
 T = np.arange(500) / RATE
@@ -60,3 +61,20 @@ def test_one_oscillation_that_is_not_linear_is_not_two(drag: float, bend: float)
     found = separated(noisy(a * np.cos(phase)), RATE, GUIDE, half=40, multiples=None)
     assert found.reason == ""
     assert found.tones == ()
+
+
+def rubbed(friction: float, t: Array) -> Array:
+    """u'' + F sign(u') + u = 0 from 1 at rest, each half swing about F or -F, until it sticks."""
+    swing = np.minimum(np.floor(t / np.pi), np.ceil((1.0 / friction - 1.0) / 2.0))
+    size = 1.0 - 2.0 * friction * swing
+    turned = np.where(size > friction, t - np.pi * swing, 0.0)
+    return np.asarray((-1.0) ** swing * ((size - friction) * np.cos(turned) + friction), dtype=np.float64)
+
+
+@pytest.mark.parametrize("friction", [0.015, 0.022])
+def test_one_oscillation_that_dry_friction_brings_to_rest_is_not_two(friction: float) -> None:
+    t = np.arange(400) * (40.0 * np.pi / 400)
+    x = rubbed(friction, t) * np.exp(-0.002 * t) + 0.004 * np.random.default_rng(1).normal(size=t.size)
+    found = estimate(x, 400 / (40.0 * np.pi))
+    assert found.interval is not None
+    assert found.used.tones == ()
