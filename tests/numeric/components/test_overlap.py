@@ -71,10 +71,10 @@ def rubbed(friction: float, t: Array) -> Array:
     return np.asarray((-1.0) ** swing * ((size - friction) * np.cos(turned) + friction), dtype=np.float64)
 
 
-@pytest.mark.parametrize("friction", [0.015, 0.022])
-def test_one_oscillation_that_dry_friction_brings_to_rest_is_not_two(friction: float) -> None:
+@pytest.mark.parametrize("seed", [1, 2])
+def test_one_oscillation_that_dry_friction_brings_to_rest_is_not_two(seed: int) -> None:
     t = np.arange(400) * (40.0 * np.pi / 400)
-    x = rubbed(friction, t) * np.exp(-0.002 * t) + 0.004 * np.random.default_rng(1).normal(size=t.size)
+    x = rubbed(0.016, t + seed) * np.exp(-0.004 * t) + 0.003 * np.random.default_rng(seed).normal(size=t.size)
     found = estimate(x, 400 / (40.0 * np.pi))
     assert found.interval is not None
     assert found.used.tones == ()
