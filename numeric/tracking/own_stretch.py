@@ -36,6 +36,8 @@ SUNK = 0.05
 LEFT_OUT, MORE, CROWDED = (4.0, 8.0, 12.0), 2.0, 0.7
 """Cycles at the start without which models are tried where none holds with them; those that are left out beyond; and of
 the mean distance of knots the first one there, as it is where the start is what takes them."""
+MOST_BACKWARDS = 0.7
+"""Logarithm of its growth, over which a mode is followed back to before the samples that it was found in."""
 MOST_ROUNDING = 0.5
 """Of the deviations of an interval, that the mean error of rounding may reach, rms: it holds in 92 % then."""
 MOST_LEFT_OUT = 0.5
@@ -50,25 +52,26 @@ def in_its_stretch(request: Request, samples: Samples) -> Request:
     stretch = clear_stretch(request)
     if stretch is not None:
         part = part_of(request, samples, stretch, (Held.CLEAR,))
-        return without_steady_tones(request, part, samples) if request.options.bias else part
+        return without_others(request, part, samples) if request.options.bias else part
     if not request.options.bias or request.options.band is not None or has_model(request):
         return request
     return near_its_line(request) or along_what_is_followed(request, samples)
 
 
-def without_steady_tones(request: Request, part: Request, samples: Samples) -> Request:
-    """The request for a longer part, where steady tones beside the oscillation hid its end; else for the same part."""
+def without_others(request: Request, part: Request, samples: Samples) -> Request:
+    """The request for a longer part, where what is beside the oscillation hid its end; else for the same part."""
     signal, alone = request.signal, part.separated()
-    steady = tuple(tone for tone in alone.signal.tones if tone.growth == 0.0)
-    if not steady or signal.tones or alone.signal.doubt:
+    before = part.signal.start - signal.start
+    others = tuple(tone for tone in alone.signal.tones if -tone.growth * before < MOST_BACKWARDS)
+    if not others or signal.tones or alone.signal.doubt:
         return part
-    bare = signal.x - total(steady, signal.time - part.signal.start)
+    bare = signal.x - total(others, signal.time - part.signal.start)
     stretch = clear_stretch(replace(request, signal=replace(signal, x=bare))) or slice(0, bare.size)
     if stretch.stop - stretch.start <= part.signal.x.size:
         return part
-    longer = part_of(request, samples, stretch, (Held.CLEAR,))
+    longer = part_of(request, samples, stretch, (Held.CLEAR,) if stretch.stop - stretch.start < bare.size else ())
     found = longer.separated()
-    as_many = sum(tone.growth == 0.0 for tone in found.signal.tones) >= len(steady)
+    as_many = len(found.signal.tones) >= len(others)
     return longer if found.known_models is not None and not found.signal.doubt and as_many else part
 
 

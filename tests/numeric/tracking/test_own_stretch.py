@@ -133,3 +133,14 @@ def test_a_mode_that_dies_in_a_few_cycles_well_beside_the_oscillation_leaves_its
     assert found.used.span is None
     assert found.interval is not None
     assert found.interval.holds(np.full(t.size, 6.0))[:60].mean() > 0.9
+
+
+def test_a_mode_at_half_the_frequency_is_no_noise_that_ends_the_motion() -> None:
+    t, noise = np.arange(2000) / 100.0, 0.01 * np.random.default_rng(2).normal(size=2000)
+    growth = -0.006 * math.pi
+    mode = 0.35 * np.exp(growth * t) * np.cos(6.0 * math.pi * t + 1.0)
+    track = estimate(np.exp(6.0 * growth * t) * np.cos(12.0 * math.pi * t) + mode + noise, 100.0)
+    assert track.used.span is None
+    assert [round(tone.omega / math.pi, 2) for tone in track.used.tones] == [6.0]
+    assert track.interval is not None
+    assert np.mean(track.interval.holds(np.full(track.time.size, 12.0 * math.pi))) > 0.7
