@@ -139,7 +139,7 @@ def test_a_mode_at_half_the_frequency_is_no_noise_that_ends_the_motion() -> None
     t, noise = np.arange(2000) / 100.0, 0.01 * np.random.default_rng(2).normal(size=2000)
     growth = -0.006 * math.pi
     mode = 0.35 * np.exp(growth * t) * np.cos(6.0 * math.pi * t + 1.0)
-    track = estimate(np.exp(6.0 * growth * t) * np.cos(12.0 * math.pi * t) + mode + noise, 100.0)
+    track = estimate(np.exp(6.0 * growth * t) * np.cos(12.0 * math.pi * t) + mode + noise, 100.0, method="hilbert")
     assert track.used.span is None
     assert [round(tone.omega / math.pi, 2) for tone in track.used.tones] == [6.0]
     assert track.interval is not None
