@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ridgeback.common.quantities import SECOND, pace_of
+from ridgeback.common.quantities import sampling_text
 from ridgeback.console.output import json_text
 from ridgeback.console.tables import aligned, csv_text, readable
 
@@ -166,9 +166,7 @@ def heading(one: Measurement) -> str:
     """What was measured."""
     recording = one.recording
     component = f", component {one.component}" if one.component else ""
-    pace = pace_of(recording.rate)
-    own = "" if pace is SECOND else f" ({recording.rate * pace.seconds:g} per {pace.name})"
-    return f"{recording.label}{component}: {len(recording.values)} samples at {recording.rate:g} per second{own}"
+    return f"{recording.label}{component}: {len(recording.values)} samples at {sampling_text(recording.rate)}"
 
 
 def how(one: Measurement) -> str:

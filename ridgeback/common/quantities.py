@@ -121,6 +121,16 @@ def _rounded(value: float) -> str:
     )
 
 
+def sampling_text(rate: float) -> str:
+    """Samples per second, of a slow record per hour, day or year too.
+
+    >>> sampling_text(250.0), sampling_text(20 / 86400)
+    ('250 per second', '0.000231481 per second (20 per day)')
+    """
+    pace = pace_of(rate)
+    return f"{rate:g} per second" + ("" if pace is SECOND else f" ({rate * pace.seconds:g} per {pace.name})")
+
+
 def angular(*omega: float) -> str:
     """An angular frequency, or the ends of a band, as --band takes them, and in Hz.
 

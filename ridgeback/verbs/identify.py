@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from ridgeback.common.quantities import sampling_text
 from ridgeback.console.failure import PartialError
 from ridgeback.console.output import json_text, write_text
 from ridgeback.console.tables import aligned, csv_text, readable
@@ -136,7 +137,7 @@ def prose(found: Identification) -> str:
     """The verdict, the ranking, and the parameters of the best candidate."""
     unit = f" [{found.unit}]" if found.unit else ""
     parts = [
-        f"{found.source}, {found.column}{unit}: {found.samples} samples at {found.rate:g} per second, "
+        f"{found.source}, {found.column}{unit}: {found.samples} samples at {sampling_text(found.rate)}, "
         f"of which {found.effective_samples:.0f} are independent",
         found.verdict,
         *found.notes,
