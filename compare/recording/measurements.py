@@ -6,8 +6,10 @@ backbones of the runs and stretches of one channel are then combined, since they
 
 from __future__ import annotations
 
+import statistics
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from ridgeback.common.errors import InputError
 from ridgeback.common.progress import Progress, Wanted, showing
@@ -102,13 +104,26 @@ def measure_recordings(
             except InputError as error:
                 refused.append((recording, error))
     if not measured:
-        raise refused[0][1]
+        raise refusal(refused)
     good = {signal_of(m.recording) for m in measured}
     return Measurements(
         measured=tuple(measured),
         combined=tuple(common(measured, combine_over)),
         failed=tuple(f"{r.label}: {error}" for r, error in refused if signal_of(r) not in good),
         notes=tuple(f"Left out, {r.label}: {error}." for r, error in refused if signal_of(r) in good),
+    )
+
+
+def refusal(refused: Sequence[tuple[Recording, InputError]]) -> InputError:
+    """Why nothing could be measured; of stretches between gaps for the reason of the longest, and what keeps them."""
+    if len(refused) < 2 or not all(recording.stretch for recording, _ in refused):
+        return refused[0][1]
+    longest, error = max(refused, key=lambda one: one[0].values.size)
+    parts = [recording for recording, _ in refused if signal_of(recording) == signal_of(longest)]
+    gap = statistics.median(float(b.time[0] - a.time[-1]) for a, b in pairwise(parts))
+    return InputError(
+        f"{error}; of {len(parts)} stretches between gaps the longest has {longest.values.size} samples: "
+        f"--fill {1.01 * gap:.3g} keeps together what is missing for so long"
     )
 
 

@@ -137,7 +137,7 @@ def signal_indices(
     """Indices of the signals: those asked for (a name, a number, several, or "all"), or the only one left.
 
     ``taken`` are the columns of the time and the run.  No signal are a day beside a time, words, dates, a column
-    without a name among some that have one, and one that numbers the rows where there is no time.
+    without a name among some that have one, and one that numbers the rows.
 
     Raises InputError for one that is not there or taken.
     """
@@ -147,7 +147,7 @@ def signal_indices(
     if wanted is None or (wanted == ALL and ALL not in columns.names):
         others = [i for i in others if i not in (*columns.words, *columns.stamps)] or others
         others = [i for i in others if is_signal(columns.names[i], i, beside=clock is not None)] or others
-        if clock is None and len(others) > 1:
+        if len(others) > 1:
             others = others[counts(columns, others[0]) :]  # a number of the row comes first
     if wanted is None:
         if len(others) == 1:

@@ -46,9 +46,11 @@ SECONDS: Mapping[str, float] = MappingProxyType(
         **dict.fromkeys(("min", "minute", "minutes"), 60.0),
         **dict.fromkeys(("h", "hr", "hour", "hours"), 3600.0),
         **dict.fromkeys(("d", "day", "days"), 86400.0),
+        **dict.fromkeys(("week", "weeks"), 604800.0),
+        **dict.fromkeys(("yr", "year", "years"), 31557600.0),
     }
 )
-"""Units of time and their lengths in seconds."""
+"""Units of time and their lengths in seconds; the year is the Julian one."""
 TAILS = tuple(unit for unit in SECONDS if unit.isascii())
 """Units that may end a time column's name after an underscore."""
 SPELLED = tuple(unit for unit in TAILS if len(unit) >= len("msec"))
@@ -56,35 +58,49 @@ SPELLED = tuple(unit for unit in TAILS if len(unit) >= len("msec"))
 HEADS = ("t", "time", "times", "timestamp", "zeit", "elapsed")
 BRACKETED = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]*)[\])]\s*")
 AFTER_A_SLASH = re.compile(r"(.*\S)\s+/\s*(\S+)\s*")
+UNDER_A_SLASH = re.compile(r"([^\W\d_]+)/([^\W\d]+|°)")
+AFTER_A_COMMA = re.compile(r"(.*\S)\s*,\s+(\S+)\s*")
 AFTER_IN = re.compile(r"(.*\S)\s+in\s+(\S+)\s*")
 DEGREES = ("deg", "degs", "degree", "degrees", "°", "grad")
 """Units of angles of which 360 are a turn."""
 AFTER_A_WORD = frozenset(
     (*SECONDS, *DEGREES, "rad", "m", "mm", "cm", "µm", "um", "nm", "v", "mv", "a", "ma", "g", "n", "pa", "kpa")
 )
-"""Units that may stand behind "in"."""
+"""Units that may stand behind "in" or a comma."""
 
 
 def name_and_units(header: str) -> tuple[str, str]:
-    """Split a header into its name and the unit at its end: in brackets, after a blank and a slash, or after "in".
+    """Split a header into its name and the unit at its end: in brackets, after a slash, a comma, or "in".
 
-    A number there is a place, not a unit.  An angle's name may end in "_deg".
+    A number there is a place, not a unit.  Without a blank before it a slash is that of a folder, unless it divides a
+    time or an angle by its unit.  An angle's name may end in "_deg".
 
     >>> name_and_units("u [mm]"), name_and_units("time (s)"), name_and_units("velocity"), name_and_units("x[2]")
     (('u', 'mm'), ('time', 's'), ('velocity', ''), ('x[2]', ''))
     >>> name_and_units("Time /us"), name_and_units("run1/u")
     (('Time', 'us'), ('run1/u', ''))
+    >>> name_and_units("t/ms"), name_and_units("phi/°"), name_and_units("Time, s"), name_and_units("beam, left")
+    (('t', 'ms'), ('phi', '°'), ('Time', 's'), ('beam, left', ''))
     >>> name_and_units("Zeit in ms"), name_and_units("drop in air"), name_and_units("angle_deg")
     (('Zeit', 'ms'), ('drop in air', ''), ('angle_deg', 'deg'))
     """
     match = BRACKETED.fullmatch(header) or AFTER_A_SLASH.fullmatch(header)
     if match is None:
-        worded = AFTER_IN.fullmatch(header)
-        match = worded if worded and worded[2].lower() in AFTER_A_WORD else None
+        worded = AFTER_IN.fullmatch(header) or AFTER_A_COMMA.fullmatch(header)
+        match = worded if worded and worded[2].lower() in AFTER_A_WORD else divided(header)
     if match and not match[2].isdecimal():
         return match[1], match[2]
     tail = header.rpartition("_")[2]
     return header, tail if "_" in header and tail.lower() in DEGREES else ""
+
+
+def divided(header: str) -> re.Match[str] | None:
+    """Name and unit of a time or an angle that is written over its unit; None for what may be a folder's."""
+    match = UNDER_A_SLASH.fullmatch(header)
+    if match is None:
+        return None
+    of_time = match[1].lower() in HEADS and match[2].lower() in SECONDS
+    return match if of_time or match[2].lower() in DEGREES else None
 
 
 def short(name: str) -> str:

@@ -100,10 +100,13 @@ def from_first(first: float, seconds: float) -> str:
 def date_of(number: float, seconds: float) -> str:
     """The date that a number is as a spreadsheet's day or as a time since 1970; empty where there is none.
 
-    >>> date_of(46082.5, DAY), date_of(1772359200.0, 1.0), date_of(1e9, DAY)
-    ('2026-03-01 12:00:00', '2026-03-01 10:00:00', '')
+    >>> date_of(46082.5, DAY), date_of(1772359200.0, 1.0), date_of(739000.0, DAY), date_of(1749.0, 31557600.0)
+    ('2026-03-01 12:00:00', '2026-03-01 10:00:00', '', '')
     """
-    begin = datetime(1899, 12, 30) if seconds == DAY else datetime(1970, 1, 1)
+    as_days = seconds == DAY and SPREADSHEET[0] <= number <= SPREADSHEET[1]
+    if not as_days and seconds > 1.0:
+        return ""
+    begin = datetime(1899, 12, 30) if as_days else datetime(1970, 1, 1)
     try:
         return f"{begin + timedelta(seconds=round(seconds * number)):%Y-%m-%d %H:%M:%S}"
     except OverflowError:

@@ -59,7 +59,8 @@ def signals(file: Path, places: Places, file_run: str) -> Iterator[Signal]:
         check_regular(file)
     suffix = file.suffix.lower()
     if suffix not in SUFFIXES:
-        raise InputError(f"{file.name}: the suffix {file.suffix!r} is unknown; use one of {', '.join(SUFFIXES)}")
+        known = f"export a table (.csv), or use one of {', '.join(SUFFIXES)}"
+        raise InputError(f"{file.name}: the suffix {file.suffix!r} is unknown; {known}")
     data = read_regular(file, FILE_BUDGET, "cut the recording into parts")
     columns = columns_of_file(data, suffix, file.name, stated_mark(places.decimal))
     digest = hashlib.sha256(data).hexdigest()

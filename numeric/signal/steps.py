@@ -11,8 +11,9 @@ from scipy.special import ndtr
 
 from ridgeback.numeric.arrays import Array
 
-EXACT, MOST_LEVELS = 1e-3, 0.5
-"""Share of the step by which values may be off whole steps, and levels per sample of values that come in none."""
+EXACT, WHOLE, MOST_LEVELS = 1e-3, 0.1, 0.5
+"""Share of the widest gap between levels that is none, share of the step by which values may be off whole ones, as
+printed digits are, and levels per sample of values that come in none."""
 LEVELS = 6
 """To either side of a value, on which it may be rounded: in noise of more than a step the mean error is nothing."""
 
@@ -23,14 +24,31 @@ def step_of(values: Array) -> float | None:
     >>> t = np.arange(400) / 20.0
     >>> step_of(np.round(np.cos(t), 1)).__round__(9), step_of(np.cos(t))
     (0.1, None)
+    >>> step_of(np.cos(np.pi * t))
     """
     levels = np.unique(values)
     if levels.size < 3 or levels.size > MOST_LEVELS * values.size:
         return None
     apart = np.diff(levels)
-    step = float(apart[apart > EXACT * apart.max()].min())
+    step = refined(levels - levels[levels.size // 2], float(apart[apart > EXACT * apart.max()].min()))
     whole = (levels - levels[0]) / step
-    return step if float(np.abs(whole - np.rint(whole)).max()) < EXACT * max(1.0, float(whole[-1])) else None
+    return step if float(np.abs(whole - np.rint(whole)).max()) < WHOLE else None
+
+
+def refined(levels: Array, step: float) -> float:
+    """A step from about it, by levels further and further from 0 that count how many of it they are.
+
+    >>> round(refined(np.round(np.arange(-2000, 2000) / 7.0, 3), 0.142), 5), round(1 / 7, 5)
+    (0.14286, 0.14286)
+    """
+    reach, furthest = LEVELS * step, float(np.abs(levels).max())
+    while True:
+        near = levels[np.abs(levels) <= reach]
+        whole = np.rint(near / step)
+        step = float(near @ whole / (whole @ whole)) if whole.any() else step
+        if reach >= furthest:
+            return step
+        reach *= 2.0
 
 
 # round(m + n) is above the level j with the probability that m + n is above j + 1/2.

@@ -23,7 +23,7 @@ ZONE = r"(?P<zone>Z|[+-]\d\d:?\d\d)?"
 DATED = re.compile(rf"(?P<date>\d+[./-]\d+[./-]\d+)(?:(?:[ T]+|, ){CLOCK}(?: ?(?P<half>[AaPp])\.?[Mm]\.?)? ?{ZONE})?")
 DAY_ALONE = re.compile(r"\d{4}[./-]\d{1,2}[./-]\d{1,2}|\d{1,2}[./-]\d{1,2}[./-](?:\d{4}|\d\d)")
 """A date without a time of day, which has two or four digits of the year."""
-OF_DAY = re.compile(CLOCK)
+OF_DAY = re.compile(rf"{CLOCK}(?: ?(?P<half>[AaPp])\.?[Mm]\.?)?")
 MINUTES = re.compile(r"(?P<m>\d+):(?P<s>[0-5]\d[.,]\d+)")
 PARTS = re.compile(r"[./-]")
 DAY, HALF_DAY = 86400.0, 12
@@ -71,13 +71,15 @@ def moment(cell: str, *, day_first: bool) -> Moment:
 
     >>> moment("01:00:00.5", day_first=True).seconds, moment("11/22/2026 01:00:00 PM", day_first=False).seconds
     (3600.5, 46800.0)
+    >>> moment("01:00:00.5 PM", day_first=True).seconds
+    46800.5
     """
     found = MINUTES.fullmatch(cell)
     if found:
         return Moment(0, 60.0 * int(found["m"]) + seconds(found["s"]), zoned=False)
     found = OF_DAY.fullmatch(cell)
     if found and found["s"]:
-        return Moment(0, of_clock(found, ""), zoned=False)
+        return Moment(0, of_clock(found, found["half"] or ""), zoned=False)
     found = DATED.fullmatch(cell)
     if found is None or (found["h"] is None and not DAY_ALONE.fullmatch(cell)):
         raise ValueError(cell)

@@ -47,6 +47,7 @@ from ridgeback.numeric.files.tables.numbers import AUTO, COMMA, POINT, fits, is_
 from ridgeback.numeric.files.tables.stamps import BadCellError, is_stamp, stamp_seconds
 
 HOURS = re.compile(r"\d+:\d\d")
+WITH_A_UNIT = re.compile(r"[-+]?\d[\d.,]*(?:[eE][-+]?\d+)?\s*[^\W\d_]+")
 BOM = "\ufeff"
 WORDS = {POINT: "point", COMMA: "comma"}
 
@@ -160,6 +161,8 @@ class TextTable:
         other = next((m for m in WORDS if m != mark and fits(cell, m)), "") if mark else ""
         hint = f" with a decimal {WORDS[mark]} (--decimal {WORDS[other]})" if other else ""
         hint = hint or ("; write times as hh:mm:ss" if HOURS.fullmatch(cell) else "")
+        hint = hint or ("; the header stands there again: cut the file into parts" if cell == self.names[index] else "")
+        hint = hint or ("; write its unit into the header" if WITH_A_UNIT.fullmatch(cell) else "")
         where = f"line {self.rows.number[at]}, column {self.names[index]}"
         return InputError(f"{self.source}, {where}: {cell!r} is not a number{hint or '; a cell holds one, or nothing'}")
 

@@ -190,3 +190,11 @@ def test_missing_samples_that_are_filled_enter_no_fit() -> None:
     assert_allclose(again.growth_rate, found.growth_rate, rtol=1e-4)
     assert found.omega_sd is not None
     assert np.all(np.abs(found.omega - w) < 4.0 * found.omega_sd)
+
+
+def test_stretches_too_short_to_measure_are_refused_with_the_fill_that_keeps_them_together():
+    short = [recording(30, stretch=i + 1, start=31 * i) for i in range(4)]
+    with pytest.raises(
+        InputError, match=r"of 4 stretches between gaps the longest has 30 samples: --fill 0\.101 keeps"
+    ):
+        measure_recordings(short)

@@ -98,3 +98,34 @@ def test_a_header_of_half_the_cells_says_what_works(tmp_path: Path) -> None:
         read_recording(tmp_path / "one.csv", rate=1.0)
     assert read_recording(tmp_path / "one.csv", rate=1.0, decimal=",").values[1] == pytest.approx(1.001)
     assert read_recording(tmp_path / "one.csv", rate=1.0, decimal=".", column=2).values[1] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("header", "seconds", "unit"),
+    [("t/ms,phi/°", 1e-3, "rad"), ('"Time, s","Displacement, mm"', 1.0, "mm"), ("Year,spots", 31_557_600.0, "")],
+)
+def test_units_as_the_headers_of_laboratories_have_them(tmp_path: Path, header: str, seconds: float, unit: str) -> None:
+    found = read_recording(table(tmp_path / "run.csv", header, [f"{1900 + 0.25 * i:.2f}" for i in range(48)]))
+    assert 1.0 / found.rate == pytest.approx(0.25 * seconds)
+    assert found.units == unit
+
+
+def test_times_of_half_days_go_on_over_midnight(tmp_path: Path) -> None:
+    times = [f"{datetime(2026, 3, 1, 23, 59, 40) + timedelta(seconds=i):%I:%M:%S %p}" for i in range(48)]
+    found = read_recording(table(tmp_path / "run.csv", "Time,u", times))
+    assert (found.rate, found.time[-1]) == (1.0, 47.0)
+
+
+def test_a_column_that_numbers_the_rows_is_no_signal_beside_a_time(tmp_path: Path) -> None:
+    times = [f"{i},{0.1 * i:.1f}" for i in range(48)]
+    assert read_recording(table(tmp_path / "run.csv", "No.,Zeit,u", times)).name == "u"
+
+
+@pytest.mark.parametrize(
+    ("cell", "said"), [("1.5 mm", "write its unit into the header"), ("u", "the header stands there again")]
+)
+def test_a_cell_that_is_no_number_is_refused_with_what_helps(tmp_path: Path, cell: str, said: str) -> None:
+    rows = [f"{0.1 * i:.1f},{cell if i == 20 else f'{v:.6f}'}" for i, v in enumerate(VALUES)]
+    (tmp_path / "run.csv").write_text("\n".join(["t,u", *rows]), encoding="utf-8")
+    with pytest.raises(InputError, match=said):
+        read_recording(tmp_path / "run.csv")

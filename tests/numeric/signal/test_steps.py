@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.estimators.estimate import estimate
-from ridgeback.numeric.signal.steps import mean_rounding
+from ridgeback.numeric.signal.steps import mean_rounding, step_of
 
 
 @pytest.mark.parametrize("noise", [0.02, 0.3, 0.7])
@@ -35,3 +35,17 @@ def test_no_interval_is_claimed_where_rounding_errs_alike(per_cycle: float, grow
 
 def test_noise_larger_than_the_steps_makes_rounding_harmless() -> None:
     assert estimate(rounded(0.1, 0.06, 16.37), 16.0).interval is not None
+
+
+@pytest.mark.parametrize(("step", "digits"), [(0.1, 1), (1 / 256, 4), (1 / 256, 9)])
+def test_steps_are_found_though_they_were_printed_with_few_digits(step: float, digits: int) -> None:
+    x = np.round(rounded(step, 0.01, 16.37), digits)
+    assert step_of(x) == pytest.approx(step, abs=10.0**-digits / 100.0)
+
+
+def test_values_that_repeat_come_in_no_steps() -> None:
+    x = np.cos(2.0 * np.pi * 0.031 * np.arange(1200))
+    assert step_of(x) is None
+    found = estimate(x.round(9), 100.0)
+    assert found.interval is not None
+    assert_allclose(found.omega, 6.2 * np.pi, rtol=1e-9)
