@@ -182,7 +182,7 @@ def test_stamps_rounded_to_decimals_are_accepted_but_a_slow_drift_is_not(tmp_pat
 def test_missing_file_is_an_operating_system_error_and_suffix_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError):
         read_recording(tmp_path / "none.csv")
-    with pytest.raises(InputError, match=r"suffix '.pkl' is unknown; use one of .csv"):
+    with pytest.raises(InputError, match=r"suffix '.pkl' is unknown; export a table"):
         read_recording(tmp_path / "none.pkl")
     (tmp_path / "latin.csv").write_bytes(b"t,u\n0,\xff\n")
     with pytest.raises(InputError, match="line 2, column u: 'ÿ' is not a number"):
