@@ -65,7 +65,7 @@ def overlapping(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> 
 
     A tone that was found near the oscillation may be a part of what is the other mode's.
     """
-    least = min(models.others, key=lambda model: model.criterion + STRICTER * (model.parameters - model.basis.count))
+    least = least_of(models)
     if least.basis.count <= PLAIN:
         return None
     known = replace(given.known, band=models.best.band)
@@ -83,6 +83,11 @@ def overlapping(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> 
         if score < min(goal, rest - CLEARLY):
             goal, found = score, (pair, others)
     return found and (by_energy(found[0]), found[1])
+
+
+def least_of(models: SignalModels) -> SplineModel:
+    """The model of the least criterion, as strict as that of tones."""
+    return min(models.others, key=lambda model: model.criterion + STRICTER * (model.parameters - model.basis.count))
 
 
 def by_energy(pair: Pair) -> Pair:

@@ -22,7 +22,7 @@ from ridgeback.numeric.components.candidates import first_tones, in_turns, more_
 from ridgeback.numeric.components.doubts import doubt
 from ridgeback.numeric.components.given import Given, residual
 from ridgeback.numeric.components.lines import LEAST, clearest_line, colour
-from ridgeback.numeric.components.overlap import overlap_doubt, overlapping, told
+from ridgeback.numeric.components.overlap import PLAIN, least_of, overlap_doubt, overlapping, told
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.components.unlocked import locked_and_others, unlocked
 from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
@@ -216,12 +216,18 @@ def with_tones(given: Given, here: tuple[Tone, ...], most: int) -> tuple[SignalM
 def with_overlapping(
     given: Given, models: SignalModels, tones: tuple[Tone, ...], most: int
 ) -> tuple[SignalModels, tuple[Tone, ...]]:
-    """The same with the lesser of two modes as a tone, where these explain more and can be told apart."""
+    """The same with the lesser of two modes as a tone, where these explain more and can be told apart.
+
+    It was fitted together with a plain oscillation: where that is what is left, intervals are those of both together.
+    """
     found = overlapping(given, models, tones)
     if found is None or not told(found[0]):
         return models, tones
+    both = (*found[1], found[0][1])
     try:
-        return with_tones(given, (*found[1], found[0][1]), most)
+        beside = given.beside(both)
+        plain = least_of(beside)
+        return (beside.only(plain), both) if plain.basis.count <= PLAIN else with_tones(given, both, most)
     except InputError:
         return models, tones
 

@@ -48,6 +48,10 @@ class SignalModels:
         best, fine, coarse = (replace(model, colour=colour) for model in (self.best, self.fine, self.coarse))
         return SignalModels(best, best if self.fine is self.best else fine, coarse, self.others)
 
+    def only(self, model: SplineModel) -> SignalModels:
+        """The same where one of the models is known to be right, and neither bias nor more knots are to be feared."""
+        return SignalModels(model, model, replace(model), self.others)
+
     # A spline of degree d on knots h apart gives a slope to O(h^d): b_coarse = r^d b_fine, r the ratio of distances.
     @property
     def remainder(self) -> float:
