@@ -184,9 +184,10 @@ def remarks(track: Track, recording: Recording) -> Iterable[str]:
     yield from beside_notes(used.tones, used.spikes)
     yield from used.span_notes()
     if clipped:
-        what = "sample is clipped or lies" if clipped == 1 else "samples are clipped or lie"
+        what = "is clipped{} or lies" if clipped == 1 else "are clipped{} or lie"
         them = "it enters" if clipped == 1 else "they enter"
-        yield f"{clipped} {what} beside one that is; {them} no fit of the motion."
+        how = what.format(" or stuck" if recording.facts.get("standing_still") else "")
+        yield f"{clipped} sample{'s' * (clipped > 1)} {how} beside one that is; {them} no fit of the motion."
 
 
 def _notes(curves: tuple[Curve, ...], said: list[str]) -> Iterable[str]:

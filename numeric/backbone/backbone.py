@@ -196,7 +196,7 @@ def check_enough(usable: Mask, clean: Mask) -> None:
     if np.count_nonzero(usable) < 4:
         raise InputError(
             f"backbone: {np.count_nonzero(usable)} points are clear of the noise"
-            f"{'' if clean.all() else ' and of clipped samples'}; give a longer or less noisy record"
+            f"{'' if clean.all() else ' and of clipped or stuck samples'}; give a longer or less noisy record"
         )
 
 
@@ -243,6 +243,7 @@ def left_out_notes(usable: Mask, clean: Mask) -> list[str]:
         )
     if not clean.all():
         notes.append(
-            f"{np.count_nonzero(~clean)} of {usable.size} points have clipped samples in their window; left out."
+            f"{np.count_nonzero(~clean)} of {usable.size} points have clipped or stuck samples in their window; "
+            "left out."
         )
     return notes

@@ -141,8 +141,8 @@ class HalfCycles(ShownBackbone):
         usable &= np.ones_like(usable) if exclude is None else ~exclude
         if np.count_nonzero(usable) < 4:
             raise InputError(
-                f"backbone: {np.count_nonzero(usable)} half cycles are clear of the noise and of clipped samples; "
-                "give a longer or less noisy record"
+                f"backbone: {np.count_nonzero(usable)} half cycles are clear of the noise and of clipped or stuck "
+                "samples; give a longer or less noisy record"
             )
         points = Points(
             self.time,

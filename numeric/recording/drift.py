@@ -6,9 +6,10 @@ import math
 
 import numpy as np
 from scipy.fft import rfft
+from scipy.ndimage import maximum_filter1d
 
 from ridgeback.common.errors import InputError
-from ridgeback.numeric.arrays import Array
+from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.late import signal
 from ridgeback.numeric.signal.convolution import convolved
 from ridgeback.numeric.signal.samples import TWO_PI
@@ -40,11 +41,11 @@ def slow_part(x: Array, rate: float) -> Array:
     return np.asarray(convolved(x, w) / weights, dtype=np.float64)
 
 
-def wandering(x: Array, rate: float) -> float:
+def wandering(x: Array, rate: float, wrong: Mask | None = None) -> float:
     """How far the slow part moves between the ends, where it sees whole windows, as a share of the signal's rms.
 
-    0 where the record is too short to tell, and where white noise of the level of its spectrum moves a local mean as
-    far; NaN where it is longer than MOST_SAMPLES.
+    Windows that see samples which are ``wrong`` do not count.  0 where the record is too short to tell, and where white
+    noise of the level of its spectrum moves a local mean as far; NaN where it is longer than MOST_SAMPLES.
 
     >>> t, noise = np.arange(2000) / 20.0, 0.3 * np.random.default_rng(1).normal(size=2000)
     >>> [round(wandering(np.cos(6.0 * t) + noise + slope * t, 20.0), 1) for slope in (0.0, 0.01)]
@@ -55,7 +56,10 @@ def wandering(x: Array, rate: float) -> float:
     half = round(0.5 * CYCLES * TWO_PI / strongest_frequency(x, rate) * rate)
     if x.size < 4 * half:
         return 0.0
-    far = float(np.ptp(slow_part(x, rate)[half:-half]))
+    inside = slow_part(x, rate)[half:-half]
+    if wrong is not None:
+        inside = inside[~maximum_filter1d(wrong, 2 * half + 1)[half:-half]]
+    far = float(np.ptp(inside)) if inside.size else 0.0
     return far / float(np.std(x)) if far > range_of_noise(x, window("blackman", half)) else 0.0
 
 

@@ -55,7 +55,7 @@ class Recording(ShownRecording):
     stretch : int
         Counts the stretches of a signal with gaps from 1; 0 where there is no gap.
     clipped, filled : array of bool, shape (N,)
-        Clipped samples, and those interpolated across missing ones.
+        Samples that are clipped or stand still, and those interpolated across missing ones.
     facts : mapping
         What was found and done, in numbers.
 
@@ -103,7 +103,7 @@ class Recording(ShownRecording):
         Examples
         --------
         >>> t = np.arange(2000) / 20.0
-        >>> held = Recording.from_arrays(np.where(t < 40.0, 3.0, np.cos(6.0 * t)), 20.0)
+        >>> held = Recording.from_arrays(np.where(t < 40.0, 3.0 + 1e-3 * t, np.cos(6.0 * t)), 20.0)
         >>> len(held.drift_notes()), held.drift_notes((41.0, 99.0))
         (1, ())
         """
@@ -111,7 +111,8 @@ class Recording(ShownRecording):
         if not isinstance(drift, float) or self.facts.get("detrend") != "none":
             return ()
         if span is not None and not math.isnan(drift):
-            drift = wandering(self.values[(self.time >= span[0]) & (self.time <= span[1])], self.rate)
+            there = (self.time >= span[0]) & (self.time <= span[1])
+            drift = wandering(self.values[there], self.rate, self.unsound[there])
         return said_of(drift)
 
     @classmethod
@@ -181,7 +182,7 @@ class Recording(ShownRecording):
 
     @property
     def unsound(self) -> Mask:
-        """The samples that enter no fit: clipped ones, and those interpolated across missing ones."""
+        """The samples that enter no fit: clipped and stuck ones, and those interpolated across missing ones."""
         return self.clipped | self.filled
 
     @property

@@ -7,7 +7,7 @@ The rules, in this order:
    is RESAMPLED_STEPS steps, usual ones or those of the new rate, whichever are longer.
 2. A stretch on a uniform grid is kept as it is.  Nearly even times are interpolated, others only by ``resample``.
 3. Stretches with too few samples, or constant, are left out.
-4. Clipped samples are kept and marked; they must enter no fit.
+4. Clipped samples and those that stand still are kept and marked; they must enter no fit.
 5. The slow part is measured and named, and removed by ``detrend`` only.
 """
 
@@ -22,7 +22,7 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.files.columns import Columns
-from ridgeback.numeric.recording.clipping import clipped, runs
+from ridgeback.numeric.recording.clipping import clipped, runs, standing_still
 from ridgeback.numeric.recording.drift import DETRENDS, detrended, wandering
 from ridgeback.numeric.recording.rounded_stamps import unrounded
 from ridgeback.numeric.recording.stretches import GAP_STEPS, Gap, Stamped, split
@@ -108,8 +108,9 @@ def treated(
     if treatment.resample is None:
         check_not_scattered(samples, columns, treatment)
     flat = clipped(samples.values)
+    still = standing_still(samples.values) & ~flat
     parts, gaps = split(samples, longest)
-    marks = np.split(flat, np.cumsum([part.time.size for part in parts])[:-1])
+    marks = np.split(flat | still, np.cumsum([part.time.size for part in parts])[:-1])
     whole = Whole(samples, grid_of(samples.time, samples.usual), columns, treatment)
     kept, lost = [], []
     for part, mark in zip(parts, marks, strict=True):
@@ -123,9 +124,18 @@ def treated(
             f"that vary (the first gap: {gap_text(gaps[0])}); interpolate across short gaps (--fill), give the rate of "
             "even samples whose stamps are at fault (--rate), or record longer"
         )
-    facts = {"missing": samples.absent, "gaps": [[gap.begin, gap.end] for gap in gaps], "left_out": len(lost)}
+    facts = {
+        "missing": samples.absent,
+        "standing_still": int(np.count_nonzero(still)),
+        "gaps": [[gap.begin, gap.end] for gap in gaps],
+        "left_out": len(lost),
+    }
     kept = [Piece(p.samples, p.values, p.notes, {**facts, **p.facts}) for p in kept]
-    return kept, (*((rounded,) if rounded else ()), *signal_notes(samples, header, gaps, lost, flat))
+    return kept, (
+        *((rounded,) if rounded else ()),
+        *signal_notes(samples, header, gaps, lost, flat),
+        *still_notes(samples, still),
+    )
 
 
 @dataclass(frozen=True)
@@ -230,7 +240,7 @@ def refuse_uneven(part: Stamped, whole: Whole, more: str = "") -> None:
 
 def piece(samples: Uniform, treatment: Treatment) -> Piece:
     """A stretch with its trend removed as asked, and the notes about it."""
-    drift = wandering(samples.values, samples.rate)
+    drift = wandering(samples.values, samples.rate, samples.clipped | samples.filled)
     values = detrended(samples.values, samples.rate, treatment.detrend)
     facts: dict[str, object] = {
         "rate": samples.rate,
@@ -281,6 +291,20 @@ def signal_notes(samples: Stamped, header: str, gaps: Sequence[Gap], lost: Seque
             "enter no fit of the motion."
         )
     return notes
+
+
+def still_notes(samples: Stamped, still: Mask) -> list[str]:
+    """Samples that stand still in words, with counts and places; none where there are none."""
+    if not still.any():
+        return []
+    spans = [
+        f"at {samples.values[first]:.6g} from t = {samples.time[first]:.6g} to {samples.time[last]:.6g}"
+        for first, last in runs(still, 1)
+    ]
+    return [
+        f"{np.count_nonzero(still)} samples stand still {places(spans)}, as where a sensor sticks or what was lost is "
+        "written as one value; they enter no fit of the motion."
+    ]
 
 
 def advice(gaps: Sequence[Gap], usual: float) -> str:

@@ -41,7 +41,7 @@ class Uniform:
 
     ``error`` is the interpolation's, rms relative to that of the signal, 0 where there was none (across missing samples
     by themselves, where that is more).  ``filled`` says which samples were interpolated across missing ones,
-    ``clipped`` which lie at or beside a clipped one.
+    ``clipped`` which lie at or beside one that is clipped or stands still.
     """
 
     start: float

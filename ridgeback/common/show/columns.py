@@ -68,7 +68,7 @@ QUANTITIES: Final[Mapping[str, Quantity]] = MappingProxyType(
         "mechanical_energy": Quantity(PER_MASS, "kinetic and potential energy per unit of mass"),
         "energy_balance": Quantity(PER_MASS, "what the energy balance misses per unit of mass"),
         "value": Quantity(OF_SIGNAL, "value"),
-        "clipped": Quantity("", "whether the sample lies in a flat top"),
+        "clipped": Quantity("", "whether the sample lies in a flat top or stands still"),
         "filled": Quantity("", "whether the sample was interpolated"),
         "order": Quantity("1", "highest power kept"),
         "eps": Quantity("1", "parameter of the limit cycle"),
