@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,8 @@ from ridgeback.numeric.harmonics.window_steps import (
 from ridgeback.numeric.signal.samples import checked_work
 
 MOST_HARMONICS = 12
+KEPT = 16
+"""Records whose harmonics are kept: several parts of an estimate ask for those of the same windows."""
 ONE_WINDOW = 12.0
 """Gain of the criterion in a single window that shows a harmonic: chance reaches it in one of a million windows."""
 
@@ -208,20 +211,32 @@ def choose_multiples(x: Array, rate: float, guide: Array, *, half: int) -> tuple
     begins = np.unique(np.linspace(0, x.size - length, min(12, max(1, x.size // length))).astype(int))
     window = begins[:, None] + np.arange(length)
     guide_phase = cumulative_trapezoid(guide, dx=1.0 / rate, initial=0)[window]
-    s = np.arange(-half, half + 1) / half
-    floor = (1e-9 * np.abs(x).max()) ** 2
+    highest = min(MOST_HARMONICS, int(0.9 * math.pi * rate / guide.max()))
+    floor = (1e-9 * float(np.abs(x).max())) ** 2
+    return shown_in(x[window].tobytes(), guide_phase.tobytes(), length, highest, floor)
 
-    def criterion(shape: Shape) -> Array:
-        variance = gauss_newton(s, x[window], guide_phase, shape, rest=NEAR_REST).variance
-        return np.asarray(length * np.log(variance + floor) + shape.size * math.log(length))
 
-    kept: tuple[int, ...] = ()
-    best = criterion(Shape(kept))
-    for h in range(2, min(MOST_HARMONICS, int(0.9 * math.pi * rate / guide.max())) + 1):
-        trial = Shape((*kept, h))
+@lru_cache(maxsize=KEPT)
+def shown_in(windows: bytes, phases: bytes, length: int, highest: int, floor: float) -> tuple[int, ...]:
+    """The harmonics that windows of so many samples show, from their samples and guide phases, kept for the next asker.
+
+    Each fit begins where that without the last harmonic came to rest, which is a step or two away.
+    """
+    x, phase = (np.frombuffer(values).reshape(-1, length) for values in (windows, phases))
+    s = np.arange(-(length // 2), length // 2 + 1) / (length // 2)
+
+    def criterion(shape: Shape, fit: Solution) -> Array:
+        return np.asarray(length * np.log(fit.variance + floor) + shape.size * math.log(length))
+
+    kept = Shape(())
+    fit = gauss_newton(s, x, phase, kept, rest=NEAR_REST)
+    best = criterion(kept, fit)
+    for h in range(2, highest + 1):
+        trial = Shape((*kept.multiples, h))
         if 3 * trial.size > length:
             break
-        score = criterion(trial)
+        new = gauss_newton(s, x, phase, trial, rest=NEAR_REST, begin=fit)
+        score = criterion(trial, new)
         if score.sum() < best.sum() or (best - score).max() > ONE_WINDOW:
-            kept, best = trial.multiples, score
-    return kept
+            kept, fit, best = trial, new, score
+    return kept.multiples

@@ -150,8 +150,12 @@ class Steps:
         return Steps(*values)
 
 
-def gauss_newton(s: Array, x: Array, guide: Array, shape: Shape, *, rest: float = AT_REST) -> Solution:
+def gauss_newton(
+    s: Array, x: Array, guide: Array, shape: Shape, *, rest: float = AT_REST, begin: Solution | None = None
+) -> Solution:
     """Fit every window ``x[window, n]`` from its guide phase; at most ITERATIONS steps, each half a radian at most.
+
+    With ``begin``, of as many degrees, from its phase and amplitude.
 
     The steps of a window end when its last one is below ``rest``, or below UNSEEN_IN_A_WINDOW of what its noise leaves
     open; the residual then errs by its square.
@@ -159,33 +163,33 @@ def gauss_newton(s: Array, x: Array, guide: Array, shape: Shape, *, rest: float 
     It has settled when the last step moved the phase by less than SETTLED radians, weighted with the amplitude: where a
     decay has sunk into the noise its phase goes on wandering.
     """
-    at = first_steps(s, x, guide, shape)
+    at = first_steps(s, x, guide, shape, begin)
     for _ in range(ITERATIONS):
         live = np.flatnonzero(at.moving)
         if live.size == x.shape[0]:
             at = one_step(s, x, shape, at, rest)
         elif live.size:
             at = at.changed(live, one_step(s, x[live], shape, at.some(live), rest))
-    begin, width = shape.size - shape.phase_degree - 1, shape.amplitude_degree + 1
+    first, width = shape.size - shape.phase_degree - 1, shape.amplitude_degree + 1
     return Solution(
         at.p,
         at.a,
         at.growth,
-        at.coefficients[:, begin - 2 : begin],
-        at.inverse[:, begin:, begin:],
+        at.coefficients[:, first - 2 : first],
+        at.inverse[:, first:, first:],
         at.inverse[:, :width, :width],
         at.variance,
         at.last < SETTLED,
     )
 
 
-def first_steps(s: Array, x: Array, guide: Array, shape: Shape) -> Steps:
+def first_steps(s: Array, x: Array, guide: Array, shape: Shape, begin: Solution | None) -> Steps:
     """Where the fits start."""
-    p, a = start(s, x, guide, shape)
     count, size, nothing = x.shape[0], shape.size, np.zeros(x.shape[0])
+    p, a, growth = (*start(s, x, guide, shape), nothing) if begin is None else (begin.p, begin.a, begin.growth)
     everywhere = np.ones(count, dtype=np.bool_)
     none, inverse = np.zeros((count, size)), np.zeros((count, size, size))
-    return Steps(p, a, nothing, nothing, nothing, none, inverse, nothing, everywhere)
+    return Steps(p, a, growth, nothing, nothing, none, inverse, nothing, everywhere)
 
 
 def one_step(s: Array, x: Array, shape: Shape, at: Steps, rest: float) -> Steps:
