@@ -34,6 +34,9 @@ def draw(picture: Picture, ax: Axes | None = None) -> Axes:
     if picture.logarithmic:
         axes.set_yscale("log")
     axes.set(title=picture.title, xlabel=picture.x_label, ylabel=picture.y_label)
+    taken = sorted({v for stroke in picture.strokes if stroke.steps for v in floats(stroke.y) if np.isfinite(v)})
+    if taken:
+        axes.set_yticks(taken)
     if picture.labelled:
         axes.set_xticks(list(picture.labelled))
     axes.title.set_fontsize("medium")
@@ -49,8 +52,13 @@ def curve(axes: Axes, stroke: Stroke, colour: str) -> None:
     x, y = floats(stroke.x), floats(stroke.y)
     held = "steps-post" if stroke.steps else "default"
     axes.plot(x, y, color=colour, label=stroke.label, linestyle=dash, marker=marker, markersize=4, drawstyle=held)
-    if stroke.low is not None and stroke.high is not None:
-        axes.fill_between(x, floats(stroke.low), floats(stroke.high), color=colour, alpha=0.2, linewidth=0.0)
+    if stroke.low is None or stroke.high is None:
+        return
+    low, high = floats(stroke.low), floats(stroke.high)
+    if stroke.dots:  # nothing lies between them
+        axes.vlines(x, low, high, color=colour, linewidth=1.0, alpha=0.6)
+    else:
+        axes.fill_between(x, low, high, color=colour, alpha=0.2, linewidth=0.0)
 
 
 def plane(axes: Axes, shown: Plane) -> None:

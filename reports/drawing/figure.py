@@ -9,12 +9,15 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ridgeback.numeric.arrays import Array
+from ridgeback.reports.drawing.marks import group
 from ridgeback.reports.drawing.panel import Panel
 
 WIDE, NARROW = 1000.0, 368.0
 """Widths of the two drawings, in pixels of the page at its widest and on a phone."""
 READ, FINE = 161, 641
 """Places at which a slow curve is read, and one that oscillates."""
+SWITCHED = 12
+"""Series of a figure that have a check box, at most."""
 WAYS: Mapping[str, str] = {"E": "expansions", "S": "series model", "T": "estimates"}
 
 
@@ -51,6 +54,11 @@ class Figure:
     """Id of the table that holds the figure's numbers, where its data do not."""
     leads: tuple[str, str] = ("", "")
     """What stands before the caption, where the two drawings are read differently: of the wide one, of the narrow."""
+
+    @property
+    def boxes(self) -> tuple[tuple[str, str], ...]:
+        """The check boxes of what is drawn."""
+        return tuple(box for box in self.toggles if f'class="f{box[0]}"' in self.wide)
 
     @property
     def told(self) -> bool:
@@ -113,6 +121,20 @@ def _read(series: Series, places: Array) -> list[float | None]:
     values = held if series.steps else np.interp(places, x, y)
     digits = 3 if series.per_cent else 6
     return [float(f"{v:.{digits}g}") if keep else None for v, keep in zip(values, inside, strict=True)]
+
+
+def switches(names: Sequence[str]) -> tuple[tuple[str, str], ...]:
+    """Check boxes for the series of a figure, in their order; none where there is but one.
+
+    >>> switches(["samples", "fit"]), switches(["samples"])
+    ((('1', 'samples'), ('2', 'fit')), ())
+    """
+    return tuple((str(i), name) for i, name in enumerate(names[:SWITCHED], 1)) if len(names) > 1 else ()
+
+
+def switched(i: int, *marks: str) -> str:
+    """The marks of the i-th series, from 0, which its check box hides."""
+    return group(marks, f"f{i + 1}")
 
 
 def toggles(*letters: str, series: bool = True) -> tuple[tuple[str, str], ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +11,7 @@ from ridgeback.common.numbers import number, power_of_ten
 from ridgeback.common.show.picture import Picture, Stroke
 from ridgeback.numeric.arrays import Array, floats
 from ridgeback.reports.drawing.apart import apart, text_width
-from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout
+from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout, switched, switches
 from ridgeback.reports.drawing.marks import area, dot, drawing, line, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded, tick_labels
@@ -108,23 +108,27 @@ def _frame(panel: Panel, axes: Axes, *, most: int, rows: int) -> list[str]:
 
 
 def _strokes(panel: Panel, picture: Picture) -> list[str]:
-    marks = []
-    for stroke, style in zip(picture.strokes, STYLES * 4, strict=False):
-        x, y = floats(stroke.x), floats(stroke.y)
-        x, y = (np.repeat(x, 2)[1:], np.repeat(y, 2)[:-1]) if stroke.steps else (x, y)
-        if stroke.low is not None and stroke.high is not None:
-            low, high = (panel.y.clipped(floats(end)) for end in (stroke.low, stroke.high))
-            if stroke.dots:
-                across = panel.x.of(x)
-                marks += [line(a, b, a, c, f"{style[0]}k") for a, b, c in zip(across, low, high, strict=True)]
-            else:
-                marks.append(area(panel.x.of(x), low, high, f"{style[0]}f"))
-        shown = np.where((y >= panel.y.low) & (y <= panel.y.high), y, np.nan)
-        marks += [] if stroke.dots else [panel.curve(x, shown, style)]
-        if stroke.dots or np.isfinite(shown).sum() < 12:
-            at = zip(panel.x.of(x).tolist(), panel.y.of(shown).tolist(), strict=True)
-            marks += [dot(a, b, 3.0, _filled(style)) for a, b in at if np.isfinite(a) and np.isfinite(b)]
-    return marks
+    strokes = enumerate(zip(picture.strokes, STYLES * 4, strict=False))
+    return [switched(i, *_stroke(panel, stroke, style)) for i, (stroke, style) in strokes]
+
+
+def _stroke(panel: Panel, stroke: Stroke, style: str) -> Iterator[str]:
+    """A curve with its band, or dots with their bars."""
+    x, y = floats(stroke.x), floats(stroke.y)
+    x, y = (np.repeat(x, 2)[1:], np.repeat(y, 2)[:-1]) if stroke.steps else (x, y)
+    if stroke.low is not None and stroke.high is not None:
+        low, high = (panel.y.clipped(floats(end)) for end in (stroke.low, stroke.high))
+        across = panel.x.of(x)
+        if stroke.dots:
+            yield from (line(a, b, a, c, f"{style[0]}k") for a, b, c in zip(across, low, high, strict=True))
+        else:
+            yield area(across, low, high, f"{style[0]}f")
+    shown = np.where((y >= panel.y.low) & (y <= panel.y.high), y, np.nan)
+    if not stroke.dots:
+        yield panel.curve(x, shown, style)
+    if stroke.dots or np.isfinite(shown).sum() < 12:
+        at = zip(panel.x.of(x).tolist(), panel.y.of(shown).tolist(), strict=True)
+        yield from (dot(a, b, 3.0, _filled(style)) for a, b in at if np.isfinite(a) and np.isfinite(b))
 
 
 def answer_figure(key: str, picture: Picture, caption: str = "", table: str = "") -> Figure | None:
@@ -160,6 +164,7 @@ def answer_figure(key: str, picture: Picture, caption: str = "", table: str = ""
             [*_whole(narrow, axes, picture, 4), *_below(narrow, picture)],
         ),
         caption=caption or picture.title,
+        toggles=switches([stroke.label for stroke in picture.strokes]),
         data=readout(((wide,), (narrow,)), series, name=picture.x_label, unit="", link=""),
         label=label,
         table=table,
@@ -231,23 +236,30 @@ def side_by_side(key: str, pictures: Sequence[Picture], caption: str, table: str
         wide="".join(_small(picture, axes, lines) for picture in pictures),
         narrow="",
         caption=caption,
+        toggles=switches([stroke.label for stroke in pictures[0].strokes]) if _alike(pictures) else (),
         many="three",
         label=caption,
         table=table,
     )
 
 
+def _alike(pictures: Sequence[Picture]) -> bool:
+    """Whether all have the same curves by name, so that one check box serves all."""
+    return len({tuple(stroke.label for stroke in picture.strokes) for picture in pictures}) == 1
+
+
 def _points(panel: Panel, picture: Picture) -> list[str]:
     """Unseen marks at the points of the curves, which a pointer reads: what was computed, nothing between."""
-    marks = []
-    for stroke in picture.strokes:
-        x, y = floats(stroke.x), floats(stroke.y)
-        kept = np.flatnonzero(np.isfinite(x) & np.isfinite(y) & (y >= panel.y.low) & (y <= panel.y.high))
-        for i in kept[np.unique(np.linspace(0, kept.size - 1, min(kept.size, MOST_READ)).round().astype(int))]:
-            said = f"{picture.y_label} {number(float(y[i]), 3)} at {picture.x_label} {number(float(x[i]), 3)}"
-            where = f"{picture.title}, {stroke.label}" if stroke.label else picture.title
-            marks.append(dot(panel.x(float(x[i])), panel.y(float(y[i])), 3.0, "unseen", f"{where}: {said}"))
-    return marks
+    return [switched(i, *_unseen(panel, picture, stroke)) for i, stroke in enumerate(picture.strokes)]
+
+
+def _unseen(panel: Panel, picture: Picture, stroke: Stroke) -> Iterator[str]:
+    x, y = floats(stroke.x), floats(stroke.y)
+    kept = np.flatnonzero(np.isfinite(x) & np.isfinite(y) & (y >= panel.y.low) & (y <= panel.y.high))
+    for i in kept[np.unique(np.linspace(0, kept.size - 1, min(kept.size, MOST_READ)).round().astype(int))]:
+        said = f"{picture.y_label} {number(float(y[i]), 3)} at {picture.x_label} {number(float(x[i]), 3)}"
+        where = f"{picture.title}, {stroke.label}" if stroke.label else picture.title
+        yield dot(panel.x(float(x[i])), panel.y(float(y[i])), 3.0, "unseen", f"{where}: {said}")
 
 
 def _key(picture: Picture) -> list[tuple[float, int]]:

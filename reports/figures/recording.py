@@ -14,7 +14,7 @@ from ridgeback.compare.motion.error_norms import distance
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.tracking.track import NORMAL_95
 from ridgeback.reports.drawing.apart import apart
-from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout
+from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout, switched, switches
 from ridgeback.reports.drawing.marks import area, drawing, group, line, places, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
@@ -84,6 +84,7 @@ def side_by_side(key: str, bands: Sequence[Band], *, x_title: str, caption: str,
             [*_bands(bands, narrow, x_title), *_rows(names, 4.0, height[1] + 16.0)],
         ),
         caption=caption,
+        toggles=switches([name for name, _ in names]),
         data=readout((wide, narrow), series, name="amplitude", unit=unit, link="amplitude"),
         label=label,
     )
@@ -100,7 +101,8 @@ def _band_panel(band: Band, i: int, count: int, *, narrow: bool) -> Panel:
     top = 300.0 * i + 34.0 if narrow else 34.0
     kept = np.isfinite(band.sd) & (band.sd <= 6.0 * np.nanmedian(band.sd))
     others = [y[kept] for _, y, _ in band.over[:1] if np.isfinite(y[kept]).any()]
-    low, high = padded([band.y, band.y[kept] - band.sd[kept], band.y[kept] + band.sd[kept], *others], share=0.08)
+    half = NORMAL_95 * band.sd[kept]
+    low, high = padded([band.y, band.y[kept] - half, band.y[kept] + half, *others], share=0.08)
     return Panel(Scale(*amplitudes(band.x), left, right), Scale(low, high, top + (196.0 if narrow else 280.0), top))
 
 
@@ -127,11 +129,11 @@ def _band(band: Band, panel: Panel, x_title: str) -> str:
         panel.columns(most=5, unit=x_title),
         text(panel.left - 56, panel.top - 16, band.title, "m"),
     ]
-    marks.append(area(panel.x.of(x), panel.y.clipped(y - NORMAL_95 * sd), panel.y.clipped(y + NORMAL_95 * sd), "tf"))
-    marks.append(panel.curve(x, y, "tl nf"))
-    for _, values, style in band.over:
+    low, high = panel.y.clipped(y - NORMAL_95 * sd), panel.y.clipped(y + NORMAL_95 * sd)
+    marks.append(switched(0, area(panel.x.of(x), low, high, "tf"), panel.curve(x, y, "tl nf")))
+    for i, (_, values, style) in enumerate(band.over, 1):
         inside = np.where((values[order] >= panel.y.low) & (values[order] <= panel.y.high), values[order], np.nan)
-        marks.append(panel.curve(x, inside, style))
+        marks.append(switched(i, panel.curve(x, inside, style)))
     return "".join(marks)
 
 
@@ -219,8 +221,8 @@ def signal_figure(recording: RecordingComparison, clock: Clock = SECONDS) -> Fig
             panel.columns(most=4 if narrow else 8, unit=clock.time_title),
             text(0, 11, recording.column, "m"),
         ]
-        curves = [panel.curve(recording.time, recording.signal, "ul nf")]
-        curves.append(panel.curve(recording.amplitude_time, recording.amplitude, "tl nf"))
+        curves = [switched(0, panel.curve(recording.time, recording.signal, "ul nf"))]
+        curves.append(switched(1, panel.curve(recording.amplitude_time, recording.amplitude, "tl nf")))
         return [*parts, panel.zooming(curves)]
 
     return Figure(
@@ -229,6 +231,7 @@ def signal_figure(recording: RecordingComparison, clock: Clock = SECONDS) -> Fig
         narrow=drawing(NARROW, 270, "narrow", label, marks(narrow, True)),
         caption=f"{recording.column} at {number(recording.rate)} samples per {clock.word}, with the amplitude of "
         "its fundamental.",
+        toggles=switches([recording.column, "amplitude"]),
         data=readout(((wide,), (narrow,)), series, name="t", unit=clock.time_unit, link="time", places=FINE),
         label=label,
     )
@@ -277,9 +280,9 @@ def tracks_figure(recording: RecordingComparison, clock: Clock = SECONDS) -> Fig
             text(0, 11, clock.title(), "m"),
         ]
         curves = []
-        for c, v in zip(drawn, values, strict=True):
+        for i, (c, v) in enumerate(zip(drawn, values, strict=True)):
             inside = np.where((v >= panel.y.low) & (v <= panel.y.high), v, np.nan)
-            curves.append(panel.curve(c.time, inside, styles[c.name]))
+            curves.append(switched(i, panel.curve(c.time, inside, styles[c.name])))
         return [*parts, panel.zooming(curves)]
 
     names = [
@@ -293,6 +296,7 @@ def tracks_figure(recording: RecordingComparison, clock: Clock = SECONDS) -> Fig
         key="recording-tracks",
         wide=drawing(WIDE, 300, "wide", label, [*marks(wide, False), *beside]),
         narrow=drawing(NARROW, 300 + ROW * len(names), "narrow", label, [*marks(panels[1], True), *below]),
+        toggles=switches([c.label for c in drawn]),
         caption=f"Thick: {chosen.label}, from which the backbone is made; beside the others, their rms distance.",
         data=readout(((wide,), (panels[1],)), series, name="t", unit=clock.time_unit, link="time"),
         label=label,

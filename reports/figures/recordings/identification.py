@@ -11,7 +11,7 @@ from ridgeback.common.quantities import symbol, unit_text
 from ridgeback.compare.identification.results import Candidate, Identification, Parameter, Prediction
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.tracking.track import NORMAL_95
-from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout
+from ridgeback.reports.drawing.figure import NARROW, WIDE, Figure, Series, readout, switched, switches
 from ridgeback.reports.drawing.marks import area, drawing, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
@@ -112,11 +112,15 @@ def forecast_figure(made: Prediction, found: Identification, clock: Clock = SECO
         for row, panel in zip(rows, panels, strict=True):
             x = panel.x.of(made.time)
             marks += [panel.rows(most=4), text(0, panel.top - 10, row.title, "m")]
+            low, high = panel.y.clipped(row.measured - row.half), panel.y.clipped(row.measured + row.half)
             bands = [
-                area(x, panel.y.clipped(row.low), panel.y.clipped(row.high), "ef"),
-                area(x, panel.y.clipped(row.measured - row.half), panel.y.clipped(row.measured + row.half), "tf"),
+                switched(0, area(x, panel.y.clipped(row.low), panel.y.clipped(row.high), "ef")),
+                switched(1, area(x, low, high, "tf")),
             ]
-            curves = [panel.curve(made.time, row.centre, "el nf"), panel.curve(made.time, row.measured, "tl nf")]
+            curves = [
+                switched(0, panel.curve(made.time, row.centre, "el nf")),
+                switched(1, panel.curve(made.time, row.measured, "tl nf")),
+            ]
             marks.append(panel.zooming([*bands, *curves]))
         marks.append(panels[-1].columns(most=4 if narrow else 8, unit=clock.time_title))
         drawn.append(drawing(NARROW if narrow else WIDE, 550, "narrow" if narrow else "wide", label, marks))
@@ -131,6 +135,7 @@ def forecast_figure(made: Prediction, found: Identification, clock: Clock = SECO
         f"{number(made.until)} {clock.time_unit}. Orange: forecast; teal: what was measured later, less the forecast "
         f"below the first panel; each with its 95 % band. Rms distance: amplitude {per_cent(errors.get('amplitude'))}, "
         f"frequency {per_cent(errors.get('omega'))}, phase {number(errors.get('phase'), 3)} rad.",
+        toggles=switches(["forecast", "measured"]),
         data=readout((groups[0], groups[1]), series, name="t", unit=clock.time_unit, link="time"),
         label=label,
     )

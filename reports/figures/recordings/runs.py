@@ -12,7 +12,7 @@ from ridgeback.common.quantities import unit_text
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.tracking.track import NORMAL_95
 from ridgeback.reports.drawing.apart import apart
-from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout
+from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout, switched, switches
 from ridgeback.reports.drawing.marks import area, drawing, line, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
@@ -86,6 +86,7 @@ def runs_backbone(runs: Runs) -> Figure:
         narrow=drawing(NARROW, 608 + 17 * len(names), "narrow", label, marks["narrow"]),
         caption="Frequency and growth rate against the amplitude of the fundamental, bands 95 %."
         + (" Thick: combined, weighted by precision and by the scatter between runs." if runs.found.combined else ""),
+        toggles=switches([curve.name for curve in names]),
         data=readout((wide, narrow), series, name="amplitude", unit=unit, link="amplitude"),
         label=label,
     )
@@ -105,13 +106,13 @@ def _panel(curves: Sequence[Curve], i: int, *, narrow: bool) -> Panel:
 
 def _drawn(curves: Sequence[Curve], panel: Panel, title: str, x_title: str) -> list[str]:
     marks = [panel.rows(most=5), panel.columns(most=5, unit=x_title), text(panel.left - 56, panel.top - 16, title, "m")]
-    for curve in curves:
-        x = panel.x.of(curve.x)
+    for i, curve in enumerate(curves):
+        x, band = panel.x.of(curve.x), ""
         if not curve.style.startswith("rf2"):
             kind = "band" if curve.style.startswith("rf") else f"{curve.style[0]}f"
-            marks.append(area(x, panel.y.clipped(curve.low), panel.y.clipped(curve.high), kind))
+            band = area(x, panel.y.clipped(curve.low), panel.y.clipped(curve.high), kind)
         inside = np.where((curve.y >= panel.y.low) & (curve.y <= panel.y.high), curve.y, np.nan)
-        marks.append(panel.curve(curve.x, inside, curve.style))
+        marks.append(switched(i, band, panel.curve(curve.x, inside, curve.style)))
     return marks
 
 
@@ -205,9 +206,13 @@ def runs_tracks(runs: Runs) -> Figure:
     def marks(panel: Panel, narrow_: bool) -> list[str]:
         parts = [panel.rows(most=5), panel.columns(most=4 if narrow_ else 8, unit=clock.time_title)]
         parts.append(text(0, 11, clock.title(), "m"))
-        bands = [area(panel.x.of(c.x), y.clipped(c.low), y.clipped(c.high), f"{c.style[0]}f") for c in curves]
+        bands = [
+            switched(i, area(panel.x.of(c.x), y.clipped(c.low), y.clipped(c.high), f"{c.style[0]}f"))
+            for i, c in enumerate(curves)
+        ]
         inside = [np.where((c.y >= y.low) & (c.y <= y.high), c.y, np.nan) for c in curves]
-        drawn = [panel.curve(c.x, values, c.style) for c, values in zip(curves, inside, strict=True)]
+        pairs = enumerate(zip(curves, inside, strict=True))
+        drawn = [switched(i, panel.curve(c.x, values, c.style)) for i, (c, values) in pairs]
         return [*parts, panel.zooming([*bands, *drawn])]
 
     ends = [float(wide.y.clipped(c.y[np.isfinite(c.y)][-1:])[0]) if np.isfinite(c.y).any() else 260.0 for c in curves]
@@ -223,6 +228,7 @@ def runs_tracks(runs: Runs) -> Figure:
             NARROW, 312 + 17 * len(curves), "narrow", label, [*marks(narrow, True), *_key(curves, 4.0, 316.0, 1)]
         ),
         caption="Frequency of the fundamental where it is valid, bands 95 %." + _cut(runs),
+        toggles=switches([c.name for c in curves]),
         data=readout(((wide,), (narrow,)), series, name="t", unit=clock.time_unit, link="time"),
         label=label,
     )

@@ -9,7 +9,7 @@ import numpy as np
 
 from ridgeback.common.numbers import minus, number, per_cent
 from ridgeback.common.quantities import frequency
-from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout
+from ridgeback.reports.drawing.figure import FINE, NARROW, WIDE, Figure, Series, readout, switched, switches
 from ridgeback.reports.drawing.marks import drawing, group, line, text
 from ridgeback.reports.drawing.panel import Panel
 from ridgeback.reports.drawing.scale import Scale, padded
@@ -47,7 +47,10 @@ def fit_figure(found: SampleFit, title: str, unit: str, clock: Clock = SECONDS) 
         parts = [upper.rows(most=4), lower.rows(most=4), text(0, 11, f"samples and fit{behind}", "m")]
         parts += [text(0, lower.top - 10, f"samples less fit{behind}", "m")]
         parts += [lower.columns(most=4 if narrow else 8, unit=clock.time_title)]
-        both = [upper.curve(found.time, found.samples, "ul nf"), upper.curve(found.time, found.model, "el th nf")]
+        both = [
+            switched(0, upper.curve(found.time, found.samples, "ul nf")),
+            switched(1, upper.curve(found.time, found.model, "el th nf")),
+        ]
         return [*parts, upper.zooming(both), lower.zooming([lower.curve(found.time, residual, "tl th nf")])]
 
     series = [
@@ -62,6 +65,7 @@ def fit_figure(found: SampleFit, title: str, unit: str, clock: Clock = SECONDS) 
         narrow=drawing(NARROW, 380, "narrow", label, marks(groups[1], True)),
         caption=f"Grey: samples; orange: {title}, fitted to them; teal: what it leaves, {per_cent(share)} of the "
         "signal’s rms.",
+        toggles=switches(["samples", "fit"]),
         data=readout((groups[0], groups[1]), series, name="t", unit=clock.time_unit, link="time", places=FINE),
         label=label,
     )
@@ -89,8 +93,8 @@ def spectrum_figure(found: SampleFit, clock: Clock = SECONDS) -> Figure:
     def marks(panel: Panel, narrow: bool) -> list[str]:
         parts = [panel.rows(most=6, label=lambda v: minus(f"{v:g}")), text(0, 11, "dB of the samples’ highest", "m")]
         parts += [panel.columns(most=4 if narrow else 8, unit=f"frequency, {clock.unit}"), *_multiples(found, panel, f)]
-        parts += [panel.curve(found.omega * f, found.samples_level, "ul nf")]
-        parts += [panel.curve(found.omega * f, found.residual_level, "tl nf")]
+        parts += [switched(0, panel.curve(found.omega * f, found.samples_level, "ul nf"))]
+        parts += [switched(1, panel.curve(found.omega * f, found.residual_level, "tl nf"))]
         return parts
 
     series = [
@@ -102,6 +106,7 @@ def spectrum_figure(found: SampleFit, clock: Clock = SECONDS) -> Figure:
         wide=drawing(WIDE, 284, "wide", label, marks(panels[0], False)),
         narrow=drawing(NARROW, 284, "narrow", label, marks(panels[1], True)),
         caption=f"Grey: samples; teal: samples less fit, Welch’s averages under a Hann window. {said}",
+        toggles=switches(["samples", "samples less fit"]),
         data=readout(((panels[0],), (panels[1],)), series, name="frequency", unit=clock.unit, link=""),
         label=label,
     )
