@@ -14,7 +14,6 @@ from tests.pages.look import Look
 WIDTHS = pytest.mark.parametrize("width", [1280, 400])
 MOST = {1280: 7500, 400: 10_500}
 """Height of a page with its details folded, px."""
-"""Kinds whose figures have one way each: nothing is to be hidden."""
 LEAST = {1280: 12.0, 400: 9.0}
 """Size of a label in a figure, px."""
 
