@@ -34,8 +34,8 @@ from ridgeback.numeric.harmonics.spline_fit import Known, akaike
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
 
-POINTS = 160
-"""Of the envelope, of which the pencil is made."""
+POINTS, MANY, MOST = 160, 2000, 20_000
+"""Of the envelope, of which the pencil is made; those that stand for more samples than the last number."""
 STEPS = 40
 """Of the fit to the samples."""
 ASIDE = 1.0
@@ -78,9 +78,11 @@ def overlapping(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> 
         if pair is None or not apart(pair):
             continue
         score = score_of(x - total(pair, given.time), least, known, sum(t.parameters for t in (*pair, *others)))
+        if score >= goal:
+            continue
         rubbed = rubbing(x, least, given.known.sound_of(x.size))
         rest = score_of(x - rubbed, least, known, RUBBING + sum(t.parameters for t in others))
-        if score < min(goal, rest - CLEARLY):
+        if score < rest - CLEARLY:
             goal, found = score, (pair, others)
     return found and (by_energy(found[0]), found[1])
 
@@ -106,29 +108,28 @@ def score_of(left: Array, least: SplineModel, known: Known, parameters: int) -> 
 
 def rubbing(x: Array, least: SplineModel, sound: Array) -> Array:
     """The samples of one oscillation that dry and viscous friction slow down, as near to given ones as it comes."""
-    time, largest = least.time / float(least.time[-1]), float(least.size[0])
-    weight = least.size * sound
+    time, largest, few = least.time / float(least.time[-1]), float(least.size[0]), slice(None, None, 1 + x.size // MOST)
+    heard = sound[few]
 
-    def size(loss: Array) -> Array:
+    def size(loss: Array, at: Array) -> Array:
         viscous, dry = np.exp(np.minimum(loss, STEEPEST))
-        return np.asarray(np.maximum((1.0 + dry) * np.exp(-viscous * time) - dry, 0.0), dtype=np.float64)
+        return np.asarray(np.maximum((1.0 + dry) * np.exp(-viscous * at) - dry, 0.0), dtype=np.float64)
 
-    def amplitude(values: Array) -> Array:
-        return np.asarray((values[0] * size(values[1:]) - least.size / largest) * sound, dtype=np.float64)
-
-    def samples(values: Array) -> Array:
-        a = values[0] * size(values[1:3])
+    def samples(values: Array, at: Array) -> Array:
+        a = values[0] * size(values[1:3], at)
         bent = values[5] * a**2 + values[6] * (SMALLEST / np.maximum(a, SMALLEST)) ** 2
-        turned = np.cumsum(bent) * time[1]
-        return np.asarray(largest * a * np.cos(values[3] + values[4] * time + turned), dtype=np.float64)
+        turned = np.cumsum(bent) * at[1]
+        return np.asarray(largest * a * np.cos(values[3] + values[4] * at + turned), dtype=np.float64)
 
-    start = least_squares(amplitude, (1.0, 0.0, 0.0), max_nfev=STEPS).x
-    line = np.polynomial.polynomial.polyfit(time, least.phase, 1, w=weight)
+    def swing(values: Array) -> Array:
+        return np.asarray((values[0] * size(values[1:], time[few]) - least.size[few] / largest) * heard, dtype=float)
 
     def left(values: Array) -> Array:
-        return np.asarray((samples(values) - x) * sound, dtype=np.float64)
+        return np.asarray((samples(values, time[few]) - x[few]) * heard, dtype=np.float64)
 
-    return samples(least_squares(left, (*start, *line, 0.0, 0.0), max_nfev=STEPS).x)
+    start = least_squares(swing, (1.0, 0.0, 0.0), max_nfev=STEPS).x
+    line = np.polynomial.polynomial.polyfit(time[few], least.phase[few], 1, w=(least.size * sound)[few])
+    return samples(least_squares(left, (*start, *line, 0.0, 0.0), max_nfev=STEPS).x, time)
 
 
 def told(pair: Pair) -> bool:
@@ -164,6 +165,8 @@ def two_modes(x: Array, rate: float, omega: float, sound: Array) -> Pair | None:
     [(9.0, -0.2), (9.2, -0.15)]
     """
     time = np.arange(x.size) / rate
+    if x.size > MOST:
+        return of_many(x, rate, omega, sound)
     start = begun(x, time, pencil(*envelope(x, rate, omega)) + 1j * omega, sound)
     unit = np.tile([1.0, 1.0, 1.0 / time[-1], 1.0 / time[-1]], 2)
 
@@ -182,6 +185,18 @@ def two_modes(x: Array, rate: float, omega: float, sound: Array) -> Pair | None:
     return found if all(tone.growth < 0.0 < tone.omega for tone in found) else None
 
 
+def of_many(x: Array, rate: float, omega: float, sound: Array) -> Pair | None:
+    """The same of many samples: exponents by their envelope, on a carrier of four points a cycle; sizes by them all."""
+    step, values = envelope(x, rate, omega, points=MANY)
+    carrier = 0.5 * np.pi / step
+    slow = (values * np.exp(1j * carrier * step * np.arange(values.size))).real
+    pair = two_modes(slow, 1.0 / step, carrier, np.ones(values.size))
+    if pair is None:
+        return None
+    exponents = np.array([complex(tone.growth, tone.omega - carrier + omega) for tone in pair])
+    return as_pair(begun(x, np.arange(x.size) / rate, exponents, sound))
+
+
 def begun(x: Array, time: Array, exponents: ComplexArray, sound: Array) -> Array:
     """The parameters of two modes of these exponents that fit samples best: Re Z, Im Z, w and g of each."""
     rates = np.minimum(exponents.real, 0.0) + 1j * exponents.imag
@@ -197,12 +212,13 @@ def as_pair(values: Array) -> Pair:
     return (one, other)
 
 
-def envelope(x: Array, rate: float, omega: float) -> tuple[float, ComplexArray]:
+def envelope(x: Array, rate: float, omega: float, *, points: int = POINTS) -> tuple[float, ComplexArray]:
     """The complex amplitude about a frequency, in means over a cycle and more, and the time from one to the next."""
     turned = 2.0 * x * np.exp(-1j * omega * np.arange(x.size) / rate)
-    length = max(round(TWO_PI * rate / omega), x.size // POINTS)
+    length = max(round(TWO_PI * rate / omega), x.size // points)
     count = x.size // length
-    means = turned[: count * length].reshape(count, length).mean(axis=1)
+    weights = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2  # of Hann: what turns the other way leaks less
+    means = turned[: count * length].reshape(count, length) @ (weights / weights.sum())
     return length / rate, np.asarray(means, dtype=np.complex128)
 
 

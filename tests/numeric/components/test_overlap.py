@@ -53,6 +53,18 @@ def test_the_two_exponentials_of_a_sum_are_found(detuned: float) -> None:
     assert apart(found)
 
 
+def test_of_many_samples_two_exponentials_are_found_by_their_envelope() -> None:
+    t = np.arange(60_000) / RATE
+    g = 4.0 / t[-1]
+    x = np.exp(-g * t) * np.cos(OMEGA * t) + 0.5 * np.exp(-0.8 * g * t) * np.cos((OMEGA + 1.2 * g) * t + 1.0)
+    found = two_modes(x, RATE, OMEGA + 0.5 * g, np.ones(t.size))
+    assert found is not None
+    low, high = sorted(found, key=lambda tone: tone.omega)
+    assert [low.growth / -g, high.growth / -g] == pytest.approx([1.0, 0.8], abs=1e-3)
+    assert [low.amplitude, high.amplitude] == pytest.approx([1.0, 0.5], abs=1e-3)
+    assert (high.omega - low.omega) / g == pytest.approx(1.2, abs=1e-3)
+
+
 @pytest.mark.parametrize(("drag", "bend"), [(1.5, 0.0), (0.0, 0.02)])
 def test_one_oscillation_that_is_not_linear_is_not_two(drag: float, bend: float) -> None:
     g = RATIO * OMEGA
