@@ -160,9 +160,9 @@ def bilinear_table(
     omega = np.atleast_1d(bilinear_frequency(oscillator, A))
     phase = (np.arange(samples) + 0.5) * (math.pi / samples)
     u = bilinear_waveform(oscillator, A, phase)
-    rows = np.array([2 * np.mean(u * np.cos(m * phase), axis=1) for m in range(harmonics + 1)])
+    rows = (u @ np.cos(np.outer(phase, np.arange(harmonics + 1)))).T * (2 / samples)
     rows[0] *= 0.5
-    speed = np.sqrt(np.maximum(2 * (potential(oscillator, A)[:, None] - potential(oscillator, u)), 0.0))
-    powers = [np.mean(speed**n, axis=1) for n in (2, 3, 4)]
+    square = np.maximum(2 * (potential(oscillator, A)[:, None] - potential(oscillator, u)), 0.0)
+    powers = [np.mean(power, axis=1) for power in (square, square * np.sqrt(square), square * square)]
     width = A - bilinear_waveform(oscillator, A, np.array([math.pi]))[:, 0]
     return OrbitTable(A, omega, powers[0] / omega, rows, powers[1], powers[2], width)
