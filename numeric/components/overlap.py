@@ -56,9 +56,11 @@ TOLD = 1.0
 """Times the mean of their growth rates, by which the frequencies of two modes differ at least that can be modelled."""
 
 Pair = tuple[Tone, Tone]
+Found = tuple[Pair, tuple[Tone, ...]] | None
+"""Two modes that explain samples as well as one smooth oscillation, and the other tones; None where none do."""
 
 
-def overlapping(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> tuple[Pair, tuple[Tone, ...]] | None:
+def overlapping(given: Given, models: SignalModels, tones: tuple[Tone, ...]) -> Found:
     """Two modes that explain samples as well as one smooth oscillation, and the other tones; None where none do.
 
     That of more energy comes first.

@@ -22,7 +22,7 @@ from ridgeback.numeric.components.candidates import first_tones, in_turns, more_
 from ridgeback.numeric.components.doubts import doubt
 from ridgeback.numeric.components.given import Given, residual
 from ridgeback.numeric.components.lines import LEAST, clearest_line, colour
-from ridgeback.numeric.components.overlap import PLAIN, least_of, overlap_doubt, overlapping, told
+from ridgeback.numeric.components.overlap import PLAIN, Found, least_of, overlap_doubt, overlapping, told
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.components.unlocked import locked_and_others, unlocked
 from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
@@ -132,7 +132,8 @@ def separated(
         models, tones = with_tones(given, tones, most)
     if free and tones:
         given, models, tones = with_other_modes(given, models, tones, most)
-    models, tones = with_overlapping(given, models, tones, most) if most > len(beyond) else (models, tones)
+    pair, found = overlapping(given, models, tones) if most > len(beyond) else None, models
+    models, tones = with_overlapping(given, models, tones, most, pair)
     count = 0
     for _ in range(ROUNDS):
         left, cycle = residual(given.x, models.best, tones), TWO_PI * rate / float(np.median(guide))
@@ -146,7 +147,8 @@ def separated(
     omega = models.best.mean_omega
     known = models.coloured(shared * colour(left, rate, omega, models.best.basis.count))
     single = np.where(given.sound, given.x - total(tones, given.time), models.best.samples())
-    pair = overlapping(given, models, tones) if most > len(beyond) else None
+    if models is not found and most > len(beyond):
+        pair = overlapping(given, models, tones)
     reason = (
         off_the_band(models.best, band)
         or (overlap_doubt(pair[0]) if pair else "")
@@ -214,13 +216,12 @@ def with_tones(given: Given, here: tuple[Tone, ...], most: int) -> tuple[SignalM
 
 
 def with_overlapping(
-    given: Given, models: SignalModels, tones: tuple[Tone, ...], most: int
+    given: Given, models: SignalModels, tones: tuple[Tone, ...], most: int, found: Found
 ) -> tuple[SignalModels, tuple[Tone, ...]]:
     """The same with the lesser of two modes as a tone, where these explain more and can be told apart.
 
     It was fitted together with a plain oscillation: where that is what is left, intervals are those of both together.
     """
-    found = overlapping(given, models, tones)
     if found is None or not told(found[0]):
         return models, tones
     both = (*found[1], found[0][1])
