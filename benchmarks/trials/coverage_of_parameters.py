@@ -18,15 +18,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.stats import beta
 
+from benchmarks.trials.shares import written
 from ridgeback.common.errors import InputError
 from ridgeback.compare.identification.identify import identify
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.recording.recording import Recording
+from ridgeback.numeric.tracking.track import NORMAL_95
 
-LIMITS = 92.0, 98.0
-"""Where the share that holds is to lie, in per cent."""
 CYCLE = 2.0 * math.pi
 
 
@@ -172,14 +171,9 @@ def trial(kind: Kind, seed: int) -> Outcome:
 
 
 def cell(name: str, errors: Array) -> str:
-    """The share that holds, its interval, and the errors; in bold where the interval does not meet 92 to 98 %."""
-    n, held = errors.size, int((np.abs(errors) <= 1.96).sum())
-    low = 100 * float(beta.ppf(0.025, held, n - held + 1)) if held else 0.0
-    high = 100 * float(beta.ppf(0.975, held + 1, n - held)) if held < n else 100.0
-    size = f"{errors.mean():+.1f}, {math.sqrt(np.mean(errors**2)):.2f}"
-    text = f"{100 * held / n:.0f} ({low:.0f} to {high:.0f})"
-    meets = low <= LIMITS[1] and high >= LIMITS[0]
-    return f"{name} {text if meets else f'**{text}**'} [{size}]"
+    """The share that holds, its interval, and the errors."""
+    share = float(np.mean(np.abs(errors) <= NORMAL_95))
+    return f"{name} {written(share, errors.size)} [{errors.mean():+.1f}, {math.sqrt(np.mean(errors**2)):.2f}]"
 
 
 def row(name: str, kind: Kind, trials: int, seed: int) -> str:

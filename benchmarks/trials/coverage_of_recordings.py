@@ -16,19 +16,16 @@ from collections import Counter
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import beta
 
 from benchmarks.trials.records.drawn import DRAWN
 from benchmarks.trials.records.fixed import KINDS
 from benchmarks.trials.records.motions import Kind
+from benchmarks.trials.shares import written
 from ridgeback.common.errors import InputError
 from ridgeback.compare.recording.measurement import measure
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.tracking.track import NORMAL_95
-
-LIMITS = 92.0, 98.0
-"""Where the share that holds is to lie, in per cent."""
 
 
 @dataclass(frozen=True)
@@ -77,32 +74,25 @@ def within(values: Array, deviations: Array, truth: Array) -> Mask:
     return np.asarray(np.abs(values - truth) <= NORMAL_95 * deviations)
 
 
-def hold(masks: list[Mask]) -> tuple[float, float, float]:
-    """The share that holds, and between which shares the true one lies at 95 %.
+def independent(masks: list[Mask]) -> tuple[float, float]:
+    """The share that holds, and as how many independent draws it counts.
 
     Neighbouring samples of a trial share their error, so that the trials are the independent draws: n is taken as
-    p (1 - p) / s^2, with s the standard error of the share over trials, in the exact interval of Clopper and Pearson
-    (Korn and Graubard 1998, Survey Methodology 24, 193, without their allowance for few trials, 4 % of n for 60).
+    p (1 - p) / s^2, with s the standard error of the share over trials (Korn and Graubard 1998, Survey Methodology 24,
+    193, without their allowance for few trials, 4 % of n for 60).
     """
     counts = np.array([one.size for one in masks], dtype=float)
     held = np.array([one.sum() for one in masks], dtype=float)
     p = float(held.sum() / counts.sum())
     trials = counts.size
     spread = np.sqrt(trials / max(trials - 1, 1) * np.sum((held - p * counts) ** 2)) / counts.sum()
-    n = min(p * (1 - p) / spread**2, counts.sum()) if spread > 0.0 else float(trials)
-    low = beta.ppf(0.025, p * n, n - p * n + 1) if p > 0.0 else 0.0
-    high = beta.ppf(0.975, p * n + 1, n - p * n) if p < 1.0 else 1.0
-    return p, float(low), float(high)
+    return p, float(min(p * (1 - p) / spread**2, counts.sum()) if spread > 0.0 else trials)
 
 
 def cell(masks: list[Mask]) -> str:
-    """A share with its interval, in bold where the interval does not meet 92 to 98 %."""
+    """A share with its interval."""
     masks = [one for one in masks if one.size]
-    if not masks:
-        return "none"
-    share, low, high = (100 * value for value in hold(masks))
-    text = f"{share:.0f} ({low:.0f} to {high:.0f})"
-    return text if low <= LIMITS[1] and high >= LIMITS[0] else f"**{text}**"
+    return written(*independent(masks)) if masks else "none"
 
 
 def row(name: str, kind: Kind, trials: int, seed: int) -> str:
