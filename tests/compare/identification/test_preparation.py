@@ -20,7 +20,6 @@ from ridgeback.numeric.motion.trajectory import integrate
 from ridgeback.numeric.recording.quantity import as_displacement, as_said
 from ridgeback.numeric.recording.recording import Recording
 
-RNG = np.random.default_rng(11)
 FEW = ("linear", "duffing-hardening")
 
 
@@ -32,7 +31,9 @@ def near(found: Identification, name: str, truth: float) -> bool:
 
 def of(x: Array, rate: float, name: str = "u") -> Recording:
     """A recording with noise of 0.003 of its largest sample."""
-    return Recording.from_arrays(x + 0.003 * np.abs(x).max() * RNG.normal(size=x.size), rate, name=name)
+    return Recording.from_arrays(
+        x + 0.003 * np.abs(x).max() * np.random.default_rng(11).normal(size=x.size), rate, name=name
+    )
 
 
 def test_what_is_held_and_stopped_is_left_out_and_said() -> None:

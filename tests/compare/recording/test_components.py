@@ -12,6 +12,7 @@ from ridgeback.compare.recording.components import measured_components
 from ridgeback.compare.recording.measurement import measure
 from ridgeback.compare.recording.measurements import measure_recordings
 from ridgeback.numeric.recording.recording import Recording
+from tests.numeric.holding import assert_holds
 
 T = np.arange(800) / 200.0
 
@@ -33,14 +34,17 @@ def test_each_mode_has_a_track_and_a_backbone() -> None:
         assert one.track.interval is not None
         assert one.backbone is not None
         f, rate = min(truths.items(), key=lambda pair: abs(pair[0] - float(np.median(one.track.frequency_hz))))
-        assert np.mean(one.track.interval.holds(np.full(one.track.time.size, 2 * np.pi * f))) > 0.7
+        assert_holds(one.track.interval, np.full(one.track.time.size, 2 * np.pi * f), share=0.7, within=3e-4)
         off = np.abs(one.backbone.curve_growth_rate - rate)
         assert np.median(off / one.backbone.curve_growth_rate_sd) < 2.5
+        assert np.median(one.backbone.curve_growth_rate_sd) < 0.05 * abs(rate)
 
 
 def test_none_is_made_up() -> None:
     x = np.exp(-0.8 * T) * np.cos(40.0 * np.pi * T) + 0.01 * np.random.default_rng(4).normal(size=T.size)
     (only,) = measured_components(Recording.from_arrays(x, 200.0), components=2)
+    assert only.track is not None
+    assert np.abs(only.track.inside().frequency_hz / 20.0 - 1.0).max() < 2e-3
     assert only.notes[0] == "1 of 2 components that were asked for stand out; none is made up."
 
 
@@ -70,7 +74,7 @@ def test_modes_at_one_to_two_are_two_and_neither_is_a_harmonic() -> None:
         assert one.track is not None
         inside = one.track.inside()
         assert inside.interval is not None
-        assert np.mean(inside.interval.holds(np.interp(inside.time, t, omega))) > 0.7
+        assert_holds(inside.interval, np.interp(inside.time, t, omega), share=0.7, within=3e-4)
         assert len(one.track.used.tones) == (one is first)
 
 
@@ -97,6 +101,8 @@ def test_partials_of_a_stiff_string_are_modes_each_over_the_whole_record() -> No
 def test_a_component_of_a_band_is_in_it() -> None:
     found = measured_components(two_modes(2), components=2, band=(100.0, 130.0))
     assert [one.component for one in found] == [1]
+    assert found[0].track is not None
+    assert np.abs(found[0].track.inside().frequency_hz / 20.0 - 1.0).max() < 2e-3
     assert found[0].notes[0].startswith("1 of 2 components that were asked for stand out in the band")
 
 

@@ -23,6 +23,7 @@ from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.harmonics.local_fit import harmonic_fit
 from ridgeback.numeric.harmonics.spline_fit import harmonic_splines
 from ridgeback.numeric.harmonics.window_steps import Shape
+from tests.numeric.holding import excess
 
 RATE, OMEGA, NOISE = 400.0, 40 * np.pi, 0.01
 
@@ -57,7 +58,9 @@ def test_growth_rates_of_damped_oscillations_hold(ratio: float, cycles: float) -
     assert np.mean(np.abs(off) < 1.96) > 0.85
     assert 0.6 < np.sqrt(np.mean(off**2)) < 1.3
     ratios = [damping(f.curve_growth_rate, f.curve_growth_rate_sd, f.curve_omega, f.curve_omega_sd) for f in found]
-    assert np.mean(np.concatenate([np.abs(d.ratio - ratio) < 1.96 * d.ratio_sd for d in ratios])) > 0.85
+    apart = np.concatenate([(d.ratio - ratio) / d.ratio_sd for d in ratios])
+    assert np.mean(np.abs(apart) < 1.96) > 0.85
+    assert np.sqrt(np.mean(apart**2)) > 0.6
     sizes = np.concatenate([(f.amplitude - np.exp(-ratio * OMEGA * f.time)) / f.amplitude_sd for f in found])
     assert 0.8 < np.sqrt(np.mean(sizes**2)) < 1.25
 
@@ -171,9 +174,11 @@ def test_a_release_and_a_stop_are_found_and_nothing_beyond_them_counts() -> None
         assert 39.4 <= track.used.span[1] <= 40.0
         found = backbone(track, x, 20.0)
         off.append((found.curve_growth_rate + 0.004) / found.curve_growth_rate_sd)
+        assert track.interval is not None
         assert np.abs(found.curve_omega / (2 * np.pi * 0.95) - 1.0).max() < 2e-3
         assert "stands above the noise from t = 4." in found.notes[0]
     assert np.mean(np.abs(np.concatenate(off)) < 1.96) > 0.85
+    assert np.sqrt(np.mean(np.concatenate(off) ** 2)) > 0.4
 
 
 def test_a_tail_in_the_noise_costs_the_tail_and_not_the_interval() -> None:
@@ -183,6 +188,9 @@ def test_a_tail_in_the_noise_costs_the_tail_and_not_the_interval() -> None:
         assert track.used.span is not None
         assert 1.0 < track.used.span[1] < 2.2
         assert track.interval is not None
+        inside = track.inside()
+        assert inside.interval is not None
+        assert excess(inside.interval.low, inside.interval.high, OMEGA) < 8.0
 
 
 def test_a_steady_oscillation_is_left_whole() -> None:

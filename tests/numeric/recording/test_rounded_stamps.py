@@ -11,8 +11,6 @@ from ridgeback.numeric.recording.recording import Recording
 from ridgeback.numeric.recording.rounded_stamps import unrounded
 from ridgeback.numeric.recording.stretches import Stamped
 
-RNG = np.random.default_rng(1)
-
 
 def stamped(time: np.ndarray, row: np.ndarray | None = None) -> Stamped:
     return Stamped(time, np.cos(time), np.arange(time.size) if row is None else row, 0)
@@ -32,9 +30,9 @@ def test_the_clock_behind_rounded_stamps_is_found(rate: float, written: Callable
     "time",
     [
         np.delete(np.arange(500) / 100.0, 250),
-        (np.arange(500) / 100.0)[np.sort(RNG.choice(500, 470, replace=False))],
-        np.round(np.arange(500) / 30.0 + 1e-3 * RNG.standard_normal(500), 3),
-        np.sort(RNG.uniform(0.0, 10.0, 500)),
+        (np.arange(500) / 100.0)[np.sort(np.random.default_rng(1).choice(500, 470, replace=False))],
+        np.round(np.arange(500) / 30.0 + 1e-3 * np.random.default_rng(2).standard_normal(500), 3),
+        np.sort(np.random.default_rng(3).uniform(0.0, 10.0, 500)),
         np.arange(500) / 80.0,
     ],
     ids=["a gap", "missing at random", "jitter", "uneven", "even"],
@@ -44,7 +42,7 @@ def test_what_rounding_does_not_explain_is_left_alone(time: np.ndarray) -> None:
 
 
 def test_rows_without_a_value_are_missing_and_not_rounded() -> None:
-    rows = np.sort(RNG.choice(800, 760, replace=False))
+    rows = np.sort(np.random.default_rng(4).choice(800, 760, replace=False))
     assert unrounded(stamped(rows / 80.0, rows))[1] == ""
     found, note = unrounded(stamped(np.round(rows / 80.0, 2), rows))
     assert note

@@ -27,6 +27,7 @@ from ridgeback.numeric.tracking.uncertainty import (
     replicated,
     replicates_needed,
 )
+from tests.numeric.holding import assert_holds, excess
 
 RATE = 32.0
 T = np.arange(641) / RATE
@@ -57,7 +58,7 @@ def noisy(x: np.ndarray, decibel: float, seed: int) -> np.ndarray:
 # trials know the share to some four percent.  benchmarks/trials/test_coverage.py has the table of many.
 @pytest.mark.parametrize("method", ["harmonic-least-squares", "pseudo-wigner", "hilbert"])
 def test_intervals_hold_the_truth(method: str, pendulum_decay: Source) -> None:
-    shares, seed = [], 500
+    shares, widths, seed = [], [], 500
     for name in ("pendulum", "chirp", "duffing"):
         x, omega = signal(name, pendulum_decay)
         for decibel in (12.0, 35.0):
@@ -66,9 +67,12 @@ def test_intervals_hold_the_truth(method: str, pendulum_decay: Source) -> None:
                 assert track.no_interval
                 continue
             truth = omega(track.time)
-            shares.append(np.mean(track.interval.holds(truth)[np.isfinite(truth)]))
+            known = np.isfinite(truth)
+            shares.append(np.mean(track.interval.holds(truth)[known]))
+            widths.append(excess(track.interval.low[known], track.interval.high[known], truth[known]))
     assert len(shares) >= 5  # a fast chirp in little noise may ask for finer knots than there are
     assert 0.88 < np.mean(shares) < 0.995
+    assert 1.4 < np.median(widths) < 4.0
 
 
 def test_noise_alone_does_not_hold_a_biased_estimate(pendulum_decay: Source) -> None:
@@ -78,7 +82,7 @@ def test_noise_alone_does_not_hold_a_biased_estimate(pendulum_decay: Source) -> 
     assert track.standard_deviation is not None
     truth = omega(track.time)
     assert np.mean(np.abs(track.omega - truth) < 1.96 * track.standard_deviation) < 0.2
-    assert np.mean(track.interval.holds(truth)) > 0.8
+    assert_holds(track.interval, truth, share=0.8, within=6e-4)
 
 
 def test_interval_is_the_same_before_and_after_the_bias_is_removed() -> None:
@@ -137,7 +141,7 @@ def test_velocity_gives_the_third_harmonic_with_an_interval(pendulum_decay: Sour
     assert track.interval is not None
     noise = estimate(noisy(decay.velocity, 25.0, 1), RATE, harmonic=3).inside()
     assert noise.interval is not None
-    assert np.mean(noise.interval.holds(3.0 * decay.omega(noise.time))) > 0.85
+    assert_holds(noise.interval, 3.0 * decay.omega(noise.time), share=0.85, within=8e-3)
 
 
 def test_harmonic_that_the_data_do_not_show_has_no_interval() -> None:
@@ -205,7 +209,7 @@ def test_long_record_is_decimated_by_auto_and_says_so() -> None:
     expected = np.interp(track.time - 10.0, t, frequency)
     assert np.abs(track.frequency_hz / expected - 1.0)[50:-50].max() < 1e-4
     assert track.interval is not None
-    assert np.mean(track.interval.holds(2 * np.pi * expected)) > 0.85
+    assert_holds(track.interval, 2 * np.pi * expected, share=0.85, within=3e-6)
 
 
 def test_lag_and_degree_follow_the_noise() -> None:
