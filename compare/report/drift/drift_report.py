@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ridgeback.common.csv_text import csv_text
-from ridgeback.common.numbers import number, per_cent, two_digits
+from ridgeback.common.numbers import number, per_cent, scientific, two_digits
 from ridgeback.common.progress import Progress, silent
 from ridgeback.compare.drift.comparison import compare_drift
 from ridgeback.compare.drift.results import DriftComparison
@@ -17,6 +17,9 @@ from ridgeback.compare.report.system_report import UNNAMED
 from ridgeback.numeric.orbits.adiabatic import SLOW
 from ridgeback.symbolic.flow.drift import drifting
 from ridgeback.symbolic.systems.any_form import OscillatorLike, as_oscillator
+
+MANY = 1e5
+"""A ratio from here on is written as a power of ten."""
 
 
 def drift_report(
@@ -99,7 +102,8 @@ def drift_title(found: DriftComparison) -> str:
     if found.max_error is None:
         return "The motion holds too few cycles to hold the conserved action against"
     ratio = _ratio(found)
-    closer = f", {two_digits(ratio)} times closer than the parameters of t = 0" if ratio else ""
+    times = scientific(ratio) if ratio and ratio >= MANY else two_digits(ratio or 0.0)
+    closer = f", {times} times closer than the parameters of t = 0" if ratio else ""
     return f"The conserved action follows ω₀(t) within {per_cent(found.max_error)}{closer}"
 
 
