@@ -144,12 +144,20 @@ def told(pair: Pair) -> bool:
     return 2.0 * abs(one.omega - other.omega) > TOLD * abs(one.growth + other.growth)
 
 
-def overlap_doubt(pair: Pair) -> str:
-    """Why nothing is claimed of two modes that are not told apart.
+def is_modelled(pair: Pair, tones: tuple[Tone, ...]) -> bool:
+    """Whether one of two modes that can be told apart is among the tones beside the oscillation, which is the other."""
+    near = 0.5 * abs(pair[0].omega - pair[1].omega)
+    return told(pair) and any(abs(tone.omega - mode.omega) < near for tone in tones for mode in pair)
 
-    >>> overlap_doubt((Tone(9.0, -0.2, 1j), Tone(9.1, -0.2, 1j)))[:42]
+
+def overlap_doubt(pair: Pair, tones: tuple[Tone, ...]) -> str:
+    """Why nothing is claimed of two modes that are not told apart; empty where they are, as tones beside one.
+
+    >>> overlap_doubt((Tone(9.0, -0.2, 1j), Tone(9.1, -0.2, 1j)), ())[:42]
     'two modes overlap within their damping, ne'
     """
+    if is_modelled(pair, tones):
+        return ""
     low, high = sorted(tone.omega / TWO_PI for tone in pair)
     return (
         f"two modes overlap within their damping, near {low:.5g} and {high:.5g} cycles per unit, and explain the "

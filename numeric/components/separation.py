@@ -151,7 +151,7 @@ def separated(
         pair = overlapping(given, models, tones)
     reason = (
         off_the_band(models.best, band)
-        or (overlap_doubt(pair[0]) if pair else "")
+        or (overlap_doubt(pair[0], tones) if pair else "")
         or doubt(known, given.x, left, rate, given.guided(tones).guide, given.sound, start=start)
     )
     return Separated(single, known, given.sound, tones, count, reason)
