@@ -115,7 +115,7 @@ def harmless(language: str) -> list[tuple[object, str]]:
     return code_of(language, written(form_with("harmless"), language))
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=20)  # each way out alone is tried below
 @given(TEXTS)
 def test_hostile_text_stays_in_comments(text: str) -> None:
     for language in LANGUAGES:
