@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
+from typing import Any, NoReturn
 
 import numpy as np
 import pytest
 
 from ridgeback.common.errors import InputError
+from ridgeback.common.progress import Progress
+from ridgeback.compare.identification import identify as identify_module
 from ridgeback.compare.identification import preparation
 from ridgeback.compare.identification.candidates import LAWS
 from ridgeback.compare.identification.identify import identify
@@ -172,3 +176,22 @@ def test_a_zero_that_wanders_is_no_misfit_of_a_class() -> None:
     assert found.standing is Standing.CLAIMED
     mu = found.best.parameter("mu")
     assert abs(mu.value - 0.03) < 3.5 * mu.standard_deviation
+
+
+def test_progress_never_goes_back_while_other_readings_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each attempt ranks all candidates again, and tells its own share of the work."""
+    seen: list[float] = []
+
+    def refused(ready: object, *rest: Any) -> NoReturn:
+        progress: Progress = rest[-1]
+        for share in (0.1, 0.5, 0.9):
+            progress(share, "fits")
+        raise InputError(f"{ready} has too few cycles")
+
+    monkeypatch.setattr(identify_module, "attempt", refused)
+    ready: Any = SimpleNamespace(others=lambda: iter(("whole", "windows")))
+    with pytest.raises(InputError, match="has too few cycles"):
+        identify_module.attempted(ready, ("linear",), ("linear",), "bic", lambda share, _: seen.append(share))
+    assert len(seen) == 9
+    assert seen == sorted(seen)
+    assert seen[-1] < 0.9
