@@ -32,7 +32,7 @@ ENDS = (
     *("\u202e", "\u2066", "\ufeff", "\\end{align*}", "\\input{x}", "\\write18{x}", "]]>", "</script>", "<!--", "-->"),
 )
 TEXTS = st.lists(
-    st.one_of(st.sampled_from(ENDS), st.text(max_size=6), st.just("int x;"), st.just("import os")), max_size=8
+    st.sampled_from(ENDS) | st.text(max_size=6) | st.sampled_from(("int x;", "import os")), min_size=5, max_size=12
 ).map("".join)
 WORDS = (
     *(
@@ -115,7 +115,7 @@ def harmless(language: str) -> list[tuple[object, str]]:
     return code_of(language, written(form_with("harmless"), language))
 
 
-@settings(deadline=None, max_examples=20)  # each way out alone is tried below
+@settings(deadline=None, max_examples=25)  # each way out alone is tried below
 @given(TEXTS)
 def test_hostile_text_stays_in_comments(text: str) -> None:
     for language in LANGUAGES:
