@@ -29,7 +29,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Table:
-    """A table; the first column is text, the others are numbers, aligned at the decimal point."""
+    """A table; the first column is text, the others are numbers, aligned at the decimal point, or text too."""
 
     key: str
     caption: str
@@ -48,6 +48,23 @@ class Table:
         object.__setattr__(self, "rows", tuple(replace(row, cells=new) for row, new in zip(marked, cells, strict=True)))
         object.__setattr__(self, "caption", " ".join((self.caption, *(f"{m} {text}" for text, m in notes.items()))))
 
+    @property
+    def texts(self) -> tuple[bool, ...]:
+        """Which columns are text that is read: letters begin all their cells, and one is longer than a word for none.
+
+        >>> Table("t", "", ("signal", "class", "leaves"), (Row(("first", "Linear oscillator", "0.1 %")),)).texts
+        (True, True, False)
+        """
+        columns = ([cell.strip() for cell in column] for column in zip(*(row.cells for row in self.rows), strict=True))
+        read = [
+            all(not cell or cell[0].isalpha() for cell in column) and max(map(len, column)) > LONGEST_WORD
+            for column in columns
+        ]
+        return (True, *read[1:]) if read else (True,) * len(self.head)
+
+
+LONGEST_WORD = 14
+"""Letters of what stands in place of a number, such as "not claimed", at most."""
 
 NOTES = ("¹", "²", "³", "⁴")
 
