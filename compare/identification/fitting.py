@@ -189,7 +189,7 @@ def first_rates(model: Model, data: Data) -> list[float]:
         columns.append(0.75 * a**2)
     elif model.law == DampingLaw.COULOMB:
         columns.append(4 / (np.pi * a))
-    weight = 1 / np.maximum(b.growth_rate_sd, 1e-3 * np.abs(loss).max() + 1e-12)
+    weight = 1 / np.maximum(b.growth_rate_sd, 1e-3 * np.abs(loss).max() + np.finfo(float).tiny)
     matrix = np.array(columns).T * weight[:, None]
     solution, *_ = np.linalg.lstsq(matrix, loss * weight, rcond=None)
     return [float(x) for x in solution]
@@ -204,26 +204,34 @@ def bounds(model: Model, data: Data) -> tuple[Array, Array]:
     return np.array(low), np.array(high)
 
 
+def units_of(model: Model, data: Data) -> Array:
+    """What theta is counted in: k and rates in the measured frequency, so that no unit of time is in a fit's steps."""
+    omega, shapes = float(np.median(data.measured.omega)), model.size - model.rates
+    return np.array([omega, *[1.0] * shapes, *[omega] * model.rates, 1.0, 1.0, 1.0])
+
+
 def refined(model: Model, data: Data, start: Array) -> Fit:
     """Anchors first, samples then."""
     low, high = bounds(model, data)
-    theta = np.clip(start, low + 1e-6 * np.where(np.isfinite(low), np.abs(low) + 1e-3, 0.0), high * (1 - 1e-9))
+    units = units_of(model, data)
+    inside = low + 1e-6 * np.where(np.isfinite(low), np.abs(low) + 1e-3 * units, 0.0)
+    theta = np.clip(start, inside, high * (1 - 1e-9))
     shown = np.flatnonzero(shown_by_anchors(model))
 
     def anchors(part: Array) -> Array:
         whole = theta.copy()
-        whole[shown] = part
+        whole[shown] = part * units[shown]
         flow = model.flow(whole[:-2], float(data.anchor_time[-1]))
         at = motion(flow, level_at(flow, whole[-3]), whole[-2], data.anchor_time, waveform=False)
         phase = at.phase - data.anchor_phase
         return np.concatenate((phase, np.log(at.amplitude) - data.anchor_log)) * np.tile(data.anchor_weight, 2)
 
     try:
-        near, begin = (low[shown], high[shown]), theta[shown]
+        near, begin = (low[shown] / units[shown], high[shown] / units[shown]), theta[shown] / units[shown]
         rough = least_squares(anchors, begin, bounds=near, x_scale="jac", max_nfev=NEAR_STEPS, ftol=COARSE)
     except (InputError, ValueError, FloatingPointError, np.linalg.LinAlgError):
         return failed(model, data, start)
-    theta[shown] = rough.x
+    theta[shown] = rough.x * units[shown]
     if model.mirror is not None:
         sides = [theta, np.clip(model.mirror(theta), low, high)]
         theta = min(sides, key=lambda side: residual_variance(model, data, side))
@@ -251,18 +259,20 @@ def failed(model: Model, data: Data, theta: Array) -> Fit:
 
 def by_samples(model: Model, data: Data, theta: Array, tolerance: float) -> Fit:
     """Least squares of the samples less the model."""
-    limits, signal = bounds(model, data), model.signals(data.time)
+    units, signal = units_of(model, data), model.signals(data.time)
+    low, high = bounds(model, data)
+    limits = low / units, high / units
 
     def samples(values: Array) -> Array:
-        return np.asarray((signal(values) - data.x)[data.kept])
+        return np.asarray((signal(values * units) - data.x)[data.kept])
 
     try:
-        begin = np.clip(theta, *limits)
+        begin = np.clip(theta / units, *limits)
         fine = least_squares(samples, begin, bounds=limits, x_scale="jac", max_nfev=STEPS, ftol=tolerance)
         jacobian = seen(samples, np.asarray(fine.x), np.asarray(fine.jac), limits)
     except (InputError, ValueError, FloatingPointError, np.linalg.LinAlgError):
         return failed(model, data, theta)
-    return Fit(model, np.asarray(fine.x), np.asarray(fine.fun), spread_of(jacobian))
+    return Fit(model, fine.x * units, np.asarray(fine.fun), spread_of(jacobian) * np.outer(units, units))
 
 
 def seen(samples: Callable[[Array], Array], theta: Array, jacobian: Array, limits: tuple[Array, Array]) -> Array:
