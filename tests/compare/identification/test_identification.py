@@ -167,19 +167,6 @@ def test_a_polynomial_backbone_locks_on_over_many_cycles() -> None:
     assert found.theta[1] * found.theta[0] / data.length**2 == pytest.approx(-0.36 * np.pi, rel=0.02)
 
 
-def test_no_unit_of_time_is_in_a_fit() -> None:
-    """Of a sine in days or years the steps of a fit were as long as its frequency: van der Pol was claimed."""
-    t = np.arange(600) / 12.0
-    x = np.cos(1.7 * t) + 0.05 * np.random.default_rng(1).normal(size=t.size)
-    found = [
-        identify(Recording(t * year, x, 12.0 / year, "u", "", "a.csv", ""), candidates=("linear", "van-der-pol"))
-        for year in (1.0, 31_557_600.0)
-    ]
-    assert [one.candidates[0].name for one in found] == ["linear", "linear"]
-    ours, theirs = ({c.name: c.delta for c in one.candidates} for one in found)
-    assert theirs == pytest.approx(ours, abs=0.5)
-
-
 def test_the_corrected_criterion_counts_few_samples() -> None:
     """Hurvich and Tsai: 2 p n / (n - p - 1) in place of p log n, and nothing to compare with too few samples."""
     of_three = Fit(SimpleNamespace(count=3), np.zeros(3), np.ones(20), np.eye(3))  # type: ignore[arg-type]
