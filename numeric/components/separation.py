@@ -29,7 +29,7 @@ from ridgeback.numeric.harmonics.signal_model import SignalModels, signal_models
 from ridgeback.numeric.harmonics.spline_fit import Known, rounding
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
-from ridgeback.numeric.signal.spikes import spikes
+from ridgeback.numeric.signal.spikes import FAR, TO_SIGMA, spikes, without_isolated
 
 MOST_TONES = 6
 SAME = 0.1
@@ -111,8 +111,9 @@ def separated(
     >>> [(round(tone.omega, 1), tone.growth) for tone in found.tones], round(found.models.best.noise, 3)
     ([(14.0, 0.0)], 0.003)
     """
-    sound = np.ones(x.size, dtype=np.bool_) if excluded is None else ~excluded
-    filled = x
+    sound, raw = np.ones(x.size, dtype=np.bool_) if excluded is None else ~excluded, x
+    x, odd = without_isolated(x)
+    filled, odd, sound = x, odd & sound, sound & ~odd
     if not sound.all():
         apart = total(beyond, np.arange(x.size) / rate)
         bare = signal_models(x - apart, rate, guide, half=half, multiples=(), known=Known(sound.astype(float)))
@@ -125,7 +126,7 @@ def separated(
     given = Given(filled, rate, guide, half, multiples, sound, band)
     most += len(beyond)
     models, tones = with_tones(given, beyond, most)
-    if tones and excluded is not None and excluded.any():  # they were filled as if the oscillation were alone
+    if tones and not sound.all():  # they were filled as if the oscillation were alone
         given = given.filled(x, models, tones)
         models, tones = with_tones(given, beyond, most)
         given = given.filled(x, models, tones)
@@ -134,7 +135,10 @@ def separated(
         given, models, tones = with_other_modes(given, models, tones, most)
     pair, found = overlapping(given, models, tones) if most > len(beyond) else None, models
     models, tones = with_overlapping(given, models, tones, most, pair)
-    count = 0
+    if odd.any():
+        given = with_returned(given, raw, models.best, tones, odd)
+        x = given.x
+    count = int((odd & ~given.sound).sum())
     for _ in range(ROUNDS):
         left, cycle = residual(given.x, models.best, tones), TWO_PI * rate / float(np.median(guide))
         off = spikes(left, cycle, float(models.best.size.max())) & given.sound
@@ -155,6 +159,13 @@ def separated(
         or doubt(known, given.x, left, rate, given.guided(tones).guide, given.sound, start=start)
     )
     return Separated(single, known, given.sound, tones, count, reason)
+
+
+def with_returned(given: Given, raw: Array, model: SplineModel, tones: tuple[Tone, ...], odd: Mask) -> Given:
+    """What is given with the samples back that stood out of their neighbours, and do not of a model of the whole."""
+    left = residual(raw, model, tones)
+    near = odd & (np.abs(left) <= FAR * TO_SIGMA * float(np.median(np.abs(left[given.sound]))))
+    return replace(given, x=np.where(near, raw, given.x), sound=given.sound | near)
 
 
 @lru_cache(maxsize=KEPT)

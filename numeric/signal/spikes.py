@@ -1,15 +1,19 @@
 """Samples that are no part of the motion: spikes far outside the noise, in which an oscillation has no share.
 
-A sample is a spike where it is FAR robust deviations (1.4826 times the median of the sizes: Hampel, J. Am. Stat. Assoc.
-69 (1974) 383) from a model of the whole signal, in a run much shorter than a cycle: where the model itself fails, as
-at a jump of the motion, longer runs stand out.  A large spike bends the model about it, so that only what comes near to
-the largest within a cycle counts.
+A sample is a spike where it is FAR robust deviations (1.4826 times the median of the sizes near by, since noise may
+grow or fall: Hampel, J. Am. Stat. Assoc. 69 (1974) 383) from a model of the whole signal, in a run much shorter than a
+cycle: where the model itself fails, as at a jump of the motion, longer runs stand out.  A large spike bends the model
+about it, so that only what comes near to the largest within a cycle counts.
+
+Before there is a model, samples stand out of what their neighbours on both sides say of them: SIDE pairs of equal
+weight fit least squares that are robust (Cauchy's weights), and what is left is held against its own median near by.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
+from numpy.lib.stride_tricks import sliding_window_view
+from scipy.ndimage import maximum_filter1d, median_filter
 
 from ridgeback.numeric.arrays import Array, Mask
 
@@ -20,9 +24,16 @@ BESIDE = 0.3
 """Of the largest within a cycle: what is less may be where that bends the model."""
 LONGEST = 0.125
 """Of a cycle, that a run of spikes may last."""
+SCALE = 2.0
+"""Cycles on each side whose residuals are the scale of one."""
 MOST = 0.1
 """Of the samples, that may be spikes: with more of them the noise is another one."""
 TO_SIGMA = 1.4826
+SIDE, NEAR, ISOLATED = 8, 65, 8.0
+"""Neighbours on each side that predict a sample, samples whose residuals are the scale of one, and times that scale."""
+ROUNDS, ROWS, SOFT = 8, 20000, 2.0
+"""Of least squares, and of outliers one beside the other; samples that suffice for weights; deviations from which on a
+residual counts less."""
 
 
 def spikes(left: Array, cycle: float, amplitude: float = 0.0) -> Mask:
@@ -35,9 +46,61 @@ def spikes(left: Array, cycle: float, amplitude: float = 0.0) -> Mask:
     """
     size = np.abs(left - np.median(left))
     near = maximum_filter1d(size, 2 * round(cycle) + 1)
-    off = size > np.maximum(BESIDE * near, max(FAR * TO_SIGMA * float(np.median(size)), LEAST * amplitude))
+    usual = median_filter(size, max(NEAR, 2 * round(SCALE * cycle) + 1), mode="reflect")
+    off = size > np.maximum(BESIDE * near, np.maximum(FAR * TO_SIGMA * usual, LEAST * amplitude))
     edges = np.flatnonzero(np.diff(np.concatenate([[False], off, [False]]).astype(int)))
     for first, last in zip(edges[::2], edges[1::2], strict=True):
         if last - first > max(1.0, LONGEST * cycle):
             off[first:last] = False
     return off if off.mean() <= MOST else np.zeros_like(off)
+
+
+def without_isolated(x: Array) -> tuple[Array, Mask]:
+    """Samples with those that stand out of their neighbours replaced by what these say, and which ones these are.
+
+    >>> x = np.cos(0.4 * np.arange(300.0))
+    >>> x += 0.01 * np.random.default_rng(1).normal(size=300)
+    >>> whole = x.copy()
+    >>> x[[3, 53, 56, 200]] += [1.0, 3.0, -9.0, 0.8]
+    >>> mended, odd = without_isolated(x)
+    >>> np.flatnonzero(odd).tolist(), bool(np.abs(mended - whole).max() < 0.1)
+    ([3, 53, 56, 200], True)
+    """
+    odd, mended = np.zeros(x.size, dtype=np.bool_), x - np.median(x)
+    if x.size < NEAR:
+        return x, odd
+    for _ in range(ROUNDS):
+        left = beside_neighbours(mended)
+        size = np.abs(left)
+        scale = TO_SIGMA * median_filter(size, NEAR, mode="reflect")
+        new = (size > ISOLATED * scale) & (size == maximum_filter1d(size, 2 * SIDE + 1)) & ~odd
+        odd |= new
+        mended -= np.where(odd, left, 0.0)
+        if not new.any():
+            break
+    return (np.where(odd, mended + np.median(x), x), odd) if odd.mean() <= MOST else (x, np.zeros_like(odd))
+
+
+def beside_neighbours(x: Array) -> Array:
+    """Samples less what SIDE pairs of neighbours say of them; near an end, less what those on one side do."""
+    windows = sliding_window_view(x, 2 * SIDE + 1)
+    pairs = windows[:, SIDE + 1 :] + windows[:, SIDE - 1 :: -1]
+    left = np.empty(x.size)
+    left[SIDE:-SIDE] = unexplained(pairs, windows[:, SIDE])
+    left[:SIDE] = unexplained(windows[:, 1:], windows[:, 0])[:SIDE]
+    left[-SIDE:] = unexplained(windows[:, :-1], windows[:, -1])[-SIDE:]
+    return left
+
+
+# Iteratively reweighted: Holland and Welsch, Commun. Stat. A 6 (1977) 813.
+def unexplained(columns: Array, y: Array) -> Array:
+    """What columns leave of y with the coefficients that fit most of it, not what stands out or is beside that."""
+    few = slice(None, None, max(1, y.size // ROWS))
+    some, there, weight = columns[few], y[few], np.ones(y[few].size)
+    found = np.zeros(columns.shape[1])
+    for _ in range(ROUNDS):
+        found = np.linalg.lstsq(some.T @ (weight[:, None] * some), some.T @ (weight * there), rcond=1e-12)[0]
+        left = there - some @ found
+        usual = SOFT * TO_SIGMA * float(np.median(np.abs(left))) + np.finfo(float).tiny
+        weight = 1.0 / (1.0 + (left / usual) ** 2)
+    return np.asarray(y - columns @ found, dtype=np.float64)

@@ -22,6 +22,7 @@ from ridgeback.numeric.signal.decimation import Samples
 from ridgeback.numeric.signal.presence import Presence, presence
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import SearchBand, checked_band, find_search_band, strongest_frequency
+from ridgeback.numeric.signal.spikes import without_isolated
 from ridgeback.numeric.signal.windows import half_width
 from ridgeback.numeric.tracking.choices import Choices, Held, Scope
 from ridgeback.numeric.tracking.curvature_bias import hold_nearest
@@ -282,7 +283,7 @@ def prepared(samples: Samples, options: Options, *, search: SearchBand | None = 
     if beyond:
         real = real - total(beyond, np.arange(real.size) / samples.rate)
     if search is None or beyond:
-        search = find_search_band(real, samples.rate, band=up_to_nyquist(options.band, samples))
+        search = find_search_band(without_isolated(real)[0], samples.rate, band=up_to_nyquist(options.band, samples))
     cycle, span = TWO_PI / search.centre, real.size / samples.rate
     if options.lag_seconds is None and FEWEST_CYCLES * cycle > span:
         slow = "another --band" if options.band else "a --band round a faster oscillation"

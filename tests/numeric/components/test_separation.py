@@ -93,6 +93,26 @@ def test_spikes_are_counted_and_do_not_bend_a_fit() -> None:
     assert estimate(decay(3), RATE).used.spikes == 0
 
 
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("share", [0.01, 0.03])
+def test_large_spikes_among_the_samples_leave_a_model(share: float, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    odd = np.flatnonzero(rng.random(T.size) < share)
+    x = decay(5, ratio=0.004)
+    x[odd] += rng.choice([-1.0, 1.0], odd.size) * rng.uniform(0.5, 8.0, odd.size)
+    track = estimate(x, RATE)
+    assert track.used.spikes == odd.size
+    assert track.used.noise == pytest.approx(0.01, rel=0.1)
+    assert track.interval is not None
+    assert track.interval.holds(np.full(T.size, OMEGA)).mean() > 0.6
+
+
+def test_noise_that_grows_holds_no_spikes() -> None:
+    rng = np.random.default_rng(1)
+    x = decay(6, noise=0.0, ratio=0.004) + rng.normal(size=T.size) * np.where(T < 1.0, 0.004, 0.04)
+    assert estimate(x, RATE).used.spikes == 0
+
+
 def test_clipped_samples_enter_no_model() -> None:
     x = decay(4, noise=0.002, ratio=0.004)
     flat = np.abs(x) >= 0.7
