@@ -97,7 +97,7 @@ def unexplained(columns: Array, y: Array) -> Array:
     """What columns leave of y with the coefficients that fit most of it, not what stands out or is beside that."""
     few = slice(None, None, max(1, y.size // ROWS))
     some, there, weight = columns[few], y[few], np.ones(y[few].size)
-    found = np.zeros(columns.shape[1])
+    found: Array = np.zeros(columns.shape[1])
     for _ in range(ROUNDS):
         found = np.linalg.lstsq(some.T @ (weight[:, None] * some), some.T @ (weight * there), rcond=1e-12)[0]
         left = there - some @ found
