@@ -97,9 +97,10 @@ def unexplained(columns: Array, y: Array) -> Array:
     """What columns leave of y with the coefficients that fit most of it, not what stands out or is beside that."""
     few = slice(None, None, max(1, y.size // ROWS))
     some, there, weight = columns[few], y[few], np.ones(y[few].size)
-    found: Array = np.zeros(columns.shape[1])
+    found = np.zeros(columns.shape[1])
     for _ in range(ROUNDS):
-        found = np.linalg.lstsq(some.T @ (weight[:, None] * some), some.T @ (weight * there), rcond=1e-12)[0]
+        normal, right = some.T @ (weight[:, None] * some), some.T @ (weight * there)
+        found = np.asarray(np.linalg.lstsq(normal, right, rcond=1e-12)[0], dtype=np.float64)
         left = there - some @ found
         usual = SOFT * TO_SIGMA * float(np.median(np.abs(left))) + np.finfo(float).tiny
         weight = 1.0 / (1.0 + (left / usual) ** 2)
