@@ -11,6 +11,7 @@ from scipy.ndimage import maximum_filter1d
 
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, Mask
+from ridgeback.numeric.components.modulation import swing_notes
 from ridgeback.numeric.components.tones import beside_notes
 from ridgeback.numeric.estimators.estimate import estimate, estimation
 from ridgeback.numeric.harmonics.signal_model import SignalModels
@@ -114,8 +115,8 @@ def prepared(recording: Recording, *, span: Pair | None = None, band: Pair | Non
         return in_windows(used, notes, doubt)
     alone, where = in_its_span(used, track, found.samples.x)
     here = replace(track, used=replace(track.used, span=None))
-    said = (*where, *beside_notes((), track.used.spikes), *notes)
-    told = (*where, *beside_notes(track.used.tones, track.used.spikes), *notes)
+    said = (*where, *beside_notes((), track.used.spikes), *swing_notes(track.used.swing), *notes)
+    told = (*where, *beside_notes(track.used.tones, track.used.spikes), *swing_notes(track.used.swing), *notes)
     models = found.claimed_models
     left = None if models is None else np.where(alone.unsound, 0.0, alone.values - models.best.samples())
     bare = Prepared(alone, here, told, ~alone.unsound, models, track.used.noise, left=left)

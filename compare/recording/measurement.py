@@ -16,6 +16,7 @@ from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.backbone.damping import growth_columns
 from ridgeback.numeric.backbone.half_cycles import HalfCycles, half_cycles
 from ridgeback.numeric.backbone.hum import hum_of
+from ridgeback.numeric.components.modulation import swing_notes
 from ridgeback.numeric.components.tones import beside_notes
 from ridgeback.numeric.estimators.amplitude import amplitude_of, estimate_amplitude
 from ridgeback.numeric.estimators.estimate import Estimation, estimation
@@ -194,7 +195,12 @@ def measured(recording: Recording, found: Estimation, harmonic: int, band: objec
         return of_harmonic(recording, found, harmonic, band)
     few = decimation_notes(found.samples, float(recording.time[0]), float(recording.time[-1]))
     own = (*few, *recording.drift_notes(track.used.span), *recording.notes)
-    told = (*beside_notes(track.used.tones, track.used.spikes), *bias_notes(track), *own)
+    told = (
+        *beside_notes(track.used.tones, track.used.spikes),
+        *swing_notes(track.used.swing),
+        *bias_notes(track),
+        *own,
+    )
     if track.used.doubt:
         said = f"No interval and no amplitude: {track.used.doubt}."
         return Measurement(recording, track, None, (said, *told), unmeasured=track.used.doubt)

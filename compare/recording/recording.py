@@ -23,6 +23,7 @@ from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.compare.recording.theory import over_measured, theory_curve
 from ridgeback.numeric.backbone.backbone import Backbone, backbone
 from ridgeback.numeric.backbone.hum import hum_of
+from ridgeback.numeric.components.modulation import swing_notes
 from ridgeback.numeric.components.tones import beside_notes
 from ridgeback.numeric.estimators.estimate import Estimation
 from ridgeback.numeric.recording.reading import read_recording
@@ -182,6 +183,7 @@ def remarks(track: Track, recording: Recording) -> Iterable[str]:
     """What of a record is no part of the oscillation that a track follows."""
     used, clipped = track.used, int(np.count_nonzero(recording.clipped))
     yield from beside_notes(used.tones, used.spikes)
+    yield from swing_notes(used.swing)
     yield from used.span_notes()
     if clipped:
         what = "is clipped{} or lies" if clipped == 1 else "are clipped{} or lie"

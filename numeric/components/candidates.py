@@ -13,7 +13,6 @@ from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.components.bends import GAIN, STRICTER, score_beside
 from ridgeback.numeric.components.given import Given, residual
-from ridgeback.numeric.components.harmonic_zones import harmonic_zones, in_zones
 from ridgeback.numeric.components.lines import LEAST, clearest_line
 from ridgeback.numeric.components.tones import (
     Tone,
@@ -22,6 +21,7 @@ from ridgeback.numeric.components.tones import (
     refitted,
     total,
 )
+from ridgeback.numeric.harmonics.harmonic_zones import harmonic_zones, in_zones
 from ridgeback.numeric.harmonics.signal_model import SignalModels
 from ridgeback.numeric.harmonics.spline_fit import Known, akaike, counted, fit_on, rounding
 from ridgeback.numeric.harmonics.spline_model import SplineModel

@@ -25,6 +25,9 @@ FEWEST, THREE_SIGMA = 16, 3.0
 """Ordinates of a spectrum that tell a level of noise, and deviations by which two levels differ."""
 STEADY = 0.05
 """Of the logarithm of an amplitude, that it may swing by in a model of many knots."""
+OF_BEATS, CUBIC = 0.3, 3
+"""Of the swing of the logarithm of an amplitude, that the phase turns by at least where it is that of beats; and the
+degree in time of a phase that does not swing."""
 ABOVE = 3.0
 """Times the noise, of the amplitudes whose swing is told."""
 MANY, CLOSE = 8, 5.0
@@ -168,13 +171,14 @@ def unfinished(models: SignalModels, left: Array) -> str:
     """Why models cannot be trusted that go on gaining to fine knots; empty where they do not.
 
     Where what they leave in their band is as weak as beyond it, they have come to the noise, and the end is at hand;
-    an amplitude that swings all the same is that of beats.
+    an amplitude that swings all the same is that of beats, unless the phase does not swing with it.
     """
     best = min(models.others, key=lambda model: model.criterion)
     exact = best.noise < EXACT * float(best.size.max())
     if exact or best.breaks.size - 1 < MANY or best.cycles > CLOSE:
         return ""
-    if is_white(left, models.best.band) and swing(models.best) < STEADY:
+    swings = swing(models.best)
+    if is_white(left, models.best.band) and (swings < STEADY or turns(models.best) < OF_BEATS * swings):
         return ""
     return (
         f"models of one oscillation go on gaining down to a knot every {best.cycles:.2g} cycles, as they do with "
@@ -193,6 +197,13 @@ def swing(model: SplineModel) -> float:
     there = log[model.size > ABOVE * model.noise]
     one_way = (float(np.std(there - isotonic_regression(there, increasing=up).x)) for up in (True, False))
     return min(bent, *one_way) if there.size else bent
+
+
+# In beats, 1 + r e^(i d t) over one of the components, logarithm and phase are conjugate harmonics: as large, rms.
+def turns(model: SplineModel) -> float:
+    """How far a model's phase goes from a cubic in time, rms, in radians."""
+    u = model.time / float(model.time[-1])
+    return float(np.std(model.phase - np.polyval(np.polyfit(u, model.phase, CUBIC), u)))
 
 
 # Means of n ordinates of the periodogram of white noise scatter by 1/sqrt(n) of their expectation.

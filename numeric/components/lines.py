@@ -14,7 +14,7 @@ from scipy import fft
 from scipy.ndimage import median_filter
 
 from ridgeback.numeric.arrays import Array
-from ridgeback.numeric.components.harmonic_zones import Zone, in_zones
+from ridgeback.numeric.harmonics.harmonic_zones import Zone, in_zones
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.signal.search_band import tapers
 

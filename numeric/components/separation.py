@@ -19,9 +19,10 @@ from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.components.bends import with_bends
 from ridgeback.numeric.components.beyond import nothing_in
 from ridgeback.numeric.components.candidates import first_tones, in_turns, more_tones
-from ridgeback.numeric.components.doubts import doubt
+from ridgeback.numeric.components.doubts import doubt, in_the_way
 from ridgeback.numeric.components.given import Given, residual
 from ridgeback.numeric.components.lines import LEAST, clearest_line, colour
+from ridgeback.numeric.components.modulation import Swing, unfollowed, with_swing
 from ridgeback.numeric.components.overlap import PLAIN, Found, least_of, overlap_doubt, overlapping, told
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.components.unlocked import locked_and_others, unlocked
@@ -45,7 +46,8 @@ class Separated:
     """The samples of one oscillation, with models of it.
 
     ``x`` are the samples less the ``tones``, those that are no part of the motion (not ``sound``) replaced by the
-    model; ``spikes`` says how many were outside the noise.  ``reason`` is why no model of it can be trusted, if so.
+    model; ``spikes`` says how many were outside the noise.  ``reason`` is why no model of it can be trusted, if so;
+    ``swing`` how it swings, if it does.
     """
 
     x: Array
@@ -54,6 +56,7 @@ class Separated:
     tones: tuple[Tone, ...]
     spikes: int
     reason: str = ""
+    swing: Swing | None = None
 
 
 def separated(
@@ -147,18 +150,22 @@ def separated(
         sound, count = given.sound & ~off, count + int(off.sum())
         given = replace(given, sound=sound).filled(x, models, tones)
         models, tones = with_tones(given, tones, most)
+    missed = in_the_way(residual(given.x, models.best, tones), rate, models.best)
+    models, tones, swing = with_swing(given, models, lines := tones)
     left = residual(given.x, models.best, tones)
     omega = models.best.mean_omega
     known = models.coloured(shared * colour(left, rate, omega, models.best.basis.count))
     single = np.where(given.sound, given.x - total(tones, given.time), models.best.samples())
-    if models is not found and most > len(beyond):
-        pair = overlapping(given, models, tones)
-    reason = (
-        off_the_band(models.best, band)
-        or (overlap_doubt(pair[0], tones) if pair else "")
-        or doubt(known, given.x, left, rate, given.guided(tones).guide, given.sound, start=start)
-    )
-    return Separated(single, known, given.sound, tones, count, reason)
+    if swing:
+        reason = unfollowed(swing, models.best) if tones == lines else missed
+    else:
+        if models is not found and most > len(beyond):
+            pair = overlapping(given, models, tones)
+        reason = (overlap_doubt(pair[0], tones) if pair else "") or doubt(
+            known, given.x, left, rate, given.guided(tones).guide, given.sound, start=start
+        )
+    reason = off_the_band(models.best, band) or reason
+    return Separated(single, known, given.sound, tones, count, reason, swing)
 
 
 def with_returned(given: Given, raw: Array, model: SplineModel, tones: tuple[Tone, ...], odd: Mask) -> Given:

@@ -86,7 +86,11 @@ def signal_models(
     (True, 28.6)
     """
     multiples = shown_multiples(x, rate, guide, half=half) if multiples is None else multiples
-    models = harmonic_splines(x, rate, guide, multiples=multiples, known=known)
+    return among(harmonic_splines(x, rate, guide, multiples=multiples, known=known))
+
+
+def among(models: list[SplineModel]) -> SignalModels:
+    """The models that are taken of those on more and more knots."""
     least = best_model(models)
     at, last = next(i for i, model in enumerate(models) if model is least), len(models) - 1
     best, fine = models[min(at + STEPS_BEYOND, last)], models[min(at + STEPS_FINER, last)]

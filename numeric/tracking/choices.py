@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from enum import StrEnum
 
+from ridgeback.numeric.components.modulation import Swing
 from ridgeback.numeric.components.tones import Tone
 
 
@@ -78,6 +79,8 @@ class Choices:
         Samples far outside the noise that enter no fit.
     doubt : str
         Why no interval can be claimed of this record, if so.
+    swing : Swing, optional
+        How the amplitude or the frequency swings, where lines beside it say so.
     why : str
         The reason for what was chosen, for display.
 
@@ -106,6 +109,7 @@ class Choices:
     tones: tuple[Tone, ...] = ()
     spikes: int = 0
     doubt: str = ""
+    swing: Swing | None = None
     why: str = ""
 
     def span_notes(self) -> tuple[str, ...]:
@@ -122,5 +126,9 @@ class Choices:
     def shown(self) -> dict[str, object]:
         """What differs from its default, by name, for display."""
         held = {item.name: (getattr(self, item.name), item.default) for item in fields(self)}
-        some = {name: value for name, (value, default) in held.items() if value != default and name != "tones"}
+        some = {
+            name: value
+            for name, (value, default) in held.items()
+            if value != default and name not in ("tones", "swing")
+        }
         return {**some, **({"span_why": said(self.span_why)} if self.span_why else {})}

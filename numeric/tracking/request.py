@@ -12,6 +12,7 @@ import numpy as np
 from ridgeback.common.errors import InputError
 from ridgeback.numeric.arrays import Array, ComplexArray, Mask
 from ridgeback.numeric.components.beyond import is_in, tones_beyond
+from ridgeback.numeric.components.modulation import Swing
 from ridgeback.numeric.components.separation import MOST_TONES, separated_once
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.harmonics.noise import Level, measure_level
@@ -105,6 +106,8 @@ class Signal:
     """What holds of these samples and not of the rest of the record."""
     doubt: str = ""
     """Why no model of the samples can be trusted, if so."""
+    swing: Swing | None = None
+    """How the oscillation swings, if it is one that does."""
 
     @property
     def time(self) -> Array:
@@ -209,7 +212,10 @@ class Request:
         tones = found.tones if not found.reason else tuple(filter(self.stays_off, found.tones))
         back = tuple(tone for tone in found.tones if tone not in tones)
         x = found.x + total(back, signal.time - signal.start)
-        alone = replace(signal, x=x, z=analytic_of(x), tones=tones, spikes=found.spikes, doubt=found.reason)
+        swing = None if found.reason else found.swing
+        alone = replace(
+            signal, x=x, z=analytic_of(x), tones=tones, spikes=found.spikes, doubt=found.reason, swing=swing
+        )
         return replace(self, signal=alone, known_models=found.models)
 
     def stays_off(self, tone: Tone) -> bool:
@@ -252,6 +258,7 @@ class Request:
             tones=signal.tones,
             spikes=signal.spikes,
             doubt=signal.doubt,
+            swing=signal.swing,
             why=self.plan.why,
         )
 
