@@ -160,7 +160,7 @@ def with_swing(
     >>> given = Given(x, 45.0, np.full(900, 46.0), 12, (), np.ones(900, dtype=bool))
     >>> lines = (Tone(47.5, 0.0, 0.15), Tone(44.5, 0.0, 0.15))
     >>> models, tones, swing = with_swing(given, given.beside(lines), lines)
-    >>> tones, swing, bool(np.abs(models.best.size - 1.0 - 0.3 * np.cos(1.5 * t)).max() < 0.03)
+    >>> tones, swing, bool(np.std(models.best.size - 0.3 * np.cos(1.5 * t)) < 0.01)
     ((), Swing(rate=1.5, of_frequency=False), True)
     """
     swing = swing_of(models.best, tones)
