@@ -150,14 +150,15 @@ def separated(
         sound, count = given.sound & ~off, count + int(off.sum())
         given = replace(given, sound=sound).filled(x, models, tones)
         models, tones = with_tones(given, tones, most)
-    missed = in_the_way(residual(given.x, models.best, tones), rate, models.best)
-    models, tones, swing = with_swing(given, models, lines := tones)
+    mean, lines = models.best, tones
+    models, tones, swing = with_swing(given, models, tones)
     left = residual(given.x, models.best, tones)
     omega = models.best.mean_omega
     known = models.coloured(shared * colour(left, rate, omega, models.best.basis.count))
     single = np.where(given.sound, given.x - total(tones, given.time), models.best.samples())
     if swing:
-        reason = unfollowed(swing, models.best) if tones == lines else missed
+        missed = in_the_way(residual(given.x, mean, lines), rate, mean)
+        reason = unfollowed(swing, mean) if tones == lines else missed
     else:
         if models is not found and most > len(beyond):
             pair = overlapping(given, models, tones)
