@@ -101,14 +101,23 @@ def swing_of(model: SplineModel, tones: tuple[Tone, ...]) -> Swing | None:
 
 
 def its_lines(swing: Swing, model: SplineModel, tones: tuple[Tone, ...]) -> tuple[Tone, ...]:
-    """The tones that are lines of a swing: at multiples of its rate from the oscillation."""
-    near = NEAR * TWO_PI / float(model.time[-1])
+    """The tones that are lines of a swing: at its rate from the oscillation, at twice it where one is at once it, ...
 
-    def is_one(tone: Tone) -> bool:
-        away = abs(tone.omega - model.mean_omega)
-        return away > 0.5 * swing.rate and abs(away - swing.rate * round(away / swing.rate)) < near
-
-    return tuple(filter(is_one, tones))
+    >>> from ridgeback.numeric.harmonics.signal_model import signal_models
+    >>> t = np.arange(800) / 40.0
+    >>> model = signal_models(np.cos(9.0 * t), 40.0, np.full(800, 9.0), half=60, multiples=()).best
+    >>> tones = tuple(Tone(omega, 0.0, 0.1 + 0j) for omega in (10.0, 8.0, 7.0, 10.5, 14.0))
+    >>> [tone.omega for tone in its_lines(Swing(1.0, True), model, tones)]
+    [10.0, 8.0, 7.0]
+    """
+    near, found = NEAR * TWO_PI / float(model.time[-1]), list[Tone]()
+    for multiple in range(1, len(tones) + 1):
+        away = multiple * swing.rate
+        more = [tone for tone in tones if abs(abs(tone.omega - model.mean_omega) - away) < near]
+        if not more:
+            break
+        found += more
+    return tuple(dict.fromkeys(found))
 
 
 def swinging(
