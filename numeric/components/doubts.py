@@ -36,6 +36,8 @@ NEAR = 1.45
 """Factor from the oscillation within which a line is in its band."""
 WINDOW_CYCLES, FEWEST_WINDOWS, MOST_WINDOWS = 4.0, 5, 200
 """Of short stretches whose noise is held against that of the whole: their length, and how many of them."""
+QUIET = 0.7
+"""Share of those stretches, the less noisy ones, whose mean is what stretches by themselves leave."""
 FINE = 3.0
 """Cycles between knots below which a model is at its finest, and what it leaves in one stretch no knots can follow."""
 STRETCH_CYCLES, IN_IT, CHANCE = 3.0, (0.5, 1.5), 1e-4
@@ -133,7 +135,7 @@ def uneven(model: SplineModel, x: Array, rate: float, guide: Array) -> str:
     ...     x = np.cos(guide * t) + noise
     ...     print(uneven(signal_models(x, 16.0, guide, half=30, multiples=()).best, x, 16.0, guide)[:39])
     <BLANKLINE>
-    a model of the whole leaves 47 times as
+    a model of the whole leaves 48 times as
     """
     if model.noise < LEAST * float(model.size.max()):
         return ""
@@ -145,7 +147,8 @@ def uneven(model: SplineModel, x: Array, rate: float, guide: Array) -> str:
         fit = harmonic_fit(x, rate, guide, half=half, shape=Shape(model.multiples), centres=centres)
     except InputError:
         return ""
-    typical = float(np.median(fit.noise))
+    quiet = np.sort(fit.noise)[: math.ceil(QUIET * centres.size)]  # a jump is in a few of them, loud noise in many
+    typical = float(np.sqrt(np.mean(quiet**2)))
     if model.noise <= ROUGH * typical:
         return ""
     ratio = f"{model.noise / typical:.2g}" if typical > 0.0 else "many"

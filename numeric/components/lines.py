@@ -26,6 +26,8 @@ NEIGHBOURS = 0.2
 """Of the spectrum, whose median is the level."""
 FEWEST_NEIGHBOURS = 101
 LOWEST_CYCLES = 3.0
+STRETCHES, CLEARLY = 4, 3.5
+"""Of a record, in which noise may differ, and deviations by which it does."""
 FEWEST_BINS = 8
 """Ordinates beside the oscillation from which on their mean says more than that of all."""
 BESIDE = 0.35
@@ -103,6 +105,29 @@ def colour(left: Array, rate: float, omega: float, taken: int) -> float:
         ratio = float((spectrum[close] / along).mean()) / mean
         log += shrunk(math.log(max(ratio, 1e-300)), 1.0 / float(close.sum()))
     return math.exp(log)
+
+
+# A least-squares estimate sum(w y) / sum(w^2) has the variance sum(w^2 s^2) / sum(w^2)^2 in white noise of variances
+# s^2: that in noise of one variance times sum(w^2 s^2) / (sum w^2 mean s^2): H. White, Econometrica 48 (1980) 817.
+# A phase has w = a sin phi, a logarithm of the amplitude a cos phi.
+def unlike(left: Array, size: Array, phase: Array, sound: Array) -> float:
+    """The noise's power where an oscillation is measured over its mean power, where that is clearly more; else 1.
+
+    The largest of those of phase and amplitude in STRETCHES stretches of the record, each by the squares of what a
+    model leaves and the weight of each sample in the estimate.
+
+    >>> rng, t = np.random.default_rng(1), np.arange(2000.0)
+    >>> noise, size, phase = rng.normal(size=2000), np.exp(-0.001 * t), 0.3 * t
+    >>> round(unlike(noise, size, phase, np.ones(2000)), 2), unlike(size * noise, size, phase, np.ones(2000)) > 1.5
+    (1.0, True)
+    """
+    square, found = left**2 / float(np.average(left**2, weights=sound) + 1e-300), 1.0
+    for weight in ((size * np.sin(phase)) ** 2 * sound, (size * np.cos(phase)) ** 2 * sound):
+        for some in np.array_split(np.arange(left.size), STRETCHES):
+            w = weight[some] / max(float(weight[some].sum()), 1e-300)
+            ratio, scatter = float(w @ square[some]), math.sqrt(2.0 * float(w @ w))
+            found = max(found, ratio if ratio > 1.0 + CLEARLY * scatter else 1.0)
+    return found
 
 
 # an exponential ordinate has E log I = log P - gamma, gamma Euler's constant, and var log I = pi^2 / 6

@@ -21,7 +21,7 @@ from ridgeback.numeric.components.beyond import nothing_in
 from ridgeback.numeric.components.candidates import first_tones, in_turns, more_tones
 from ridgeback.numeric.components.doubts import doubt, in_the_way
 from ridgeback.numeric.components.given import Given, residual
-from ridgeback.numeric.components.lines import LEAST, clearest_line, colour
+from ridgeback.numeric.components.lines import LEAST, clearest_line, colour, unlike
 from ridgeback.numeric.components.modulation import Swing, unfollowed, with_swing
 from ridgeback.numeric.components.overlap import PLAIN, Found, least_of, overlap_doubt, overlapping, told
 from ridgeback.numeric.components.tones import Tone, total
@@ -154,7 +154,8 @@ def separated(
     models, tones, swing = with_swing(given, models, tones)
     left = residual(given.x, models.best, tones)
     omega = models.best.mean_omega
-    known = models.coloured(shared * colour(left, rate, omega, models.best.basis.count))
+    loud = unlike(left, models.best.size, models.best.phase, given.sound.astype(float))
+    known = models.coloured(shared * loud * colour(left, rate, omega, models.best.basis.count))
     single = np.where(given.sound, given.x - total(tones, given.time), models.best.samples())
     if swing:
         missed = in_the_way(residual(given.x, mean, lines), rate, mean)

@@ -46,13 +46,19 @@ def spikes(left: Array, cycle: float, amplitude: float = 0.0) -> Mask:
     """
     size = np.abs(left - np.median(left))
     near = maximum_filter1d(size, 2 * round(cycle) + 1)
-    usual = median_filter(size, max(NEAR, 2 * round(SCALE * cycle) + 1), mode="reflect")
-    off = size > np.maximum(BESIDE * near, np.maximum(FAR * TO_SIGMA * usual, LEAST * amplitude))
+    usual = scale_of(size, max(NEAR, 2 * round(SCALE * cycle) + 1))
+    off = size > np.maximum(BESIDE * near, np.maximum(FAR * usual, LEAST * amplitude))
     edges = np.flatnonzero(np.diff(np.concatenate([[False], off, [False]]).astype(int)))
     for first, last in zip(edges[::2], edges[1::2], strict=True):
         if last - first > max(1.0, LONGEST * cycle):
             off[first:last] = False
     return off if off.mean() <= MOST else np.zeros_like(off)
+
+
+def scale_of(size: Array, width: int) -> Array:
+    """The scale of residuals of these sizes near by: of their medians in windows, the largest of those that see one."""
+    medians = median_filter(size, width, mode="reflect")
+    return np.asarray(TO_SIGMA * maximum_filter1d(medians, width), dtype=np.float64)
 
 
 def without_isolated(x: Array) -> tuple[Array, Mask]:
@@ -72,8 +78,7 @@ def without_isolated(x: Array) -> tuple[Array, Mask]:
     for _ in range(ROUNDS):
         left = beside_neighbours(mended)
         size = np.abs(left)
-        scale = TO_SIGMA * median_filter(size, NEAR, mode="reflect")
-        new = (size > ISOLATED * scale) & (size == maximum_filter1d(size, 2 * SIDE + 1)) & ~odd
+        new = (size > ISOLATED * scale_of(size, NEAR)) & (size == maximum_filter1d(size, 2 * SIDE + 1)) & ~odd
         odd |= new
         mended -= np.where(odd, left, 0.0)
         if not new.any():

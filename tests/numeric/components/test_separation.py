@@ -113,6 +113,22 @@ def test_noise_that_grows_holds_no_spikes() -> None:
     assert estimate(x, RATE).used.spikes == 0
 
 
+@pytest.mark.parametrize("kind", ["jitter", "of the signal", "growing"])
+def test_intervals_hold_in_noise_that_is_not_the_same_everywhere(kind: str) -> None:
+    hits = []
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        time = T + 2e-4 * rng.normal(size=T.size) * (kind == "jitter")
+        x = np.exp(-0.004 * OMEGA * time) * np.cos(OMEGA * time + rng.uniform(0, 6))
+        x *= 1.0 + 0.05 * rng.normal(size=T.size) * (kind == "of the signal")
+        loud = np.where(T < 1.0, 0.004, 0.04) if kind == "growing" else 0.002
+        track = estimate(x + loud * rng.normal(size=T.size), RATE)
+        assert track.used.spikes == 0
+        assert track.interval is not None
+        hits.append(track.interval.holds(np.full(T.size, OMEGA)).mean())
+    assert np.mean(hits) > 0.9
+
+
 def test_clipped_samples_enter_no_model() -> None:
     x = decay(4, noise=0.002, ratio=0.004)
     flat = np.abs(x) >= 0.7
