@@ -153,9 +153,8 @@ def separated(
     mean, lines = models.best, tones
     models, tones, swing = with_swing(given, models, tones)
     left = residual(given.x, models.best, tones)
-    omega = models.best.mean_omega
     loud = unlike(left, models.best.size, models.best.phase, given.sound.astype(float))
-    known = models.coloured(shared * loud * colour(left, rate, omega, models.best.basis.count))
+    known = models.coloured(shared * loud * colour(left, rate, models.best.mean_omega, models.best.basis.count))
     single = np.where(given.sound, given.x - total(tones, given.time), models.best.samples())
     if swing:
         missed = in_the_way(residual(given.x, mean, lines), rate, mean)
