@@ -11,7 +11,8 @@ from ridgeback.common.progress import Progress, within
 from ridgeback.compare.identification.identify import identify
 from ridgeback.compare.identification.prediction import predict
 from ridgeback.compare.identification.preparation import Prepared, prepared
-from ridgeback.compare.identification.results import Identification, Prediction
+from ridgeback.compare.identification.results import Identification
+from ridgeback.compare.identification.shown import Standing
 from ridgeback.compare.recording.results import RecordingComparison
 from ridgeback.numeric.recording.recording import Recording
 
@@ -54,11 +55,8 @@ def identification_part(
     used = SHARE * cycles_of(compared) if cycles is None else cycles
     try:
         ready = prepared(recording, band=band)
-        ahead, why = None, "Nothing was predicted: a steady tone is no decay." if compared.hum else ""
-        if not compared.hum:
-            ahead, why = _ahead(ready, used, within(progress, 0.0, 0.5))
-        made = identify(ready, prediction=ahead, notes=(why,) if why else (), progress=within(progress, 0.5, 1.0))
-        return IdentificationPart(_as_compared(made, compared))
+        made = _as_compared(identify(ready, progress=within(progress, 0.0, 0.5)), compared)
+        return IdentificationPart(_with_forecast(made, ready, used, within(progress, 0.5, 1.0)))
     except InputError as refusal:
         return IdentificationPart(None, f"Not identified: {refusal}.")
 
@@ -68,12 +66,19 @@ def _as_compared(made: Identification, compared: RecordingComparison) -> Identif
     return replace(made, hum=compared.hum).claiming() if compared.hum and not made.hum else made
 
 
-def _ahead(ready: Prepared, cycles: float, progress: Progress) -> tuple[Prediction | None, str]:
-    """The prediction, or why there is none."""
-    try:
-        return predict(ready, cycles=cycles, progress=progress), ""
-    except InputError as refusal:
-        return None, f"Nothing was predicted: {refusal}."
+def _with_forecast(made: Identification, ready: Prepared, cycles: float, progress: Progress) -> Identification:
+    """The same with its prediction, or with the reason why there is none."""
+    match made.standing:
+        case Standing.HUM:
+            why = "a steady tone is no decay"
+        case Standing.NONE:
+            why = "no class describes this recording"
+        case _:
+            try:
+                return replace(made, prediction=predict(ready, cycles=cycles, progress=progress))
+            except InputError as refusal:
+                why = str(refusal)
+    return replace(made, notes=(*made.notes, f"Nothing was predicted: {why}."))
 
 
 def cycles_of(found: RecordingComparison) -> float:
