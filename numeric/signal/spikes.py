@@ -76,9 +76,9 @@ def without_isolated(x: Array) -> tuple[Array, Mask]:
     if x.size < NEAR:
         return x, odd
     for _ in range(ROUNDS):
-        left = beside_neighbours(mended)
-        size = np.abs(left)
-        new = (size > ISOLATED * scale_of(size, NEAR)) & (size == maximum_filter1d(size, 2 * SIDE + 1)) & ~odd
+        left, scale = beside_neighbours(mended)
+        size, least = np.abs(left), np.maximum(ISOLATED * scale, LEAST * scale_of(np.abs(mended), NEAR))
+        new = (size > least) & (size == maximum_filter1d(size, 2 * SIDE + 1)) & ~odd
         odd |= new
         mended -= np.where(odd, left, 0.0)
         if not new.any():
@@ -86,15 +86,17 @@ def without_isolated(x: Array) -> tuple[Array, Mask]:
     return (np.where(odd, mended + np.median(x), x), odd) if odd.mean() <= MOST else (x, np.zeros_like(odd))
 
 
-def beside_neighbours(x: Array) -> Array:
-    """Samples less what SIDE pairs of neighbours say of them; near an end, less what those on one side do."""
+def beside_neighbours(x: Array) -> tuple[Array, Array]:
+    """Samples less what SIDE pairs of neighbours say of them, and the scale of that near by.
+
+    Near an end those on one side alone predict a sample, less well: what that leaves has a scale of its own.
+    """
     windows = sliding_window_view(x, 2 * SIDE + 1)
-    pairs = windows[:, SIDE + 1 :] + windows[:, SIDE - 1 :: -1]
-    left = np.empty(x.size)
-    left[SIDE:-SIDE] = unexplained(pairs, windows[:, SIDE])
-    left[:SIDE] = unexplained(windows[:, 1:], windows[:, 0])[:SIDE]
-    left[-SIDE:] = unexplained(windows[:, :-1], windows[:, -1])[-SIDE:]
-    return left
+    both = unexplained(windows[:, SIDE + 1 :] + windows[:, SIDE - 1 :: -1], windows[:, SIDE])
+    ahead, behind = (unexplained(windows[:, s], windows[:, i]) for s, i in ((slice(1, None), 0), (slice(-1), -1)))
+    left = np.concatenate([ahead[:SIDE], both, behind[-SIDE:]])
+    scales = [scale_of(np.abs(one), NEAR) for one in (ahead, both, behind)]
+    return left, np.concatenate([scales[0][:SIDE], scales[1], scales[2][-SIDE:]])
 
 
 # Iteratively reweighted: Holland and Welsch, Commun. Stat. A 6 (1977) 813.
