@@ -27,6 +27,7 @@ from scipy.special import stdtrit
 
 from ridgeback.numeric.arrays import Array, Mask
 from ridgeback.numeric.harmonics.signal_model import SignalModels
+from ridgeback.numeric.harmonics.spline_fit import ROUNDED
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
 from ridgeback.numeric.tracking.request import Request
@@ -190,12 +191,13 @@ def deviations(
     width = max(1, round(POOLED_SHARE * track.time.size))
     own = trial.multiple * np.interp(trial.time, model.time, model.omega_deviation)
     analytic = own if track.standard_deviation is None else track.standard_deviation
-    floor = 1e-15 * np.abs(track.omega)
+    floor = ROUNDED * np.abs(track.omega)
     noise = analytic if trial.efficient else pooled(copies.plain, analytic + floor, width)
     freedom = copies.plain.shape[0] * max(1.0, windows * POOLED_SHARE / INDEPENDENT)
     total = pooled(copies.corrected, np.hypot(analytic, own) + floor, width) + floor
     jumps = float(np.mean(np.abs(copies.corrected / total)[:, track.valid] > FAR)) if track.valid.any() else 0.0
-    return noise, few_sample_factor(freedom) * calibrated(copies.corrected, total, track.valid), jumps
+    right = few_sample_factor(freedom) * calibrated(copies.corrected, total, track.valid)
+    return noise, np.maximum(right, floor), jumps
 
 
 # Student's t: a deviation that was itself estimated with few degrees of freedom holds 95 % only when it is enlarged.

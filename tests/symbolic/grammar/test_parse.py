@@ -174,7 +174,7 @@ def test_values_agree_with_pythons_own_reading_of_the_text(text):
 
 
 @QUICK
-@given(trees)
+@given(st.recursive(literals, _branches, max_leaves=12))
 def test_the_constant_of_a_tree_is_its_sympy_value(tree):
     assume(_accepted(tree))
     value = constant(tree)
