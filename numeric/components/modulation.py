@@ -45,6 +45,9 @@ NEAR = 0.5
 """Of the distance of ordinates of the spectrum, within which a line lies at a multiple of the rate of a swing."""
 KNOTS = 2.0
 """In a swing, at least."""
+COMB, APART, SLOW = 4, 2.0, 0.1
+"""Lines beside one of them from which on even distances are no accident; ordinates of the spectrum that these distances
+are at least; and of the frequency, at most."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,8 @@ class Swing:
 
     rate: float
     of_frequency: bool
+    mirrored: bool = True
+    """Whether its lines are mirrored about the strongest, which is its mean; else they are at even distances."""
 
     def said(self) -> str:
         """The swing in words.
@@ -61,9 +66,8 @@ class Swing:
         'its amplitude swings at 3 cycles per unit (the lines beside it are mirrored about it)'
         """
         what = "frequency" if self.of_frequency else "amplitude"
-        return (
-            f"its {what} swings at {self.rate / TWO_PI:.4g} cycles per unit (the lines beside it are mirrored about it)"
-        )
+        how = "mirrored about it" if self.mirrored else "at even distances"
+        return f"its {what} swings at {self.rate / TWO_PI:.4g} cycles per unit (the lines beside it are {how})"
 
 
 def turned_back(tone: Tone, model: SplineModel) -> ComplexArray:
@@ -87,7 +91,7 @@ def swing_of(model: SplineModel, tones: tuple[Tone, ...]) -> Swing | None:
     >>> t = np.arange(800) / 40.0
     >>> model = signal_models(np.cos(9.0 * t), 40.0, np.full(800, 9.0), half=60, multiples=()).best
     >>> swing_of(model, (Tone(10.5, 0.0, 0.1j), Tone(7.5, 0.0, 0.1j)))
-    Swing(rate=1.5, of_frequency=True)
+    Swing(rate=1.5, of_frequency=True, mirrored=True)
     >>> swing_of(model, (Tone(10.5, 0.0, 0.1j), Tone(7.5, 0.0, 0.1))), swing_of(model, (Tone(10.5, 0.0, 0.1j),))
     (None, None)
     """
@@ -95,9 +99,27 @@ def swing_of(model: SplineModel, tones: tuple[Tone, ...]) -> Swing | None:
     above, below = ([t for t in tones if sign * (t.omega - omega) > 0.0] for sign in (1.0, -1.0))
     found = [(one, other, sign) for one in above for other in below if (sign := mirrored(one, other, model))]
     if not found:
-        return None
+        return comb_of(model, tones)
     one, other, sign = max(found, key=lambda pair: pair[0].amplitude)
     return Swing(0.5 * (one.omega - other.omega), sign < 0)
+
+
+def comb_of(model: SplineModel, tones: tuple[Tone, ...]) -> Swing | None:
+    """A frequency that swings so far that the strongest of its lines is not that of its mean; None where none does.
+
+    >>> from ridgeback.numeric.harmonics.signal_model import signal_models
+    >>> t = np.arange(800) / 40.0
+    >>> model = signal_models(np.cos(19.0 * t), 40.0, np.full(800, 19.0), half=60, multiples=()).best
+    >>> comb_of(model, tuple(Tone(omega, 0.0, 0.1 + 0j) for omega in (20.5, 17.5, 22.0, 23.5)))
+    Swing(rate=1.5, of_frequency=True, mirrored=False)
+    >>> comb_of(model, tuple(Tone(omega, 0.0, 0.1 + 0j) for omega in (20.5, 17.5, 22.0, 24.0)))
+    """
+    away = np.array([abs(tone.omega - model.mean_omega) for tone in tones])
+    if away.size < COMB or not APART * TWO_PI / float(model.time[-1]) < away.min() < SLOW * model.mean_omega:
+        return None
+    multiples = np.rint(away / away.min())
+    swing = Swing(round(float(away @ multiples / (multiples @ multiples)), 12), of_frequency=True, mirrored=False)
+    return swing if len(its_lines(swing, model, tones)) >= COMB else None
 
 
 def its_lines(swing: Swing, model: SplineModel, tones: tuple[Tone, ...]) -> tuple[Tone, ...]:
@@ -170,7 +192,7 @@ def with_swing(
     >>> lines = (Tone(47.5, 0.0, 0.15), Tone(44.5, 0.0, 0.15))
     >>> models, tones, swing = with_swing(given, given.beside(lines), lines)
     >>> tones, swing, bool(np.std(models.best.size - 0.3 * np.cos(1.5 * t)) < 0.01)
-    ((), Swing(rate=1.5, of_frequency=False), True)
+    ((), Swing(rate=1.5, of_frequency=False, mirrored=True), True)
     """
     swing = swing_of(models.best, tones)
     if swing is None:

@@ -11,6 +11,7 @@ from ridgeback.numeric.arrays import Array
 from ridgeback.numeric.components.modulation import Swing, mirrored
 from ridgeback.numeric.components.separation import Separated, separated
 from ridgeback.numeric.components.tones import Tone
+from ridgeback.numeric.estimators.estimate import estimate
 from ridgeback.numeric.harmonics.signal_model import signal_models
 
 RATE, CARRIER = 60.0, 7.3
@@ -45,6 +46,20 @@ def test_a_frequency_that_swings_is_followed_though_its_lines_are_sharp(at: floa
     assert found.swing is None or found.swing == Swing(pytest.approx(turn, rel=0.01), of_frequency=True)
     omega = 2 * np.pi * (CARRIER + swing * np.sin(turn * T + 2.0))
     assert float(np.std((found.models.best.omega - omega)[60:-60])) < 0.2 * float(np.std(omega))
+
+
+@pytest.mark.parametrize("seed", [5, 21])
+def test_a_line_beside_the_mean_frequency_is_not_taken_for_it(seed: int) -> None:
+    """Of an index of 1.44 the lines J_1 are as high as J_0: which is the highest the noise decides."""
+    rng, t, turn = np.random.default_rng(seed), np.arange(1600) / 40.0, 2 * np.pi / 12.0
+    begin = rng.uniform(0, 2 * np.pi)
+    phase = 6.0 * np.pi * (t + 0.04 / turn * (np.sin(turn * t + begin) - np.sin(begin))) + rng.uniform(0, 2 * np.pi)
+    track = estimate(np.cos(phase) + 0.05 * rng.normal(size=t.size), 40.0)
+    assert track.used.tones == ()
+    assert track.interval is not None
+    omega = 6.0 * np.pi * (1.0 + 0.04 * np.cos(turn * track.time + begin))
+    assert float(np.mean(track.interval.holds(omega)[track.valid])) > 0.85
+    assert float(np.std((track.omega - omega)[track.valid])) < 0.1 * float(np.std(omega))
 
 
 def test_a_swing_too_fast_for_models_is_named_and_nothing_claimed() -> None:
