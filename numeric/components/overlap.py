@@ -30,7 +30,7 @@ from ridgeback.numeric.components.candidates import scored
 from ridgeback.numeric.components.given import Given
 from ridgeback.numeric.components.tones import Tone, total
 from ridgeback.numeric.harmonics.signal_model import SignalModels
-from ridgeback.numeric.harmonics.spline_fit import Known, akaike
+from ridgeback.numeric.harmonics.spline_fit import Known, akaike, rounding
 from ridgeback.numeric.harmonics.spline_model import SplineModel
 from ridgeback.numeric.signal.samples import TWO_PI
 
@@ -103,7 +103,7 @@ def by_energy(pair: Pair) -> Pair:
 def score_of(left: Array, least: SplineModel, known: Known, parameters: int) -> float:
     """The criterion of what is left, as ``candidates.scored`` is that of an oscillation with the same harmonics."""
     count = least.parameters - 3 * least.basis.count + parameters
-    off, floor = left * known.sound_of(left.size), 1e-14 * float(least.size.max())
+    off, floor = left * known.sound_of(left.size), rounding(least.size)
     score = akaike(off, known.band or least.band, count=least.count, parameters=count, floor=floor)
     return float(score + STRICTER * count)
 

@@ -18,6 +18,7 @@ from ridgeback.numeric.harmonics.local_fit import choose_multiples, harmonic_fit
 from ridgeback.numeric.harmonics.window_steps import Shape
 from ridgeback.numeric.signal.analytic import analytic_of
 from ridgeback.numeric.signal.samples import TWO_PI
+from ridgeback.numeric.signal.spikes import TO_SIGMA
 from ridgeback.numeric.tracking.request import LAG_CYCLES, Request
 
 CLEAR = 5.0
@@ -115,7 +116,7 @@ def wavering(x: Array) -> float:
     >>> wavering(np.concatenate([np.full(50, 2.0), np.full(9, 7.0)]))
     0.0
     """
-    return 1.4826 * float(np.median(np.abs(x - np.median(x)))) if x.size else 0.0
+    return TO_SIGMA * float(np.median(np.abs(x - np.median(x)))) if x.size else 0.0
 
 
 def smooth_from(x: Array, rate: float, guide: Array, shape: Shape, *, half: int, near: int, typical: float) -> int:
